@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * catena_model.h: the table of functions behind which every emitted model stands. Plain C.
+ *
+ * Equations of motion, in the form of the inverse dynamics (3.4):
+ *
+ *     r(t, q, v, a, z, u, p) = M(q) a + C v + K q + F(q, v) + G(q) + effects - T = 0
+ *     zdot                   = f(t, q, v, z, u, p)
+ *
+ * q     coordinates: the absolute angle of each link from the downward vertical (rad), positive
+ *       towards +side; further coordinates of effects follow
+ * v, a  first and second time derivatives of q
+ * z     extra states of effects (hysteresis and the like)
+ * u     signals: functions of time given by data; for signal k, u[3k] is its value, u[3k+1] its
+ *       first and u[3k+2] its second time derivative
+ * p     parameters, in the order of the parameter table
+ * side, down   the two Cartesian components: side is horizontal, down along gravity; origin at the
+ *       nominal fixed point
+ *
+ * SI units throughout. No function allocates, keeps state, or writes anything but its outputs; all
+ * may be called from several threads. Pointers must be valid for the counts declared here; arrays
+ * of count zero may be null. Outputs must not overlap inputs.
+ *
+ * A tangent (directional derivative) takes a second point, `along`, that holds the differentials
+ * (dt, dq, dv, da, dz, du, dp); every array is to be given, zero where nothing varies.
+ *
+ * Versions: `abi` rises when a member changes meaning; members are only ever added at the end and
+ * `size` tells how many bytes of the table are there.
+ */
+#ifndef CATENA_MODEL_H
+#define CATENA_MODEL_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CATENA_MODEL_ABI 1
+
+typedef struct catena_parameter {
+  const char* name;        /* "length_3", "load_mass", "air_drag_quadratic.normal" */
+  const char* unit;        /* "m", "N m/rad", "1" */
+  const char* description; /* one line */
+  double default_value;    /* NaN: a case must give it */
+  double lower, upper;     /* bounds of the admissible values; infinite where there is none */
+  double neutral;          /* value at which the effect vanishes; NaN for the chain's own */
+} catena_parameter;
+
+typedef struct catena_quantity {
+  const char* name; /* "theta_1", "gravity", "joint_damping" */
+  const char* unit;
+} catena_quantity;
+
+enum {
+  CATENA_STORED = 0,     /* an energy, J */
+  CATENA_DISSIPATED = 1, /* a power that leaves the chain, W */
+  CATENA_SUPPLIED = 2    /* a power that enters the chain, W */
+};
+
+typedef struct catena_energy {
+  const char* name; /* "kinetic", "gravity", "joint_elastic", "joint_damping", an effect's id */
+  int32_t kind;     /* CATENA_STORED, CATENA_DISSIPATED or CATENA_SUPPLIED */
+} catena_energy;
+
+typedef struct catena_point {
+  double t;
+  const double *q, *v, *a, *z, *u, *p;
+} catena_point;
+
+typedef struct catena_model {
+  uint32_t abi;  /* CATENA_MODEL_ABI */
+  uint32_t size; /* sizeof(catena_model) where the model was compiled */
+  const char* id;
+  const char* description_hash; /* SHA-256 of the canonical model description, hexadecimal */
+
+  int32_t links;
+  int32_t coordinates;  /* length of q, v, a, r */
+  int32_t states;       /* length of z */
+  int32_t signals;      /* u has three times as many entries */
+  int32_t parameters;   /* length of p */
+  int32_t terms;        /* terms of r, each available alone; their sum is r */
+  int32_t energies;     /* length of the energy output */
+  int32_t uses_time;    /* 1 if t or a signal enters the equations */
+  int32_t observes;     /* 1 if a sensor effect changes what is observed */
+  int32_t structured;   /* 1: the Newton matrix is factored in O(links); 0: the entries newton_* are null */
+  int32_t newton_work;  /* doubles of work space for newton_factor and newton_solve */
+
+  const catena_quantity* coordinate;
+  const catena_quantity* state;
+  const catena_quantity* signal;
+  const catena_parameter* parameter;
+  const catena_quantity* term; /* "inertia", "coriolis", "gravity", "elastic", "friction", "torque", effects' ids */
+  const catena_energy* energy_item;
+
+  /* r[coordinates] and its directional derivative */
+  void (*residual)(const catena_point* at, double* r);
+  void (*residual_tangent)(const catena_point* at, const catena_point* along, double* dr);
+  /* one term of r alone */
+  void (*residual_term)(const catena_point* at, int32_t term, double* r);
+  /* zdot[states] and its directional derivative; null if states is 0 */
+  void (*state_rate)(const catena_point* at, double* zdot);
+  void (*state_rate_tangent)(const catena_point* at, const catena_point* along, double* dzdot);
+  /* M, coordinates x coordinates, row by row; at->v, at->a are not read */
+  void (*mass_matrix)(const catena_point* at, double* mass);
+  /* r with a = 0; at->a is not read */
+  void (*bias)(const catena_point* at, double* h);
+  /* a such that r = 0; at->a is not read. Returns 0, or the 1-based index of the coordinate whose
+     pivot is not positive (M not positive definite): then a is not to be used. */
+  int32_t (*acceleration)(const catena_point* at, double* a);
+  /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns 0,
+     or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
+     right-hand side, with the solution. Null unless structured. */
+  int32_t (*newton_factor)(const catena_point* at, double ca, double cv, double cq, double* work);
+  void (*newton_solve)(const double* work, double* x);
+  /* energies and powers, energies entries in the order of energy_item */
+  void (*energy)(const catena_point* at, double* e);
+  /* side[links + 2], down[links + 2]: the support (0), the far end of link i (i), the load (links + 1) */
+  void (*positions)(const catena_point* at, double* side, double* down);
+  void (*positions_tangent)(const catena_point* at, const catena_point* along, double* dside,
+                            double* ddown);
+  /* velocities of the same points */
+  void (*velocities)(const catena_point* at, double* side_rate, double* down_rate);
+  /* per joint: moment[links] (N m, acting on link i from link i-1's side, positive towards +theta),
+     per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at joint i */
+  void (*internal_forces)(const catena_point* at, double* moment, double* tension,
+                          double* curvature);
+  /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)
+     with in[0] = side, in[1] = down, in[2] = angle. Null unless observes: then nothing changes. */
+  void (*observe)(double t, const double* p, const double in[3], double out[3]);
+  void (*observe_tangent)(double t, const double* p, const double* dp, const double in[3],
+                          const double din[3], double dout[3]);
+  /* model time at which what was recorded at time t happened, and its derivative along dp */
+  double (*clock)(double t, const double* p);
+  double (*clock_tangent)(double t, const double* p, const double* dp);
+} catena_model;
+
+/* What a shared library holding one model exports. */
+typedef const catena_model* (*catena_model_entry)(void);
+#define CATENA_MODEL_ENTRY "catena_model_table"
+
+#ifdef __cplusplus
+}
+#endif
+#endif
