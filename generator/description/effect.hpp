@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace catena {
+
+/// A piece of physics as the user wrote it, with the place it was written at so that errors can
+/// point there. Not parsed here: that takes GiNaC (generator/derivation/effect_expression.hpp).
+struct Expression {
+  std::string text;  ///< empty: not given
+  std::string file;
+  int line = 0;
+  std::string key;  ///< "force.normal"
+
+  bool given() const { return !text.empty(); }
+};
+
+/// One parameter for the whole model, or one per joint or per link (`name_1` .. `name_n`).
+enum class Scope { kModel, kJoint, kLink };
+
+/// Where on the chain a term stands. Joint i connects link i-1 (the support, for i = 1) to link i.
+enum class Place {
+  kJoint,       ///< every joint 1..n, the pivot included; position of joint i = upper end of link i
+  kPivot,       ///< joint 1 alone
+  kLink,        ///< every link as a rigid body: its absolute angle, or an added coordinate
+  kLinkCentre,  ///< the mass centre of every link
+  kLoad,        ///< the load
+};
+
+struct EffectParameter {
+  std::string name;
+  std::string unit;
+  std::string description;
+  double default_value = std::numeric_limits<double>::quiet_NaN();  ///< the neutral one if not stated
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  /// The value at which the effect vanishes; NaN: none (a shape parameter, such as a frequency);
+  /// infinite: it vanishes only in the limit, and only convergence can be shown.
+  double neutral = std::numeric_limits<double>::quiet_NaN();
+  Scope scope = Scope::kModel;
+};
+
+/// A fixed number with a unit. `text` is the decimal number as written, so that it stays exact.
+struct Constant {
+  std::string name;
+  std::string text;
+  double value = 0;
+  std::string unit;
+};
+
+/// A named sub-expression, usable in every later expression of the same effect and place.
+struct Definition {
+  std::string name;
+  Place at = Place::kLinkCentre;
+  Expression value;
+};
+
+/// A force on a point of the chain, N, or N/m if `per_length` (then it acts on the whole length of
+/// the link, taken at its centre). Either side and down are given, or normal and tangential; of a
+/// pair at least one; what is not given is zero.
+struct ForceTerm {
+  Place at = Place::kLinkCentre;  ///< kLinkCentre, kJoint, kLoad
+  bool per_length = false;        ///< kLinkCentre only
+  Expression side, down;
+  Expression normal, tangential;  ///< kLinkCentre, kLoad: along (cos a, -sin a) and (sin a, cos a)
+};
+
+enum class ScalarKind {
+  kTorque,       ///< N m, acting on the joint angle theta_i - theta_{i-1} (kJoint, kPivot), on the
+                 ///< angle of the link (kLink), or on theta_n (kLoad)
+  kPotential,    ///< J, or J/m
+  kDissipation,  ///< W, or W/m: D in d/dt(dL/dv) - dL/dq = -dD/dv
+  kKinetic,      ///< J, or J/m, added to T
+};
+
+struct ScalarTerm {
+  ScalarKind kind = ScalarKind::kTorque;
+  Place at = Place::kJoint;
+  bool per_length = false;  ///< kLink and kLinkCentre only: times the length of the link
+  Expression value;
+};
+
+/// Prescribed motion of the support, m, from time, parameters, constants and signals.
+struct Support {
+  Expression side, down;
+};
+
+/// Changes of the kinematics. All are additive: several effects may give the same one.
+struct Kinematics {
+  Expression centre_offset;     ///< m, mass centre of link i past its middle, away from the support
+  Expression load_offset;       ///< m, load past the end of link n, along link n
+  Expression load_inertia;      ///< kg m^2, of the load about its own centre; it turns with link n
+  Expression load_mass;         ///< kg, added to the load
+  Expression rest_angle;        ///< rad, at every joint i: V = 1/2 k_i (joint angle - rest)^2
+  Expression pivot_rest_angle;  ///< rad, at joint 1 alone
+  Expression extension;         ///< m, added to the length of link i; may use coordinates
+  Expression gravity_tilt;      ///< rad, gravity turned from down towards side
+};
+
+/// A further generalised coordinate, one for each link.
+struct Coordinate {
+  std::string name;
+  std::string unit;
+  std::string description;
+};
+
+/// A further state of first order, one for each joint or for the pivot alone.
+struct ExtraState {
+  std::string name;
+  std::string unit;
+  std::string description;
+  Place at = Place::kJoint;  ///< kJoint or kPivot
+  Expression rate;           ///< unit of the state / s
+};
+
+/// A function of time given by data: symbols name, name_rate, name_acceleration.
+struct SignalChannel {
+  std::string name;
+  std::string unit;
+  std::string description;
+};
+
+/// What the sensor reports of a point's true (side, down, angle): m, m, rad, and the model time in
+/// s at which what it recorded at `time` happened. What is not given is reported as it is.
+struct Sensor {
+  Expression side, down, angle, clock;
+
+  bool given() const { return side.given() || down.given() || angle.given() || clock.given(); }
+};
+
+/// One piece of physics that may be added to the chain; read from a TOML file of kind "effect".
+struct Effect {
+  std::string id;
+  std::string title;
+  std::string description;
+  std::string source_file;  ///< path, or "built in: <id>"
+  std::vector<EffectParameter> parameters;
+  std::vector<Constant> constants;
+  std::vector<Definition> definitions;
+  std::vector<ForceTerm> forces;
+  std::vector<ScalarTerm> scalars;
+  Support support;
+  Kinematics kinematics;
+  std::vector<Coordinate> coordinates;
+  std::vector<ExtraState> states;
+  std::vector<SignalChannel> signals;
+  Sensor sensor;
+};
+
+/// Reads and checks one effect file. Throws InputError naming file, line, key, value and rule.
+/// Expressions are not parsed: units and symbols are checked by the generator.
+Effect read_effect(const std::filesystem::path& path);
+
+/// The effects that come with catena, compiled in. Throws InputError naming the nearest id.
+Effect built_in_effect(std::string_view id);
+std::vector<std::string> built_in_effect_ids();
+
+/// The text of a built-in effect's file, a template for one's own.
+std::string_view built_in_effect_text(std::string_view id);
+
+}  // namespace catena

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace catena {
+
+/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours) from `word`,
+/// the first of equals; empty if none is near enough to be what was meant.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean \"damping\"?", or "; known are a, b and c" if nothing is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace catena
