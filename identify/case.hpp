@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catena {
+
+/// What a case file (TOML, kind = "case") says, checked as far as that goes without model and data.
+/// SI units, angles in rad. Every key is described in docs/file-formats.md.
+
+inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
+/// The cable at rest in a table: lengths, masses, inertias of its links. What is empty or NaN
+/// follows from the rest: equal links, mass = density * length, inertia = mass * length^2 / 12.
+struct CableGeometry {
+  double length = kNotGiven;   ///< m
+  double density = kNotGiven;  ///< kg/m
+  std::vector<double> link_lengths;   ///< m, one per link
+  std::vector<double> link_masses;    ///< kg
+  std::vector<double> link_inertias;  ///< kg m^2, each about the link's own centre
+  double load_mass = 0;               ///< kg
+  double gravity = 9.81;              ///< m/s^2
+};
+
+enum class Scale { kLinear, kLogarithmic };
+
+/// One quantity that sets one or several parameters of the model:
+/// model value = factor * value (* what the quantity itself says, see ParameterMap).
+struct ParameterSpec {
+  std::string name;   ///< label in results
+  std::string sets;   ///< "stiffness_2..12", "stiffness", "air_drag_quadratic.normal", "bending_stiffness", ...
+  std::string unit;   ///< of `value`
+  double value = 0;   ///< starting value if free
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double factor = 1;
+  bool free = false;
+  bool per_experiment = false;  ///< an unknown of its own in every experiment (sensors)
+  Scale scale = Scale::kLinear;
+  std::string where;  ///< "case.toml:12", for messages
+};
+
+/// How the angles (or the rates) of the links start. All but the catenary and the hanging shape
+/// are linear in their coefficients, which are the unknowns where the shape is free.
+enum class Shape {
+  kStraight,  ///< one coefficient: the common angle, rad
+  kAngles,    ///< one per link, rad
+  kSmooth,    ///< angle of link i = sum of coefficient k times the shifted Legendre polynomial k at
+              ///< the arc length of the middle of the link over the length of the cable
+  kCatenary,  ///< (2.53) from the support to the held point: joints on the curve, chords between
+              ///< them, the last turned so that the end is at the held point (ends_at_held)
+  kHanging,   ///< the equilibrium, straight down
+};
+
+struct InitialSpec {
+  Shape shape = Shape::kHanging;
+  int terms = 6;                     ///< kSmooth
+  std::vector<double> coefficients;  ///< empty: found from the first frames of the data
+  bool free = false;                 ///< the coefficients are unknowns
+  std::array<double, 2> held = {0, 0};  ///< kCatenary: side, down of the held point, m
+  bool ends_at_held = false;            ///< kCatenary: the end of the polygon is moved to the held point
+
+  bool at_rest = true;                        ///< no velocity at the start
+  Shape velocity_shape = Shape::kSmooth;      ///< kStraight, kAngles or kSmooth
+  int velocity_terms = 3;
+  std::vector<double> velocity_coefficients;  ///< rad/s; empty: from the first frames of the data
+  bool velocity_free = false;
+};
+
+enum class DataKind { kMarkers, kAngles };
+enum class Use { kFit, kValidate };
+enum class DataSource { kCatena, kTracker, kKinovea, kDeepLabCut };
+
+/// One measured point: a marker on the cable or the angle of a link. Exactly one of arc_length,
+/// joint (its far end), link and load says where it is.
+struct PointSpec {
+  std::string name;
+  std::string side_column, down_column;  ///< markers
+  std::string angle_column;              ///< angles
+  double arc_length = kNotGiven;         ///< m from the support along the cable
+  int joint = 0;                         ///< marker at the far end of link `joint`, 1-based
+  int link = 0;                          ///< angle of this link, 1-based
+  bool load = false;                     ///< marker at the load
+};
+
+struct ExperimentSpec {
+  std::string name;
+  std::filesystem::path data;  ///< absolute, or relative to the working directory
+  DataKind kind = DataKind::kMarkers;
+  Use use = Use::kFit;
+  DataSource source = DataSource::kCatena;
+  double from = -std::numeric_limits<double>::infinity();  ///< s, first and last frame used
+  double to = std::numeric_limits<double>::infinity();
+  double fit_until = std::numeric_limits<double>::infinity();  ///< later frames only validate
+  double start = kNotGiven;   ///< model time at which the initial state holds; NaN: the first frame
+  double window = kNotGiven;  ///< s: cut into windows, each an experiment with its own initial state
+  int every = 1;              ///< only every so many-th frame
+  double noise = kNotGiven;   ///< expected standard deviation, m or rad
+  std::vector<PointSpec> points;  ///< empty: all columns side_i_m, down_i_m or theta_i_rad
+  std::optional<InitialSpec> initial;
+
+  // how the file says it
+  std::string time_column;  ///< empty: the first column
+  std::string time_unit = "s";    ///< "s", "ms" or "frames"
+  double frame_rate = kNotGiven;  ///< 1/s, for "frames"
+  std::string length_unit = "m";  ///< "m", "cm", "mm" or "px"
+  double metres_per_pixel = kNotGiven;
+  std::string angle_unit = "rad";  ///< "rad" or "deg"
+  bool wrapped = false;            ///< angles jump by a turn
+  bool upward = false;             ///< the vertical axis of the file points up
+  bool mirrored = false;           ///< the horizontal axis (or the angle) of the file points to -side
+  std::array<double, 2> origin = {0, 0};  ///< the fixed point in the file's own axes and unit
+  double likelihood_floor = 0.6;          ///< DeepLabCut: points less likely are not seen
+  std::string where;
+};
+
+enum class Measure {
+  kLeastSquares,   ///< root mean square of the residuals, weighted by the noise where given
+  kMeanDistance,   ///< mean over frames and markers of the distance, (6.5), (6.6)
+  kMeanAbsolute,   ///< mean over channels of the mean absolute residual, (7.1)-(7.5)
+};
+
+enum class Loss { kNone, kHuber, kSoftL1, kCauchy };
+
+struct ErrorSpec {
+  Measure measure = Measure::kLeastSquares;
+  Loss loss = Loss::kNone;      ///< least squares only
+  double loss_scale = 3;        ///< in units of the noise
+};
+
+enum class Method { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };
+
+struct OptimiserSpec {
+  Method method = Method::kNelderMead;
+  int max_evaluations = 2000;
+  double tolerance = 1e-4;     ///< relative, of unknowns and error
+  double initial_step = 0.25;  ///< of the simplex: relative (of a scale for logarithmic unknowns)
+  int starts = 1;              ///< of a multi-start: the given one, then a Latin hypercube
+  unsigned seed = 1;
+  std::vector<double> growing_windows;  ///< s after the start: fit that long first, then longer
+};
+
+struct SimulationSpec {
+  double duration = kNotGiven;  ///< s; NaN: as long as the data
+  double step = 0.01;           ///< s between outputs
+  double relative_tolerance = 1e-8;
+  double absolute_tolerance_position = 1e-10;  ///< rad
+  double absolute_tolerance_velocity = 1e-9;   ///< rad/s
+  long max_steps = 1'000'000;
+};
+
+struct Case {
+  std::filesystem::path file;  ///< where it was read from
+  std::string title;
+  std::filesystem::path description;  ///< empty: the plain chain
+  int links = 0;
+  CableGeometry cable;
+  std::vector<ParameterSpec> parameters;
+  InitialSpec initial;
+  std::vector<ExperimentSpec> experiments;
+  ErrorSpec error;
+  OptimiserSpec optimiser;
+  SimulationSpec simulation;
+};
+
+/// Reads and checks a case file. Throws InputError naming file, line, key, value and rule.
+Case read_case(const std::filesystem::path& path);
+/// The same from text; relative paths in it are relative to `directory`.
+Case parse_case(const std::string& text, const std::string& name,
+                const std::filesystem::path& directory);
+
+/// The case as text that parse_case reads back to the same case. Paths are written relative to
+/// `directory`; numbers read back to the same doubles.
+std::string case_text(const Case& study, const std::filesystem::path& directory);
+/// Writes case_text, whole or not at all.
+void write_case(const Case& study, const std::filesystem::path& path);
+
+}  // namespace catena

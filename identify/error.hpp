@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identify/problem.hpp"
+
+namespace catena {
+
+/// One residual: simulated minus measured, m or rad.
+struct ResidualIndex {
+  int experiment = 0;
+  int channel = 0;
+  Eigen::Index frame = 0;
+};
+
+/// All residuals of one part, in order of experiment, frame, channel; points not seen are left out.
+struct Residuals {
+  std::vector<ResidualIndex> index;
+  Eigen::VectorXd value;
+  Eigen::MatrixXd jacobian;  ///< residuals x unknowns, empty if the evaluation had none
+};
+
+Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
+
+/// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
+/// Infinite if the evaluation failed; a failed simulation is never a good fit.
+double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
+/// The same with its gradient by the unknowns. The kinks of the two L1-like measures are rounded on
+/// a scale of `rounding` (m or rad).
+double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
+                          Eigen::VectorXd& gradient, double rounding = 1e-7);
+
+/// How far simulation and measurement are apart in one part of one experiment.
+struct Gap {
+  int experiment = 0;
+  Part part = Part::kFit;
+  Eigen::Index count = 0;    ///< residuals
+  double rms = 0;            ///< root mean square of the residuals, m or rad
+  double mean_absolute = 0;  ///< (7.1)-(7.5)
+  double mean_distance = 0;  ///< (6.5), (6.6); angles: mean absolute
+  double largest = 0;        ///< largest absolute residual
+};
+
+/// Gaps of every experiment and part that has data.
+std::vector<Gap> gaps_of(const Problem& problem, const Evaluation& evaluation);
+
+}  // namespace catena

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identify/problem.hpp"
+
+namespace catena {
+
+enum class FitStatus {
+  kNotRun,
+  kConverged,
+  kEvaluationLimit,  ///< the best so far is returned
+  kTimeLimit,        ///< the best so far is returned
+  kInterrupted,      ///< the best so far is returned
+  kFailed,           ///< no evaluation succeeded
+};
+
+const char* name_of(FitStatus status);
+
+/// One evaluation of the error, as it was made.
+struct HistoryEntry {
+  double error = 0;  ///< infinite if the simulation failed
+  Eigen::VectorXd x;
+};
+
+/// Evaluations that failed, with the unknowns that caused it.
+struct Failure {
+  Eigen::VectorXd x;
+  std::string message;
+};
+
+struct FitResult {
+  FitStatus status = FitStatus::kNotRun;
+  std::string message;
+  Eigen::VectorXd x;         ///< the best
+  double error = 0;          ///< its error, in the case's measure
+  double start_error = 0;
+  int evaluations = 0;       ///< simulations of all experiments
+  double work = 0;           ///< in simulations' worth of time: with sensitivities they cost more
+  int iterations = 0;
+  double seconds = 0;
+  std::vector<HistoryEntry> history;
+  int failures = 0;
+  std::vector<Failure> failed;  ///< the first hundred
+};
+
+struct Progress {
+  int evaluations = 0, limit = 0;
+  double error = 0;  ///< best so far
+};
+
+struct FitOptions {
+  Eigen::VectorXd start;          ///< empty: the case's
+  double time_limit = 0;          ///< s; 0: none
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const Progress&)> progress;
+  /// A known error for exactly these unknowns (from the log of an interrupted run), or NaN.
+  std::function<double(const Eigen::VectorXd&)> recall;
+  std::function<void(const HistoryEntry&)> record;
+};
+
+/// A fit by least squares, e.g. fit_least_squares of identify/ceres/least_squares.hpp: handed in, so
+/// that who does not want it need not link it.
+using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
+
+/// Fits the unknowns by the method the case names. Nelder-Mead (chapter 5; reflection 1, expansion 2,
+/// contraction and shrink 1/2) and the bounded gradient methods are NLopt's. Throws InputError for
+/// least squares without a solver.
+FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
+
+/// Logarithmic unknowns become their logarithms, and back.
+Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x);
+Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y);
+
+}  // namespace catena

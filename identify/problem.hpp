@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identify/case.hpp"
+#include "identify/initial_shape.hpp"
+#include "identify/parameter_map.hpp"
+#include "identify/recording.hpp"
+#include "runtime/model.hpp"
+#include "runtime/simulation.hpp"
+#include "runtime/state.hpp"
+
+namespace catena {
+
+/// One number the fit may change.
+struct Unknown {
+  enum class Group { kPhysics, kInitial, kSensor };
+  std::string name;  ///< "k", "run 1: angle coefficient 2"
+  std::string unit;
+  double start = 0, lower = 0, upper = 0;
+  Scale scale = Scale::kLinear;
+  Group group = Group::kPhysics;
+  int experiment = -1;  ///< the one experiment it belongs to; -1: all
+  int parameter = -1;   ///< index into Case::parameters; -1: a coefficient of the initial state
+  int coefficient = -1; ///< index into the angle, then the rate coefficients of the experiment
+};
+
+/// One experiment of the case (windows are cut already) with its data.
+struct Experiment {
+  ExperimentSpec spec;
+  Recording recording;
+  InitialSpec initial;  ///< its own or the case's, with all coefficients found
+  bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }
+};
+
+/// What the model says about one experiment. Where the simulation failed, `simulated` is NaN.
+struct Prediction {
+  Status status = Status::kNotRun;
+  std::string message;
+  Eigen::MatrixXd simulated;                 ///< channels x frames
+  std::vector<Eigen::MatrixXd> sensitivity;  ///< one per direction, channels x frames
+  Trajectory trajectory;                     ///< at the frames
+  bool ok() const { return status == Status::kSuccess; }
+};
+
+/// A direction in which a prediction is differentiated: of the model's parameters and of the initial
+/// angles and rates of one experiment. Empty vectors are zero.
+struct Direction {
+  Eigen::VectorXd parameters, q, v;
+};
+
+/// A case, its model and its data: from the unknowns to predictions and back to a case.
+/// All functions may be called from several threads at once.
+///
+///     Problem problem(read_case("case.toml"), model);
+///     Evaluation at_start = problem.evaluate(problem.start(), Part::kFit);
+///     double error = error_of(problem, at_start, Part::kFit);       // identify/error.hpp
+class Problem {
+ public:
+  /// Reads the data. Throws InputError.
+  Problem(Case study, Model model);
+  /// The same case with data given: one recording per experiment of the case.
+  Problem(Case study, Model model, std::vector<Recording> recordings);
+
+  const Case& study() const { return study_; }
+  const Model& model() const { return model_; }
+  const std::vector<Experiment>& experiments() const { return experiments_; }
+  const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  /// Starting values, in the units of the unknowns.
+  Eigen::VectorXd start() const;
+
+  /// The model's parameters in one experiment, and their derivative by the unknowns.
+  Eigen::VectorXd model_parameters(const Eigen::VectorXd& x, int experiment) const;
+  /// The state at the start of one experiment.
+  State initial_state(const Eigen::VectorXd& x, int experiment) const;
+  /// The derivatives of both by every unknown; unknowns of other experiments give empty vectors.
+  std::vector<Direction> directions(const Eigen::VectorXd& x, int experiment) const;
+
+  /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities along
+  /// `along` (model parameters and initial state: e.g. directions(), or any other).
+  Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
+                     const std::vector<Direction>& along = {},
+                     const std::function<bool()>& keep_going = {}) const;
+
+  /// The case with the values of `x` as its starting values.
+  Case with(const Eigen::VectorXd& x) const;
+
+ private:
+  void prepare();
+
+  Case study_;
+  Model model_;
+  ParameterMap map_;
+  std::vector<Experiment> experiments_;
+  std::vector<Unknown> unknowns_;
+};
+
+/// Predictions of all experiments (those to be fitted, or all) and, if asked for, their
+/// derivatives by the unknowns.
+struct Evaluation {
+  std::vector<Prediction> predictions;  ///< one per experiment; kNotRun where not asked for
+  bool with_jacobian = false;
+  /// Every prediction asked for succeeded and is finite.
+  bool ok = false;
+  std::string message;  ///< of the first failure: "run 1: theta_7 at t = 1.23 s"
+};
+
+enum class Part { kFit, kValidation };
+
+/// `all`: validation too (longer simulations), else only what is fitted.
+Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, bool jacobian,
+                    const std::function<bool()>& keep_going = {});
+
+}  // namespace catena
