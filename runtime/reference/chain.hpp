@@ -9,7 +9,8 @@
 /// conversion from small integers, and sin and cos found by argument-dependent look-up (double,
 /// long double, a dual number, a computer-algebra expression). Clarity before speed.
 ///
-/// Indices: the dissertation counts links from 1, arrays here from 0. Link i of the text is [i - 1].
+/// Indices: the dissertation counts links from 1, arrays here from 0. Link i of the text is [i -
+/// 1].
 namespace catena::reference {
 
 template <class T>
@@ -24,7 +25,8 @@ Matrix<T> zero_matrix(std::size_t size) {
   return Matrix<T>(size, Vector<T>(size, T(0)));
 }
 
-/// The constants of a chain; every vector has one entry per link (SI units, see generated/catena_model.h).
+/// The constants of a chain; every vector has one entry per link (SI units, see
+/// generated/catena_model.h).
 template <class T>
 struct Chain {
   Vector<T> length;     ///< l_i, m

@@ -25,11 +25,12 @@ Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T
       const int sign = beta > 0 ? 1 : -1;
       const std::size_t outer = std::max(i, j);
       // beta l_j (m_max / 2 + m_c + sum_{g > max} m_g)
-      //   [-1/2 sign(beta) cos(theta_i) sin(theta_j) + 1/beta sin(theta_i) cos(theta_j)] thetadot_j^2
+      //   [-1/2 sign(beta) cos(theta_i) sin(theta_j) + 1/beta sin(theta_i) cos(theta_j)]
+      //   thetadot_j^2
       const T bracket =
           sin(theta[i]) * cos(theta[j]) / beta - cos(theta[i]) * sin(theta[j]) * sign / 2;
-      f[i] = f[i] + beta * l[j] * (m[outer] / 2 + mass_beyond(chain, outer)) * bracket * rate[j] *
-                        rate[j];
+      f[i] = f[i] +
+             beta * l[j] * (m[outer] / 2 + mass_beyond(chain, outer)) * bracket * rate[j] * rate[j];
     }
     f[i] = l[i] * f[i];
   }

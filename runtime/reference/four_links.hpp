@@ -11,7 +11,7 @@ namespace catena::reference::four_links {
 
 /// L = T - V (J), (3.10).
 template <class T>
-T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+T lagrangian(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2],
           &l4 = chain.length[3];
@@ -42,7 +42,7 @@ T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rat
 /// Right-hand sides without the external torques (N m): minus the derivative of the dissipation
 /// function, (3.11)-(3.14).
 template <class T>
-Vector<T> friction_force(const Chain<T>& chain, const Vector<T>& rate) {
+Vector<T> friction_force(const Chain<T> &chain, const Vector<T> &rate) {
   const T &c1 = chain.damping[0], &c2 = chain.damping[1], &c3 = chain.damping[2],
           &c4 = chain.damping[3];
   const T &w1 = rate[0], &w2 = rate[1], &w3 = rate[2], &w4 = rate[3];
@@ -51,12 +51,12 @@ Vector<T> friction_force(const Chain<T>& chain, const Vector<T>& rate) {
 }
 
 template <class T>
-Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
+Matrix<T> mass_matrix(const Chain<T> &chain, const Vector<T> &theta) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2],
           &l4 = chain.length[3];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &m3 = chain.mass[2], &m4 = chain.mass[3];
-  const T& mc = chain.load_mass;
+  const T &mc = chain.load_mass;
   const T &t1 = theta[0], &t2 = theta[1], &t3 = theta[2], &t4 = theta[3];
   const T i11 = (m1 / 4 + m2 + m3 + m4 + mc) * l1 * l1 + chain.inertia[0];
   const T i12 = l1 * l2 * (m2 / 2 + m3 + m4 + mc) * cos(t1 - t2);
@@ -73,7 +73,7 @@ Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
 
 /// K from the k_i; C has the same form in the c_i.
 template <class T>
-Matrix<T> joint_matrix(const Vector<T>& joint) {
+Matrix<T> joint_matrix(const Vector<T> &joint) {
   const T &k1 = joint[0], &k2 = joint[1], &k3 = joint[2], &k4 = joint[3];
   const T zero(0);
   return {{k1 + k2, -k2, zero, zero},
@@ -83,7 +83,7 @@ Matrix<T> joint_matrix(const Vector<T>& joint) {
 }
 
 template <class T>
-Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+Vector<T> coriolis(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2],
           &l4 = chain.length[3];
@@ -105,7 +105,7 @@ Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T
 }
 
 template <class T>
-Vector<T> gravity(const Chain<T>& chain, const Vector<T>& theta) {
+Vector<T> gravity(const Chain<T> &chain, const Vector<T> &theta) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2],
           &l4 = chain.length[3];

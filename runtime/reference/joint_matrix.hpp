@@ -6,10 +6,10 @@
 namespace catena::reference {
 
 /// Stiffness matrix K (N m/rad) from k_i, or damping matrix C (N m s/rad) from c_i: one value per
-/// joint; tridiagonal, symmetric. Dissertation (4.11), with one departure: as printed, each inner step
-/// ends with K(i, j) = K(j, i), which overwrites the -k_j just set with an entry not yet set and leaves
-/// K diagonal. Here K starts at zero and the mirror image is set inside the branch j = i + 1, which
-/// gives (4.8)-(4.10).
+/// joint; tridiagonal, symmetric. Dissertation (4.11), with one departure: as printed, each inner
+/// step ends with K(i, j) = K(j, i), which overwrites the -k_j just set with an entry not yet set
+/// and leaves K diagonal. Here K starts at zero and the mirror image is set inside the branch j = i
+/// + 1, which gives (4.8)-(4.10).
 template <class T>
 Matrix<T> joint_matrix(const Vector<T>& joint) {
   const std::size_t n = joint.size();

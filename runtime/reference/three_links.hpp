@@ -11,7 +11,7 @@ namespace catena::reference::three_links {
 
 /// L = T - V (J), (3.6).
 template <class T>
-T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+T lagrangian(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &m3 = chain.mass[2], &mc = chain.load_mass;
@@ -33,14 +33,14 @@ T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rat
 /// Right-hand sides without the external torques (N m): minus the derivative of the dissipation
 /// function, (3.7)-(3.9).
 template <class T>
-Vector<T> friction_force(const Chain<T>& chain, const Vector<T>& rate) {
+Vector<T> friction_force(const Chain<T> &chain, const Vector<T> &rate) {
   const T &c1 = chain.damping[0], &c2 = chain.damping[1], &c3 = chain.damping[2];
   const T &w1 = rate[0], &w2 = rate[1], &w3 = rate[2];
   return {-c1 * w1 - c2 * (w1 - w2), -c2 * (w2 - w1) - c3 * (w2 - w3), -c3 * (w3 - w2)};
 }
 
 template <class T>
-Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
+Matrix<T> mass_matrix(const Chain<T> &chain, const Vector<T> &theta) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &m3 = chain.mass[2], &mc = chain.load_mass;
@@ -56,14 +56,14 @@ Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
 
 /// K from the k_i; C has the same form in the c_i.
 template <class T>
-Matrix<T> joint_matrix(const Vector<T>& joint) {
+Matrix<T> joint_matrix(const Vector<T> &joint) {
   const T &k1 = joint[0], &k2 = joint[1], &k3 = joint[2];
   const T zero(0);
   return {{k1 + k2, -k2, zero}, {-k2, k2 + k3, -k3}, {zero, -k3, k3}};
 }
 
 template <class T>
-Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+Vector<T> coriolis(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2];
   const T &m2 = chain.mass[1], &m3 = chain.mass[2], &mc = chain.load_mass;
@@ -78,11 +78,11 @@ Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T
 }
 
 template <class T>
-Vector<T> gravity(const Chain<T>& chain, const Vector<T>& theta) {
+Vector<T> gravity(const Chain<T> &chain, const Vector<T> &theta) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1], &l3 = chain.length[2];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &m3 = chain.mass[2], &mc = chain.load_mass;
-  const T& g = chain.gravity;
+  const T &g = chain.gravity;
   return {(m1 / 2 + m2 + m3 + mc) * g * l1 * sin(theta[0]),
           (m2 / 2 + m3 + mc) * g * l2 * sin(theta[1]), (m3 / 2 + mc) * g * l3 * sin(theta[2])};
 }

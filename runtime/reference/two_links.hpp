@@ -11,7 +11,7 @@ namespace catena::reference::two_links {
 
 /// L = T - V (J), (3.1).
 template <class T>
-T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+T lagrangian(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &mc = chain.load_mass, &g = chain.gravity;
@@ -27,14 +27,14 @@ T lagrangian(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rat
 /// Right-hand sides without the external torques (N m): minus the derivative of the dissipation
 /// function, (3.2), (3.3).
 template <class T>
-Vector<T> friction_force(const Chain<T>& chain, const Vector<T>& rate) {
+Vector<T> friction_force(const Chain<T> &chain, const Vector<T> &rate) {
   const T &c1 = chain.damping[0], &c2 = chain.damping[1];
   const T &w1 = rate[0], &w2 = rate[1];
   return {-c1 * w1 - c2 * (w1 - w2), -c2 * (w2 - w1)};
 }
 
 template <class T>
-Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
+Matrix<T> mass_matrix(const Chain<T> &chain, const Vector<T> &theta) {
   using std::cos;
   const T &l1 = chain.length[0], &l2 = chain.length[1];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &mc = chain.load_mass;
@@ -46,13 +46,13 @@ Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
 
 /// K from the k_i; C has the same form in the c_i.
 template <class T>
-Matrix<T> joint_matrix(const Vector<T>& joint) {
+Matrix<T> joint_matrix(const Vector<T> &joint) {
   const T &k1 = joint[0], &k2 = joint[1];
   return {{k1 + k2, -k2}, {-k2, k2}};
 }
 
 template <class T>
-Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T>& rate) {
+Vector<T> coriolis(const Chain<T> &chain, const Vector<T> &theta, const Vector<T> &rate) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1];
   const T &m2 = chain.mass[1], &mc = chain.load_mass;
@@ -62,7 +62,7 @@ Vector<T> coriolis(const Chain<T>& chain, const Vector<T>& theta, const Vector<T
 }
 
 template <class T>
-Vector<T> gravity(const Chain<T>& chain, const Vector<T>& theta) {
+Vector<T> gravity(const Chain<T> &chain, const Vector<T> &theta) {
   using std::sin;
   const T &l1 = chain.length[0], &l2 = chain.length[1];
   const T &m1 = chain.mass[0], &m2 = chain.mass[1], &mc = chain.load_mass, &g = chain.gravity;
