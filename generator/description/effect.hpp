@@ -30,6 +30,7 @@ enum class Place {
   kLink,        ///< every link as a rigid body: its absolute angle, or an added coordinate
   kLinkCentre,  ///< the mass centre of every link
   kLoad,        ///< the load
+  kAnywhere,    ///< definitions only: from time, parameters, constants and signals alone
 };
 
 struct EffectParameter {
@@ -56,7 +57,7 @@ struct Constant {
 /// A named sub-expression, usable in every later expression of the same effect and place.
 struct Definition {
   std::string name;
-  Place at = Place::kLinkCentre;
+  Place at = Place::kAnywhere;
   Expression value;
 };
 

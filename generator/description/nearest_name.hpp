@@ -14,4 +14,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 /// "; did you mean \"damping\"?", or "; known are a, b and c" if nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& words);
+
 }  // namespace catena

@@ -58,7 +58,8 @@ class TomlTable {
   std::size_t choice(std::string_view key, const std::vector<std::string>& words,
                      bool required = true) const;
 
-  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do.
+  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do. An empty
+  /// key is the table itself.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
   /// The same at the table itself.
   [[noreturn]] void fail(const std::string& problem) const;
@@ -85,8 +86,5 @@ class TomlTable {
 
 /// A number as short as it can be written and still read back to the same double.
 std::string shortest_number(double value);
-
-/// "a, b and c"
-std::string listed(const std::vector<std::string>& words);
 
 }  // namespace catena
