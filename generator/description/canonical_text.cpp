@@ -9,31 +9,44 @@ namespace {
 
 const char* word(Scope scope) {
   switch (scope) {
-    case Scope::kModel: return "model";
-    case Scope::kJoint: return "joint";
-    case Scope::kLink: return "link";
+    case Scope::kModel:
+      return "model";
+    case Scope::kJoint:
+      return "joint";
+    case Scope::kLink:
+      return "link";
   }
   return "";
 }
 
 const char* word(Place place) {
   switch (place) {
-    case Place::kJoint: return "joint";
-    case Place::kPivot: return "pivot";
-    case Place::kLink: return "link";
-    case Place::kLinkCentre: return "link_centre";
-    case Place::kLoad: return "load";
-    case Place::kAnywhere: return "anywhere";
+    case Place::kJoint:
+      return "joint";
+    case Place::kPivot:
+      return "pivot";
+    case Place::kLink:
+      return "link";
+    case Place::kLinkCentre:
+      return "link_centre";
+    case Place::kLoad:
+      return "load";
+    case Place::kAnywhere:
+      return "anywhere";
   }
   return "";
 }
 
 const char* word(ScalarKind kind) {
   switch (kind) {
-    case ScalarKind::kTorque: return "torque";
-    case ScalarKind::kPotential: return "potential";
-    case ScalarKind::kDissipation: return "dissipation";
-    case ScalarKind::kKinetic: return "kinetic";
+    case ScalarKind::kTorque:
+      return "torque";
+    case ScalarKind::kPotential:
+      return "potential";
+    case ScalarKind::kDissipation:
+      return "dissipation";
+    case ScalarKind::kKinetic:
+      return "kinetic";
   }
   return "";
 }

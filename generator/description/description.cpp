@@ -105,7 +105,8 @@ void write_description(const Description& description, const std::filesystem::pa
     std::string name = effect.id;
     if (!effect.source_file.starts_with(kBuiltInPrefix)) {
       const auto folder = std::filesystem::absolute(path).parent_path();
-      name = std::filesystem::relative(std::filesystem::absolute(effect.source_file), folder).string();
+      name =
+          std::filesystem::relative(std::filesystem::absolute(effect.source_file), folder).string();
     }
     text += (i > 0 ? ", \"" : "\"") + name + "\"";
   }

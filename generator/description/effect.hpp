@@ -37,7 +37,8 @@ struct EffectParameter {
   std::string name;
   std::string unit;
   std::string description;
-  double default_value = std::numeric_limits<double>::quiet_NaN();  ///< the neutral one if not stated
+  double default_value =
+      std::numeric_limits<double>::quiet_NaN();  ///< the neutral one if not stated
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   /// The value at which the effect vanishes; NaN: none (a shape parameter, such as a frequency);

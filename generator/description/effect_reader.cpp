@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "generator/description/effect_reader.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "generator/description/effect.hpp"
-#include "generator/description/effect_reader.hpp"
 #include "generator/description/nearest_name.hpp"
 #include "generator/description/toml_reader.hpp"
 #include "generator/description/unit.hpp"
@@ -16,14 +17,39 @@ namespace {
 
 // Names with a meaning in expressions: an effect's own names must differ from them.
 const std::set<std::string, std::less<>>& reserved_names() {
-  static const std::set<std::string, std::less<>> names = {
-      "time",       "gravity",       "load_mass",     "side",            "down",
-      "depth",      "velocity_side", "velocity_down", "velocity_normal", "velocity_tangential",
-      "angle",      "rate",          "length",        "mass",            "inertia",
-      "joint_angle", "joint_rate",   "stiffness",     "damping",         "arc",
-      "spacing",    "pi",            "sin",           "cos",             "tan",
-      "exp",        "log",           "sqrt",          "tanh",            "sinh",
-      "cosh",       "atan",          "asinh"};
+  static const std::set<std::string, std::less<>> names = {"time",
+                                                           "gravity",
+                                                           "load_mass",
+                                                           "side",
+                                                           "down",
+                                                           "depth",
+                                                           "velocity_side",
+                                                           "velocity_down",
+                                                           "velocity_normal",
+                                                           "velocity_tangential",
+                                                           "angle",
+                                                           "rate",
+                                                           "length",
+                                                           "mass",
+                                                           "inertia",
+                                                           "joint_angle",
+                                                           "joint_rate",
+                                                           "stiffness",
+                                                           "damping",
+                                                           "arc",
+                                                           "spacing",
+                                                           "pi",
+                                                           "sin",
+                                                           "cos",
+                                                           "tan",
+                                                           "exp",
+                                                           "log",
+                                                           "sqrt",
+                                                           "tanh",
+                                                           "sinh",
+                                                           "cosh",
+                                                           "atan",
+                                                           "asinh"};
   return names;
 }
 
@@ -59,7 +85,8 @@ class EffectReader {
       return letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
     };
     if (name.empty() || !letter(name[0]) || !std::all_of(name.begin(), name.end(), inner)) {
-      table.fail(key, "\"" + name + "\" is not a name; a name is a letter, then letters, digits, _");
+      table.fail(key,
+                 "\"" + name + "\" is not a name; a name is a letter, then letters, digits, _");
     }
   }
 
@@ -142,7 +169,8 @@ class EffectReader {
       parameter.neutral = table.optional_number("neutral").value_or(parameter.neutral);
       if (!std::isinf(parameter.neutral)) parameter.default_value = parameter.neutral;
       parameter.default_value = table.optional_number("default").value_or(parameter.default_value);
-      parameter.scope = static_cast<Scope>(table.choice("scope", {"model", "joint", "link"}, false));
+      parameter.scope =
+          static_cast<Scope>(table.choice("scope", {"model", "joint", "link"}, false));
       check_bounds(table, parameter);
       effect_.parameters.push_back(parameter);
     }
@@ -224,8 +252,8 @@ class EffectReader {
       definition.name = table.text("name");
       add_name(table, "name", definition.name);
       if (table.has("at")) {
-        definition.at = place(table, {Place::kJoint, Place::kPivot, Place::kLink,
-                                      Place::kLinkCentre, Place::kLoad});
+        definition.at = place(
+            table, {Place::kJoint, Place::kPivot, Place::kLink, Place::kLinkCentre, Place::kLoad});
       }
       definition.value = required(table, "value");
       effect_.definitions.push_back(definition);
@@ -300,10 +328,10 @@ class EffectReader {
 
   void check_physics() const {
     const Kinematics& k = effect_.kinematics;
-    const bool changes_kinematics =
-        k.centre_offset.given() || k.load_offset.given() || k.load_inertia.given() ||
-        k.load_mass.given() || k.rest_angle.given() || k.pivot_rest_angle.given() ||
-        k.extension.given() || k.gravity_tilt.given();
+    const bool changes_kinematics = k.centre_offset.given() || k.load_offset.given() ||
+                                    k.load_inertia.given() || k.load_mass.given() ||
+                                    k.rest_angle.given() || k.pivot_rest_angle.given() ||
+                                    k.extension.given() || k.gravity_tilt.given();
     if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.side.given() &&
         !effect_.support.down.given() && !changes_kinematics && !effect_.sensor.given()) {
       file_.fail(

@@ -73,7 +73,8 @@ std::string sha256_hex(std::string_view message) {
   }
   std::string digest;
   for (const uint32_t word : H) {
-    for (int shift = 28; shift >= 0; shift -= 4) digest += "0123456789abcdef"[(word >> shift) & 0xf];
+    for (int shift = 28; shift >= 0; shift -= 4)
+      digest += "0123456789abcdef"[(word >> shift) & 0xf];
   }
   return digest;
 }

@@ -30,13 +30,20 @@ int line_of(const toml::source_region& region) { return static_cast<int>(region.
 
 const char* type_word(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::string: return "a text";
-    case toml::node_type::integer: return "a whole number";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::table: return "a table";
-    default: return "a date or time";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
   }
 }
 
@@ -79,7 +86,8 @@ TomlTable::TomlTable(std::shared_ptr<Document> document, const void* table, std:
 TomlTable TomlTable::read(const std::filesystem::path& path, std::string_view kind) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    throw InputError(path.string() + ": there is no such file; give the path of a TOML file of kind \"" +
+    throw InputError(path.string() +
+                     ": there is no such file; give the path of a TOML file of kind \"" +
                      std::string(kind) + "\"");
   }
   if (std::filesystem::is_directory(path, error)) {
@@ -105,7 +113,8 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
   TomlTable table(document, &document->root, "");
   if (!table.has("format")) table.fail("format = 1 is missing; write it as the first line");
   if (const long format = table.integer("format"); format != 1) {
-    table.fail("format", std::to_string(format) + " is not known to this catena; it reads format 1");
+    table.fail("format",
+               std::to_string(format) + " is not known to this catena; it reads format 1");
   }
   if (!table.has("kind")) {
     table.fail("kind is missing; write kind = \"" + std::string(kind) + "\" below the format");
@@ -209,7 +218,8 @@ std::vector<long> TomlTable::integers(std::string_view key) const {
   if (array == nullptr) fail_type(key, "a list of whole numbers");
   for (const toml::node& node : *array) {
     if (!node.is_integer()) {
-      fail(key, value_text(node) + " in the list is not a whole number; give a list of whole numbers");
+      fail(key,
+           value_text(node) + " in the list is not a whole number; give a list of whole numbers");
     }
     values.push_back(*node.value<long>());
   }

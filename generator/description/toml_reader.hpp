@@ -58,8 +58,8 @@ class TomlTable {
   std::size_t choice(std::string_view key, const std::vector<std::string>& words,
                      bool required = true) const;
 
-  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do. An empty
-  /// key is the table itself.
+  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do. An
+  /// empty key is the table itself.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
   /// The same at the table itself.
   [[noreturn]] void fail(const std::string& problem) const;
@@ -69,8 +69,8 @@ class TomlTable {
   void finish() const;
 
   const std::string& file() const;
-  int line() const;                           ///< of the table's header
-  int line(std::string_view key) const;       ///< of the key's value; of the table if missing
+  int line() const;                              ///< of the table's header
+  int line(std::string_view key) const;          ///< of the key's value; of the table if missing
   std::string path(std::string_view key) const;  ///< "cable.length"
 
  private:

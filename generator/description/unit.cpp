@@ -36,8 +36,8 @@ struct Factors {
 // In the order in which they are tried as names.
 const std::vector<std::pair<std::string, Factors>>& known_units() {
   static const std::vector<std::pair<std::string, Factors>> units = {
-      {"1", {0, 0, 0}},   {"m", {1, 0, 0}},   {"kg", {0, 1, 0}},   {"s", {0, 0, 1}},
-      {"rad", {0, 0, 0}}, {"N", {1, 1, -2}},  {"J", {2, 1, -2}},   {"W", {2, 1, -3}},
+      {"1", {0, 0, 0}},    {"m", {1, 0, 0}},  {"kg", {0, 1, 0}}, {"s", {0, 0, 1}},
+      {"rad", {0, 0, 0}},  {"N", {1, 1, -2}}, {"J", {2, 1, -2}}, {"W", {2, 1, -3}},
       {"Pa", {-1, 1, -2}}, {"Hz", {0, 0, -1}}};
   return units;
 }
@@ -148,7 +148,8 @@ class UnitParser {
     const bool negative = take('-');
     const std::size_t begin = at_;
     while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_]))) ++at_;
-    if (at_ == begin || at_ - begin > 4) fail("an exponent is a small whole number, decimal or (p/q)");
+    if (at_ == begin || at_ - begin > 4)
+      fail("an exponent is a small whole number, decimal or (p/q)");
     const long value = std::stol(std::string(text_.substr(begin, at_ - begin)));
     return negative ? -value : value;
   }
@@ -215,7 +216,7 @@ Unit Unit::power(Exponent exponent) const {
 std::string Unit::text() const {
   // The names that mechanics uses, where one fits.
   static const std::vector<std::string> usual = {
-      "1",   "m",     "kg",  "s",      "N",    "N m",   "W",       "m/s",   "m/s^2", "1/s",
+      "1",   "m",   "kg",    "s",   "N",      "N m",  "W",     "m/s",     "m/s^2", "1/s",
       "1/m", "N/m", "N s/m", "N s", "kg m^2", "kg/m", "N m s", "N s/m^2", "N m^2", "W/m"};
   for (const std::string& name : usual) {
     if (*this == parse(name)) return name;

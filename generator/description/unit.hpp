@@ -20,10 +20,10 @@ class Unit {
  public:
   Unit() = default;  ///< dimensionless
 
-  /// Reads "kg/m^2", "N m s/rad", "1", "1/s", "m^0.5", "kg/(m s)": products by space or *, one level
-  /// of parentheses after /, whole, decimal or (p/q) exponents. Each / divides by the one factor
-  /// or parenthesis behind it. Known: m kg s rad N J W Pa Hz 1. Throws std::invalid_argument with
-  /// the text, the rule and a hint; degrees, mm, g and the like are refused: SI only.
+  /// Reads "kg/m^2", "N m s/rad", "1", "1/s", "m^0.5", "kg/(m s)": products by space or *, one
+  /// level of parentheses after /, whole, decimal or (p/q) exponents. Each / divides by the one
+  /// factor or parenthesis behind it. Known: m kg s rad N J W Pa Hz 1. Throws std::invalid_argument
+  /// with the text, the rule and a hint; degrees, mm, g and the like are refused: SI only.
   static Unit parse(std::string_view text);
   static Unit of(int metre, int kilogram, int second);
 
