@@ -52,9 +52,8 @@ enum class Shape {
   kAngles,    ///< one per link, rad
   kSmooth,    ///< angle of link i = sum of coefficient k times the shifted Legendre polynomial k at
               ///< the arc length of the middle of the link over the length of the cable
-  kCatenary,  ///< (2.53) from the support to the held point: joints on the curve, chords between
-              ///< them, the last turned so that the end is at the held point (ends_at_held)
-  kHanging,   ///< the equilibrium, straight down
+  kCatenary,  ///< (2.53) from the support to the held point
+  kHanging,   ///< the equilibrium; straight down for the plain chain
 };
 
 struct InitialSpec {
@@ -63,7 +62,7 @@ struct InitialSpec {
   std::vector<double> coefficients;  ///< empty: found from the first frames of the data
   bool free = false;                 ///< the coefficients are unknowns
   std::array<double, 2> held = {0, 0};  ///< kCatenary: side, down of the held point, m
-  bool ends_at_held = false;            ///< kCatenary: the end of the polygon is moved to the held point
+  bool ends_at_held = false;            ///< kCatenary: the end of the last link, not of the curve, is there
 
   bool at_rest = true;                        ///< no velocity at the start
   Shape velocity_shape = Shape::kSmooth;      ///< kStraight, kAngles or kSmooth
@@ -88,6 +87,13 @@ struct PointSpec {
   bool load = false;                     ///< marker at the load
 };
 
+/// A function of time the model asks for (a support's measured motion), from two columns of a file.
+struct SignalSpec {
+  std::string name;  ///< as the model names it
+  std::filesystem::path data;
+  std::string time_column, column;  ///< s, and the unit of the signal
+};
+
 struct ExperimentSpec {
   std::string name;
   std::filesystem::path data;  ///< absolute, or relative to the working directory
@@ -103,6 +109,7 @@ struct ExperimentSpec {
   double noise = kNotGiven;   ///< expected standard deviation, m or rad
   std::vector<PointSpec> points;  ///< empty: all columns side_i_m, down_i_m or theta_i_rad
   std::optional<InitialSpec> initial;
+  std::vector<SignalSpec> signals;
 
   // how the file says it
   std::string time_column;  ///< empty: the first column
@@ -162,6 +169,7 @@ struct Case {
   CableGeometry cable;
   std::vector<ParameterSpec> parameters;
   InitialSpec initial;
+  std::vector<SignalSpec> signals;  ///< of a simulation without data, and of experiments that give none
   std::vector<ExperimentSpec> experiments;
   ErrorSpec error;
   OptimiserSpec optimiser;

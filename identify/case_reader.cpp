@@ -152,6 +152,22 @@ InitialSpec read_initial(const TomlTable& table, int links) {
   return initial;
 }
 
+std::vector<SignalSpec> read_signals(const TomlTable& table,
+                                     const std::filesystem::path& directory) {
+  std::vector<SignalSpec> signals;
+  for (const TomlTable& entry : table.tables("signal")) {
+    SignalSpec signal;
+    signal.name = entry.text("name");
+    signal.data = directory / entry.text("data");
+    if (!std::filesystem::is_regular_file(signal.data))
+      entry.fail("data", signal.data.string() + "; there is no such file");
+    signal.time_column = entry.optional_text("time").value_or("time_s");
+    signal.column = entry.text("column");
+    signals.push_back(signal);
+  }
+  return signals;
+}
+
 PointSpec read_point(const TomlTable& table, DataKind kind, int number, int links) {
   PointSpec point;
   const std::string index = std::to_string(number);
@@ -234,6 +250,7 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
         point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links));
   if (const auto initial = table.optional_table("initial"))
     experiment.initial = read_initial(*initial, links);
+  experiment.signals = read_signals(table, directory);
   return experiment;
 }
 
@@ -305,6 +322,7 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   }
   if (const auto initial = file.optional_table("initial"))
     study.initial = read_initial(*initial, study.links);
+  study.signals = read_signals(file, directory);
   names.clear();
   for (const TomlTable& table : file.tables("experiment")) {
     study.experiments.push_back(read_experiment(

@@ -130,6 +130,17 @@ std::string point_text(const PointSpec& point, DataKind kind) {
   return out + "},\n";
 }
 
+void write_signals(Writer& out, const std::vector<SignalSpec>& signals, const std::string& table,
+                   const std::filesystem::path& directory) {
+  for (const SignalSpec& signal : signals) {
+    out.header("[[" + table + "]]");
+    out.text("name", signal.name);
+    out.text("data", relative(signal.data, directory));
+    out.text("time", signal.time_column, "time_s");
+    out.text("column", signal.column);
+  }
+}
+
 void write_experiment(Writer& out, const ExperimentSpec& experiment,
                       const std::filesystem::path& directory) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -164,6 +175,7 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
     out.line(experiment.kind == DataKind::kMarkers ? "markers" : "angles", points + "]");
   }
   if (experiment.initial) write_initial(out, *experiment.initial, "experiment.initial");
+  write_signals(out, experiment.signals, "experiment.signal", directory);
 }
 
 }  // namespace
@@ -185,6 +197,7 @@ std::string case_text(const Case& study, const std::filesystem::path& directory)
   out.number("gravity", study.cable.gravity);
   for (const ParameterSpec& parameter : study.parameters) write_parameter(out, parameter);
   write_initial(out, study.initial, "initial");
+  write_signals(out, study.signals, "signal", directory);
   for (const ExperimentSpec& experiment : study.experiments)
     write_experiment(out, experiment, directory);
 

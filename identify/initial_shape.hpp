@@ -15,7 +15,7 @@ int coefficient_count(Shape shape, int links, int terms);
 /// `lengths`: of the links, m.
 Eigen::MatrixXd shape_basis(Shape shape, int links, int terms, const Eigen::VectorXd& lengths);
 
-/// Angles of the links at the start, rad.
+/// Angles of the links at the start, rad, for the shapes that have coefficients.
 Eigen::VectorXd initial_angles(const InitialSpec& initial, const Eigen::VectorXd& lengths);
 /// Their rates, rad/s.
 Eigen::VectorXd initial_rates(const InitialSpec& initial, const Eigen::VectorXd& lengths);

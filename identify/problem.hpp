@@ -10,6 +10,7 @@
 #include "identify/initial_shape.hpp"
 #include "identify/parameter_map.hpp"
 #include "identify/recording.hpp"
+#include "identify/signal_reader.hpp"
 #include "runtime/model.hpp"
 #include "runtime/simulation.hpp"
 #include "runtime/state.hpp"
@@ -34,6 +35,7 @@ struct Experiment {
   ExperimentSpec spec;
   Recording recording;
   InitialSpec initial;  ///< its own or the case's, with all coefficients found
+  Signals signals;      ///< in the order of the model
   bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }
 };
 
@@ -73,9 +75,10 @@ class Problem {
   /// Starting values, in the units of the unknowns.
   Eigen::VectorXd start() const;
 
-  /// The model's parameters in one experiment, and their derivative by the unknowns.
+  /// The model's parameters in one experiment; -1: in none (the case's own initial state).
   Eigen::VectorXd model_parameters(const Eigen::VectorXd& x, int experiment) const;
-  /// The state at the start of one experiment.
+  /// The state at the start of one experiment. Throws std::invalid_argument or std::runtime_error
+  /// where there is none (held farther away than the cable is long, no equilibrium).
   State initial_state(const Eigen::VectorXd& x, int experiment) const;
   /// The derivatives of both by every unknown; unknowns of other experiments give empty vectors.
   std::vector<Direction> directions(const Eigen::VectorXd& x, int experiment) const;
@@ -91,6 +94,11 @@ class Problem {
 
  private:
   void prepare();
+  /// Of the case's parameters, in their order.
+  Eigen::VectorXd parameter_values(const Eigen::VectorXd& x, int experiment) const;
+  InitialSpec initial_of(const Eigen::VectorXd& x, int experiment) const;
+  State state_of(int experiment, const InitialSpec& initial,
+                 const Eigen::VectorXd& parameters) const;
 
   Case study_;
   Model model_;

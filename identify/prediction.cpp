@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/positions.hpp"
+#include "runtime/sensitivity.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Where a point is on the chain. Material points keep their place when the cable bends; those given
+/// by arc length also move along a link whose length changes.
+struct Place {
+  MaterialPoint point;
+  bool at_arc_length = false;
+  bool load = false;
+};
+
+Place place_of(const Model& model, const VectorXd& parameters, const PointSpec& point) {
+  if (point.load) return {{model.links() - 1, 1.0}, false, true};
+  if (point.joint) return {{point.joint - 1, 1.0}, false, false};
+  if (point.link) return {{point.link - 1, 0.0}, false, false};
+  return {point_at_arc_length(model, parameters, point.arc_length), true, false};
+}
+
+/// Model times of the frames, where each is in the list of distinct, increasing times that is
+/// simulated, and whether the cable is still held then.
+struct Clock {
+  std::vector<double> times;  // to simulate; the first is the start
+  std::vector<Index> column;  // of each frame
+  std::vector<bool> held;
+};
+
+Clock clock_of(const Model& model, const Experiment& experiment, const VectorXd& parameters,
+               Index frames) {
+  const catena_model& table = model.table();
+  const double start = experiment.spec.start;
+  std::vector<double> tau(static_cast<std::size_t>(frames));
+  for (std::size_t k = 0; k < tau.size(); ++k) {
+    const double t = experiment.recording.time[k];
+    tau[k] = table.observes ? table.clock(t, parameters.data()) : t;
+  }
+  Clock clock;
+  clock.times = {start};
+  for (const double t : tau)
+    if (t > start) clock.times.push_back(t);
+  std::sort(clock.times.begin(), clock.times.end());
+  clock.times.erase(std::unique(clock.times.begin(), clock.times.end()), clock.times.end());
+  for (const double t : tau) {
+    clock.held.push_back(t < start);
+    const auto found = std::lower_bound(clock.times.begin(), clock.times.end(), std::max(t, start));
+    clock.column.push_back(found - clock.times.begin());
+  }
+  return clock;
+}
+
+VectorXd or_zero(const VectorXd& vector, Index size) {
+  return vector.size() ? vector : VectorXd::Zero(size);
+}
+
+/// Reads a simulation as the sensors of one experiment do.
+class Observer {
+ public:
+  Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters)
+      : model_(model),
+        table_(model.table()),
+        experiment_(experiment),
+        parameters_(parameters),
+        accelerations_(VectorXd::Zero(model.coordinates())),
+        signals_(VectorXd::Zero(3 * model.signals())),
+        no_signals_(signals_),
+        here_(sized()),
+        rates_(sized()),
+        change_(sized()) {
+    for (const PointSpec& point : experiment.recording.points)
+      places_.push_back(place_of(model, parameters, point));
+  }
+
+  /// Moves on to frame k, which is column `column` of the path.
+  void move_to(const Trajectory& path, Index column, double t) {
+    path_ = &path;
+    column_ = column;
+    t_ = t;
+    experiment_.signals.evaluate(path.time[static_cast<std::size_t>(column)], signals_.data());
+    const catena_point at = point(path, signals_, parameters_);
+    table_.positions(&at, here_.side.data(), here_.down.data());
+  }
+
+  double value(const Channel& channel) const {
+    double in[3], out[3];
+    true_values(channel, in);
+    if (!table_.observes) return in[static_cast<int>(channel.component)];
+    table_.observe(t_, parameters_.data(), in, out);
+    return out[static_cast<int>(channel.component)];
+  }
+
+  /// Prepares derivatives along one direction.
+  void look_along(const Trajectory& sensitivity, const VectorXd& by_parameter, bool held) {
+    sensitivity_ = &sensitivity;
+    by_parameter_ = &by_parameter;
+    const catena_point at = point(*path_, signals_, parameters_);
+    const catena_point along = point(sensitivity, no_signals_, by_parameter);
+    table_.positions_tangent(&at, &along, change_.side.data(), change_.down.data());
+    clock_shift_ = 0;
+    if (!table_.observes || held) return;
+    clock_shift_ = table_.clock_tangent(t_, parameters_.data(), by_parameter.data());
+    table_.velocities(&at, rates_.side.data(), rates_.down.data());
+    change_.side += clock_shift_ * rates_.side;
+    change_.down += clock_shift_ * rates_.down;
+  }
+
+  double derivative(const Channel& channel) const {
+    const Place& place = places_[static_cast<std::size_t>(channel.point)];
+    const double moved = place.at_arc_length ? fraction_tangent(model_, parameters_, *by_parameter_,
+                                                                place.point)
+                                             : 0;
+    const CablePoint change = position_tangent_of(here_, change_, place.point, moved);
+    const Index link = place.point.link, load = model_.links() + 1;
+    const double din[3] = {place.load ? change_.side[load] : change.side,
+                           place.load ? change_.down[load] : change.down,
+                           sensitivity_->q(link, column_) + clock_shift_ * path_->v(link, column_)};
+    if (!table_.observes) return din[static_cast<int>(channel.component)];
+    double in[3], dout[3];
+    true_values(channel, in);
+    table_.observe_tangent(t_, parameters_.data(), by_parameter_->data(), in, din, dout);
+    return dout[static_cast<int>(channel.component)];
+  }
+
+ private:
+  Positions sized() const {
+    return {VectorXd::Zero(model_.links() + 2), VectorXd::Zero(model_.links() + 2)};
+  }
+
+  catena_point point(const Trajectory& path, const VectorXd& signals, const VectorXd& p) const {
+    return {path.time.empty() ? 0.0 : path_->time[static_cast<std::size_t>(column_)],
+            path.q.col(column_).data(),
+            path.v.col(column_).data(),
+            accelerations_.data(),
+            path.z.col(column_).data(),
+            signals.data(),
+            p.data()};
+  }
+
+  void true_values(const Channel& channel, double in[3]) const {
+    const Place& place = places_[static_cast<std::size_t>(channel.point)];
+    const CablePoint at = position_of(here_, place.point);
+    const Index load = model_.links() + 1;
+    in[0] = place.load ? here_.side[load] : at.side;
+    in[1] = place.load ? here_.down[load] : at.down;
+    in[2] = path_->q(place.point.link, column_);
+  }
+
+  const Model& model_;
+  const catena_model& table_;
+  const Experiment& experiment_;
+  const VectorXd& parameters_;
+  std::vector<Place> places_;
+  VectorXd accelerations_, signals_, no_signals_;  // positions and velocities do not ask for a
+  Positions here_, rates_, change_;
+  const Trajectory* path_ = nullptr;
+  const Trajectory* sensitivity_ = nullptr;
+  const VectorXd* by_parameter_ = nullptr;
+  Index column_ = 0;
+  double t_ = 0, clock_shift_ = 0;
+};
+
+}  // namespace
+
+SimulationOptions simulation_options(const SimulationSpec& settings) {
+  SimulationOptions options;
+  options.relative_tolerance = settings.relative_tolerance;
+  options.absolute_tolerance_position = settings.absolute_tolerance_position;
+  options.absolute_tolerance_velocity = settings.absolute_tolerance_velocity;
+  options.max_steps = settings.max_steps;
+  return options;
+}
+
+Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
+                              const Experiment& experiment, const VectorXd& parameters,
+                              const State& initial, bool all_frames,
+                              const std::vector<Direction>& along,
+                              const std::function<bool()>& keep_going) {
+  const Recording& recording = experiment.recording;
+  const auto channels = static_cast<Index>(recording.channels.size());
+  const Index frames =
+      all_frames ? static_cast<Index>(recording.time.size()) : recording.fit_frames;
+  const Clock clock = clock_of(model, experiment, parameters, frames);
+
+  SimulationOptions options = simulation_options(settings);
+  options.energy = false;
+  if (keep_going) options.keep_going = [&](double) { return keep_going(); };
+  std::vector<Seed> seeds;
+  std::vector<std::size_t> seed_of;  // direction of each seed
+  for (std::size_t j = 0; j < along.size(); ++j) {
+    const Direction& direction = along[j];
+    if (!direction.parameters.size() && !direction.q.size() && !direction.v.size()) continue;
+    seed_of.push_back(j);
+    seeds.push_back({or_zero(direction.parameters, model.parameters()),
+                     or_zero(direction.q, model.coordinates()),
+                     or_zero(direction.v, model.coordinates()), VectorXd::Zero(model.states())});
+  }
+  SensitiveSimulation simulation;
+  if (seeds.empty())
+    static_cast<Simulation&>(simulation) =
+        simulate(model, parameters, initial, clock.times, options, experiment.signals);
+  else
+    simulation = simulate_with_sensitivities(model, parameters, initial, seeds, clock.times, options,
+                                             experiment.signals);
+  Prediction prediction;
+  prediction.status = simulation.status;
+  prediction.message = simulation.message;
+  prediction.simulated = Eigen::MatrixXd::Constant(channels, frames, kNotGiven);
+  if (simulation.status != Status::kSuccess) return prediction;
+
+  prediction.sensitivity.resize(along.size());
+  for (const std::size_t j : seed_of) prediction.sensitivity[j].resize(channels, frames);
+  Observer observer(model, experiment, parameters);
+  for (Index k = 0; k < frames; ++k) {
+    const auto frame = static_cast<std::size_t>(k);
+    observer.move_to(simulation.trajectory, clock.column[frame], recording.time[frame]);
+    for (Index c = 0; c < channels; ++c)
+      prediction.simulated(c, k) = observer.value(recording.channels[static_cast<std::size_t>(c)]);
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      observer.look_along(simulation.sensitivity[s], seeds[s].parameters, clock.held[frame]);
+      for (Index c = 0; c < channels; ++c)
+        prediction.sensitivity[seed_of[s]](c, k) =
+            observer.derivative(recording.channels[static_cast<std::size_t>(c)]);
+    }
+  }
+  bool finite = prediction.simulated.allFinite();
+  for (const auto& sensitivity : prediction.sensitivity) finite &= sensitivity.allFinite();
+  if (!finite) {
+    prediction.status = Status::kNotFinite;
+    prediction.message = "what the sensors would see is not finite";
+  }
+  prediction.trajectory = std::move(simulation.trajectory);
+  return prediction;
+}
+
+}  // namespace catena
