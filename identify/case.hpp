@@ -140,10 +140,10 @@ struct ErrorSpec {
   double loss_scale = 3;        ///< in units of the noise
 };
 
-enum class Method { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };
+enum class FitMethod { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };
 
 struct OptimiserSpec {
-  Method method = Method::kNelderMead;
+  FitMethod method = FitMethod::kNelderMead;
   int max_evaluations = 2000;
   double tolerance = 1e-4;     ///< relative, of unknowns and error
   double initial_step = 0.25;  ///< of the simplex: relative (of a scale for logarithmic unknowns)

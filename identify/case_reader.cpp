@@ -268,7 +268,7 @@ ErrorSpec read_error(const TomlTable& table) {
 
 OptimiserSpec read_optimiser(const TomlTable& table) {
   OptimiserSpec optimiser;
-  optimiser.method = static_cast<Method>(table.choice("method", kMethodWords, false));
+  optimiser.method = static_cast<FitMethod>(table.choice("method", kMethodWords, false));
   optimiser.max_evaluations = count(table, "max_evaluations", optimiser.max_evaluations, 1);
   optimiser.tolerance = optional_positive(table, "tolerance", optimiser.tolerance);
   optimiser.initial_step = optional_positive(table, "initial_step", optimiser.initial_step);

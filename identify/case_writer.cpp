@@ -60,7 +60,7 @@ const std::string& word(const std::vector<std::string>& words, Word value) {
   return words[static_cast<std::size_t>(value)];
 }
 
-std::string relative(const std::filesystem::path& path, const std::filesystem::path& directory) {
+std::string relative_path(const std::filesystem::path& path, const std::filesystem::path& directory) {
   const std::filesystem::path base = directory.empty() ? "." : directory;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path))
       .lexically_relative(std::filesystem::weakly_canonical(std::filesystem::absolute(base)))
@@ -135,7 +135,7 @@ void write_signals(Writer& out, const std::vector<SignalSpec>& signals, const st
   for (const SignalSpec& signal : signals) {
     out.header("[[" + table + "]]");
     out.text("name", signal.name);
-    out.text("data", relative(signal.data, directory));
+    out.text("data", relative_path(signal.data, directory));
     out.text("time", signal.time_column, "time_s");
     out.text("column", signal.column);
   }
@@ -146,7 +146,7 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
   constexpr double infinity = std::numeric_limits<double>::infinity();
   out.header("[[experiment]]");
   out.text("name", experiment.name);
-  out.text("data", relative(experiment.data, directory));
+  out.text("data", relative_path(experiment.data, directory));
   out.text("kind", word(kDataKindWords, experiment.kind));
   out.text("use", word(kUseWords, experiment.use), "fit");
   out.number("from", experiment.from, -infinity);
@@ -185,7 +185,7 @@ std::string case_text(const Case& study, const std::filesystem::path& directory)
   out.text("title", study.title);
   out.header("[model]");
   if (!study.description.empty())
-    out.text("description", relative(study.description, directory));
+    out.text("description", relative_path(study.description, directory));
   out.line("links", std::to_string(study.links));
   out.header("[cable]");
   out.number("length", study.cable.length);

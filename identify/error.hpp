@@ -24,6 +24,9 @@ struct Residuals {
 
 Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
+/// The noise to weigh each residual by: the experiment's, or 1 where it states none.
+Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
+
 /// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
 /// Infinite if the evaluation failed; a failed simulation is never a good fit.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);

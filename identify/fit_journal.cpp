@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit_journal.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace catena {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t kFailuresKept = 100;
+
+}  // namespace
+
+FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations)
+    : problem_(problem), options_(options), limit_(max_evaluations) {
+  result_.x = options.start.size() ? options.start : problem.start();
+  result_.error = kInfinite;
+  result_.start_error = kInfinite;
+}
+
+double FitJournal::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+bool FitJournal::must_stop() {
+  if (options_.stop && options_.stop->load())
+    why_ = FitStatus::kInterrupted;
+  else if (options_.time_limit > 0 && seconds() > options_.time_limit)
+    why_ = FitStatus::kTimeLimit;
+  else if (result_.evaluations >= limit_)
+    why_ = FitStatus::kEvaluationLimit;
+  else
+    return false;
+  return true;
+}
+
+void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string& message,
+                      bool jacobian) {
+  // A simulation that was stopped is no failure: nothing is known about these unknowns.
+  if (!std::isfinite(error) && must_stop() && why_ != FitStatus::kEvaluationLimit) return;
+  ++result_.evaluations;
+  result_.work += jacobian ? 1 + static_cast<double>(x.size()) : 1;
+  if (result_.history.empty()) result_.start_error = error;
+  result_.history.push_back({error, x});
+  if (options_.record) options_.record(result_.history.back());
+  if (std::isfinite(error)) {
+    if (error < result_.error) {
+      result_.error = error;
+      result_.x = x;
+    }
+  } else {
+    ++result_.failures;
+    if (result_.failed.size() < kFailuresKept) result_.failed.push_back({x, message});
+  }
+  if (options_.progress) options_.progress({result_.evaluations, limit_, result_.error});
+}
+
+double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+  if (gradient) {
+    const Evaluation evaluation = evaluate_residuals(x, true);
+    return error_and_gradient(problem_, evaluation, *gradient);
+  }
+  if (options_.recall)
+    if (const double known = options_.recall(x); !std::isnan(known)) {
+      note(x, known, "as recorded", false);
+      return known;
+    }
+  const Evaluation evaluation = evaluate_residuals(x, false);
+  return error_of(problem_, evaluation, Part::kFit);
+}
+
+Evaluation FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
+  const auto keep_going = [this] {
+    return !(options_.stop && options_.stop->load()) &&
+           !(options_.time_limit > 0 && seconds() > options_.time_limit);
+  };
+  const Evaluation evaluation = catena::evaluate(problem_, x, false, jacobian, keep_going);
+  note(x, error_of(problem_, evaluation, Part::kFit), evaluation.message, jacobian);
+  return evaluation;
+}
+
+FitResult FitJournal::result(FitStatus status, const std::string& message) {
+  result_.status = std::isfinite(result_.error) || status == FitStatus::kInterrupted ||
+                           status == FitStatus::kTimeLimit
+                       ? status
+                       : FitStatus::kFailed;
+  result_.message = message;
+  if (result_.status == FitStatus::kFailed && !result_.failed.empty())
+    result_.message = "no simulation succeeded; the first: " + result_.failed.front().message;
+  result_.seconds = seconds();
+  return result_;
+}
+
+}  // namespace catena

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "identify/error.hpp"
+#include "identify/fit.hpp"
+
+namespace catena {
+
+/// What every method of fitting shares: it evaluates the error, keeps the best, counts and reports
+/// failures, and knows when to stop (limits, interruption).
+class FitJournal {
+ public:
+  FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations);
+
+  /// The error at x and, if wanted, its gradient (gradient methods). Infinite where the simulation
+  /// failed.
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
+  /// The residuals at x (least squares); the error is recorded.
+  Evaluation evaluate_residuals(const Eigen::VectorXd& x, bool jacobian);
+
+  bool must_stop();
+  FitStatus why_stopped() const { return why_; }
+  void count_iteration() { ++result_.iterations; }
+
+  FitResult result(FitStatus status, const std::string& message);
+
+ private:
+  void note(const Eigen::VectorXd& x, double error, const std::string& message, bool jacobian);
+  double seconds() const;
+
+  const Problem& problem_;
+  const FitOptions& options_;
+  int limit_;
+  FitResult result_;
+  FitStatus why_ = FitStatus::kConverged;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace catena
