@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "generator/description/effect.hpp"
+#include "generator/description/effect_checks.hpp"
 #include "generator/description/nearest_name.hpp"
 #include "generator/description/toml_reader.hpp"
 #include "generator/description/unit.hpp"
@@ -74,7 +75,7 @@ class EffectReader {
     read_scalars();
     read_whole_chain_terms();
     file_.finish();
-    check_physics();
+    check_consistency(effect_);
     return std::move(effect_);
   }
 
@@ -323,23 +324,6 @@ class EffectReader {
     if (const auto table = file_.optional_table("sensor")) {
       effect_.sensor = {expression(*table, "side"), expression(*table, "down"),
                         expression(*table, "angle"), expression(*table, "clock")};
-    }
-  }
-
-  void check_physics() const {
-    const Kinematics& k = effect_.kinematics;
-    const bool changes_kinematics = k.centre_offset.given() || k.load_offset.given() ||
-                                    k.load_inertia.given() || k.load_mass.given() ||
-                                    k.rest_angle.given() || k.pivot_rest_angle.given() ||
-                                    k.extension.given() || k.gravity_tilt.given();
-    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.side.given() &&
-        !effect_.support.down.given() && !changes_kinematics && !effect_.sensor.given()) {
-      file_.fail(
-          "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
-          "support, kinematics or sensor");
-    }
-    if (!effect_.coordinates.empty() && effect_.scalars.empty() && effect_.forces.empty()) {
-      file_.fail("a new coordinate needs a potential, dissipation or force that governs it");
     }
   }
 

@@ -15,6 +15,13 @@ const std::string kHead =
 const std::string kForce = "[[force]]\nat = \"load\"\nside = \"-c*velocity_side\"\n";
 const std::string kParameter = "[parameters.c]\nunit = \"N s/m\"\ndescription = \"c\"\n";
 
+// A force that uses its parameter, and one that has none.
+const std::string kForceAlone = "[[force]]\nat = \"load\"\nside = \"load_mass*gravity\"\n";
+
+std::string energy(const char* kind, const char* value) {
+  return std::string("[[") + kind + "]]\nat = \"load\"\nvalue = \"" + value + "\"\n";
+}
+
 Effect read(const std::string& body) {
   return read_effect(TomlTable::parse(kHead + body, "drag.toml", "effect"));
 }
@@ -28,7 +35,10 @@ TEST_CASE("an effect is read whole") {
            "[[signal]]\nname = \"wind\"\nunit = \"m/s\"\n" +
            "[[coordinate]]\nname = \"strain\"\nunit = \"1\"\nper = \"link\"\n" +
            "[[state]]\nname = \"slip\"\nunit = \"rad\"\nper = \"joint\"\nrate = \"joint_rate\"\n" +
-           "[[definition]]\nname = \"speed\"\nat = \"load\"\nvalue = \"velocity_side\"\n" + kForce +
+           "[[definition]]\nname = \"speed\"\nat = \"load\"\nvalue = \"velocity_side + floor - "
+           "wind\"\n" +
+           "[[torque]]\nat = \"joint\"\nvalue = \"slip\"\n" +
+           "[[force]]\nat = \"load\"\nside = \"-c*speed\"\n" +
            "[[potential]]\nat = \"link\"\nper = \"length\"\nvalue = \"c*strain\"\n" +
            "[support]\nside = \"c\"\n[kinematics]\nload_mass = 2\n[sensor]\nclock = \"time\"\n");
   CHECK(effect.id == "drag");
@@ -46,17 +56,22 @@ TEST_CASE("an effect is read whole") {
   REQUIRE(effect.definitions.size() == 1);
   CHECK(effect.definitions[0].at == Place::kLoad);
   REQUIRE(effect.forces.size() == 1);
-  CHECK(effect.forces[0].side.text == "-c*velocity_side");
+  CHECK(effect.forces[0].side.text == "-c*speed");
   CHECK(effect.forces[0].side.key == "force.side");
   CHECK(effect.forces[0].side.file == "drag.toml");
-  CHECK(effect.forces[0].side.line == 34);
+  CHECK(effect.forces[0].side.line == 37);
   CHECK_FALSE(effect.forces[0].down.given());
-  REQUIRE(effect.scalars.size() == 1);
-  CHECK(effect.scalars[0].kind == ScalarKind::kPotential);
-  CHECK(effect.scalars[0].per_length);
+  REQUIRE(effect.scalars.size() == 2);  // torques first, then energies
+  CHECK(effect.scalars[0].kind == ScalarKind::kTorque);
+  CHECK(effect.scalars[1].kind == ScalarKind::kPotential);
+  CHECK(effect.scalars[1].per_length);
   CHECK(effect.support.side.given());
   CHECK(effect.kinematics.load_mass.text == "2");
   CHECK(effect.sensor.given());
+}
+
+TEST_CASE("numbers are not taken for names") {
+  CHECK(read("[[force]]\nat = \"load\"\nside = \"1e-6*2.5e3\"\n").forces.size() == 1);
 }
 
 TEST_CASE("a value at which the effect vanishes only in the limit gives no default") {
@@ -121,6 +136,23 @@ TEST_CASE("what is wrong with an effect is said where it stands") {
        "drag.toml:1: a new coordinate needs a potential, dissipation or force"},
       {"[[state]]\nname = \"z\"\nunit = \"m\"\nper = \"joint\"\n" + kForce,
        "drag.toml:6: state: \"rate\" is missing"},
+      {kParameter + kForceAlone, "drag.toml:1: \"c\" stands in no expression; use it or take"},
+      {"[constants.e]\nvalue = 1e-6\nunit = \"1\"\n" + kForceAlone,
+       "drag.toml:1: \"e\" stands in no expression"},
+      {energy("potential", "gravity*time"),
+       "drag.toml:8: potential.value: in \"gravity*time\": \"time\" cannot stand in an energy"},
+      {energy("kinetic", "gravity*time"),
+       "drag.toml:8: kinetic.value: in \"gravity*time\": \"time\" cannot stand in an energy"},
+      {energy("potential", "rate^2"),
+       "drag.toml:8: potential.value: in \"rate^2\": \"rate\" cannot stand in a potential"},
+      {"[[definition]]\nname = \"w\"\nat = \"load\"\nvalue = \"velocity_side\"\n" +
+           energy("potential", "w"),
+       "drag.toml:12: potential.value: in \"w\": \"w\" cannot stand in a potential"},
+      {"[[state]]\nname = \"z\"\nunit = \"m\"\nper = \"joint\"\nrate = \"1\"\n" +
+           energy("potential", "z"),
+       "drag.toml:13: potential.value: in \"z\": \"z\" cannot stand in an energy: states are not"},
+      {"[kinematics]\nload_offset = \"time\"\n",
+       "drag.toml:7: kinematics.load_offset: in \"time\": \"time\" cannot stand here"},
       {"[[signal]]\nname = \"u\"\nunit = \"m\"\n[[signal]]\nname = \"u_rate\"\nunit = \"m\"\n" +
            kForce,
        "drag.toml:10: signal.name: \"u_rate\" is given twice"},

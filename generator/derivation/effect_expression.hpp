@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The expressions of effect files, checked and turned into GiNaC's. The whole grammar:
+//
+//     sum      = product { ("+" | "-") product }
+//     product  = factor { ("*" | "/") factor }
+//     factor   = [ "-" | "+" ] factor | power
+//     power    = primary [ "^" factor ]            right-associative, before the sign: -x^2 =
+//     -(x^2) primary  = number | name | function "(" sum ")" | "(" sum ")" number   = 12, 0.5, 1e-6
+//     exact: 0.1 is one tenth function = sin cos tan exp log sqrt tanh sinh cosh atan asinh
+//
+// `pi` is a number; every other name must be a symbol of the place the expression stands at. An
+// exponent must come out as a rational number p/q. Units are checked as the text is written, before
+// GiNaC may reorder or cancel anything: terms of a sum have one unit, arguments of functions (sqrt
+// aside) and exponents none. A term written as 0 has any unit. Radians are no unit.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "generator/description/effect.hpp"
+#include "generator/description/unit.hpp"
+
+namespace catena {
+
+/// The symbols that have a meaning where an expression stands.
+struct ExpressionContext {
+  std::map<std::string, std::pair<GiNaC::ex, Unit>> symbols;
+
+  void add(const std::string& name, const GiNaC::ex& value, const Unit& unit) {
+    symbols[name] = {value, unit};
+  }
+};
+
+/// Throws InputError "file:line: key: in "text": ..." that names the sub-term, both units or the
+/// nearest symbol, and what to do.
+GiNaC::ex parse_expression(const Expression& expression, const ExpressionContext& context,
+                           const Unit& expected);
+
+/// The same with whatever unit the expression has.
+std::pair<GiNaC::ex, Unit> parse_expression(const Expression& expression,
+                                            const ExpressionContext& context);
+
+/// Parses the definition with the symbols known so far and adds its name to them.
+void add_definition(const Definition& definition, ExpressionContext& context);
+
+/// "0.1" as 1/10. The text is a decimal number as Constant::text has it.
+GiNaC::ex exact_number(const std::string& decimal);
+
+}  // namespace catena
