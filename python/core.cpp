@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// catena._core: models and simulation for Python. Arrays that come out are views of the C++ memory,
+// one row per time; the interpreter's lock is released while something is computed, and Ctrl-C is
+// looked at a few times a second.
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+
+#include "generator/description/input_error.hpp"
+#include "python/core.hpp"
+#include "runtime/initial_shape.hpp"
+#include "runtime/model.hpp"
+#include "runtime/positions.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/simulation.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace catena::python {
+
+bool SignalCheck::operator()() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return !raised_;
+  next_ = now + std::chrono::milliseconds(100);
+  py::gil_scoped_acquire lock;
+  raised_ = raised_ || PyErr_CheckSignals() != 0;
+  return !raised_;
+}
+
+void SignalCheck::rethrow() const {
+  if (raised_) throw py::error_already_set();
+}
+
+namespace {
+
+/// A view of a matrix with one column per time as an array with one row per time; `owner` keeps
+/// the memory alive.
+py::array rows_per_time(const Eigen::MatrixXd& matrix, py::handle owner) {
+  py::array_t<double> view({matrix.cols(), matrix.rows()}, matrix.data(), owner);
+  view.attr("setflags")("write"_a = false);
+  return view;
+}
+
+template <class Member>
+auto view_of(Member member) {
+  return [member](py::object self) {
+    return rows_per_time(self.cast<const Trajectory&>().*member, self);
+  };
+}
+
+SimulationOptions options_of(double relative_tolerance, double absolute_tolerance_position,
+                             double absolute_tolerance_velocity, long max_steps,
+                             SignalCheck& check) {
+  SimulationOptions options;
+  options.relative_tolerance = relative_tolerance;
+  options.absolute_tolerance_position = absolute_tolerance_position;
+  options.absolute_tolerance_velocity = absolute_tolerance_velocity;
+  options.max_steps = max_steps;
+  options.keep_going = [&check](double) { return check(); };
+  return options;
+}
+
+void require_success(const Simulation& simulation, const SignalCheck& check) {
+  check.rethrow();
+  if (simulation.status != Status::kSuccess)
+    throw ComputationError(std::string(status_name(simulation.status)) + ": " + simulation.message);
+}
+
+Simulation run(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+               const std::vector<double>& times, double relative_tolerance,
+               double absolute_tolerance_position, double absolute_tolerance_velocity,
+               long max_steps) {
+  SignalCheck check;
+  Simulation simulation;
+  {
+    py::gil_scoped_release unlock;
+    simulation = simulate(model, parameters, initial, times,
+                          options_of(relative_tolerance, absolute_tolerance_position,
+                                     absolute_tolerance_velocity, max_steps, check));
+  }
+  require_success(simulation, check);
+  return simulation;
+}
+
+SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::VectorXd& parameters,
+                                           const State& initial, const std::vector<Seed>& seeds,
+                                           const std::vector<double>& times,
+                                           double relative_tolerance,
+                                           double absolute_tolerance_position,
+                                           double absolute_tolerance_velocity, long max_steps) {
+  SignalCheck check;
+  SensitiveSimulation simulation;
+  {
+    py::gil_scoped_release unlock;
+    simulation = simulate_with_sensitivities(
+        model, parameters, initial, seeds, times,
+        options_of(relative_tolerance, absolute_tolerance_position, absolute_tolerance_velocity,
+                   max_steps, check));
+  }
+  require_success(simulation, check);
+  return simulation;
+}
+
+/// (times x points) side and down of the support, the far end of each link, and the load.
+py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& parameters,
+                              const Trajectory& trajectory) {
+  const auto points = static_cast<Eigen::Index>(model.links() + 2);
+  const auto times = static_cast<Eigen::Index>(trajectory.time.size());
+  py::array_t<double> side({times, points}), down({times, points});
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<Rows> side_rows(side.mutable_data(), times, points);
+  Eigen::Map<Rows> down_rows(down.mutable_data(), times, points);
+  for (Eigen::Index k = 0; k < times; ++k) {
+    const Positions at = positions(model, parameters, trajectory.time[static_cast<std::size_t>(k)],
+                                   trajectory.q.col(k));
+    side_rows.row(k) = at.side;
+    down_rows.row(k) = at.down;
+  }
+  return py::make_tuple(side, down);
+}
+
+std::vector<std::string> parameter_names(const Model& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < model.parameters(); ++i)
+    names.emplace_back(model.table().parameter[i].name);
+  return names;
+}
+
+std::vector<std::string> energy_names(const Model& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < model.energies(); ++i)
+    names.emplace_back(model.table().energy_item[i].name);
+  return names;
+}
+
+/// The model's parameter array from values by name: a family ("stiffness") sets all of its members.
+Eigen::VectorXd parameters_from(const Model& model, const py::kwargs& values) {
+  Eigen::VectorXd parameters = model.default_parameters();
+  for (const auto& [key, value] : values) {
+    const auto name = key.cast<std::string>();
+    const auto numbers = py::array_t<double, py::array::forcecast>::ensure(value);
+    if (!numbers) throw py::error_already_set();
+    std::vector<int> targets;
+    for (int i = 0; i < model.parameters(); ++i) {
+      const std::string_view parameter = model.table().parameter[i].name;
+      const bool member = parameter.starts_with(name + "_") &&
+                          parameter.find_first_not_of("0123456789", name.size() + 1) ==
+                              std::string_view::npos;
+      if (parameter == name || member) targets.push_back(i);
+    }
+    if (targets.empty()) model.parameter_index(name);  // throws, naming the nearest
+    if (numbers.size() != 1 && numbers.size() != static_cast<py::ssize_t>(targets.size()))
+      throw std::invalid_argument(name + ": " + std::to_string(numbers.size()) +
+                                  " values; one is expected, or one for each of the " +
+                                  std::to_string(targets.size()));
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      parameters[targets[i]] = numbers.data()[numbers.size() == 1 ? 0 : static_cast<py::ssize_t>(i)];
+  }
+  return parameters;
+}
+
+void add_model(py::module_& module) {
+  py::class_<Model>(module, "Model",
+                    "An emitted model of a chain of links. Model(12) is the plain chain of 12 links.")
+      .def(py::init(&Model::built_in), "links"_a)
+      .def_static("load", &Model::load, "shared_library"_a,
+                  "A model compiled as a shared library.")
+      .def_static("built_in_links", &Model::built_in_links,
+                  "The link counts for which Model(links) works without a compiler.")
+      .def_property_readonly("links", &Model::links)
+      .def_property_readonly("coordinates", &Model::coordinates)
+      .def_property_readonly("states", &Model::states)
+      .def_property_readonly("parameter_names", &parameter_names)
+      .def_property_readonly("energy_names", &energy_names)
+      .def("parameter_index", &Model::parameter_index, "name"_a,
+           "Place of a parameter in the parameter array.")
+      .def("default_parameters", &Model::default_parameters,
+           "Defaults in the order of parameter_names; NaN where a value must be given.")
+      .def("parameters", &parameters_from,
+           "The parameter array from values by name. A family such as stiffness sets stiffness_1, "
+           "stiffness_2, ... to one value or to one value each; what is not named keeps its default.")
+      .def("__repr__", [](const Model& model) {
+        return "catena.Model(" + std::to_string(model.links()) + " links, " +
+               std::to_string(model.parameters()) + " parameters)";
+      });
+
+  py::class_<State>(module, "State", "Coordinates q (rad), their rates v (rad/s), extra states z.")
+      .def(py::init(&State::zero), "model"_a)
+      .def_readwrite("q", &State::q)
+      .def_readwrite("v", &State::v)
+      .def_readwrite("z", &State::z);
+  module.def("straight", &straight, "model"_a, "angle"_a,
+             "At rest, every link at this angle from the downward vertical (rad).");
+  module.def("from_angles", &from_angles, "model"_a, "angles"_a,
+             "At rest, link i at angles[i] (rad).");
+  module.def(
+      "catenary",
+      [](const Model& model, const Eigen::VectorXd& parameters, double side, double down,
+         bool ends_at_held) {
+        return catenary(model, parameters, {side, down},
+                        ends_at_held ? CatenaryFit::kEndHeld : CatenaryFit::kChords);
+      },
+      "model"_a, "parameters"_a, "side"_a, "down"_a, "ends_at_held"_a = true,
+      "At rest on the catenary (2.53) from the support to where the end is held (m).");
+}
+
+void add_simulation(py::module_& module) {
+  py::class_<Trajectory>(module, "Trajectory", "A motion, one row per time.")
+      .def_property_readonly("time",
+                             [](py::object self) {
+                               const auto& time = self.cast<const Trajectory&>().time;
+                               py::array_t<double> view(static_cast<py::ssize_t>(time.size()),
+                                                        time.data(), self);
+                               view.attr("setflags")("write"_a = false);
+                               return view;
+                             })
+      .def_property_readonly("q", view_of(&Trajectory::q), "Coordinates, rad.")
+      .def_property_readonly("v", view_of(&Trajectory::v), "Rates, rad/s.")
+      .def_property_readonly("z", view_of(&Trajectory::z), "Extra states.")
+      .def_property_readonly("energy", view_of(&Trajectory::energy),
+                             "J, one column per entry of Model.energy_names.");
+  py::class_<Statistics>(module, "Statistics", "What the integrator did.")
+      .def_readonly("steps", &Statistics::steps)
+      .def_readonly("residual_evaluations", &Statistics::residual_evaluations)
+      .def_readonly("jacobian_evaluations", &Statistics::jacobian_evaluations)
+      .def_readonly("newton_iterations", &Statistics::newton_iterations)
+      .def_readonly("error_test_failures", &Statistics::error_test_failures)
+      .def_readonly("newton_failures", &Statistics::newton_failures)
+      .def_readonly("cpu_seconds", &Statistics::cpu_seconds);
+  py::class_<Simulation>(module, "Simulation", "A motion and how it was computed.")
+      .def_readonly("trajectory", &Simulation::trajectory)
+      .def_readonly("statistics", &Simulation::statistics)
+      .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
+                    "Largest |stored + dissipated - supplied - initial| over the times, J.");
+  py::class_<SensitiveSimulation, Simulation>(
+      module, "SensitiveSimulation", "A simulation with its derivatives along the seeds.")
+      .def_readonly("sensitivity", &SensitiveSimulation::sensitivity);
+  py::class_<Seed>(module, "Seed", "A direction in parameters and initial state.")
+      .def(py::init(&Seed::zero), "model"_a)
+      .def_static("parameter", &Seed::parameter, "model"_a, "index"_a,
+                  "Only this parameter varies, at rate one.")
+      .def_readwrite("parameters", &Seed::parameters)
+      .def_readwrite("q", &Seed::q)
+      .def_readwrite("v", &Seed::v)
+      .def_readwrite("z", &Seed::z);
+
+  const SimulationOptions defaults;
+  module.def("simulate", &run, "model"_a, "parameters"_a, "initial"_a, "times"_a, py::kw_only(),
+             "relative_tolerance"_a = defaults.relative_tolerance,
+             "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
+             "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
+             "max_steps"_a = defaults.max_steps,
+             "The motion from `initial` at times[0], reported at every time (s, increasing). Raises "
+             "ComputationError, naming state and time, where the integration fails.");
+  module.def("simulate_with_sensitivities", &run_with_sensitivities, "model"_a, "parameters"_a,
+             "initial"_a, "seeds"_a, "times"_a, py::kw_only(),
+             "relative_tolerance"_a = defaults.relative_tolerance,
+             "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
+             "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
+             "max_steps"_a = defaults.max_steps,
+             "simulate, with the derivative of the motion along each seed.");
+  module.def("positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
+             "side and down (m), times x (links + 2): the support, the far end of each link, the load.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "Models, simulation, identification and diagnosis of a hanging cable.";
+  py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::register_exception<ComputationError>(module, "ComputationError", PyExc_RuntimeError);
+  add_model(module);
+  add_simulation(module);
+  add_studies(module);
+}
+
+}  // namespace catena::python
