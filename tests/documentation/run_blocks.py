@@ -90,7 +90,8 @@ def main():
     text = page.read_text()
     environment = dict(
         os.environ,
-        PATH=f"{binaries / 'bin'}:{os.environ['PATH']}",
+        PATH=f"{binaries / 'bin'}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}",
+        PYTHONPATH=str(binaries / "python"),
         CATENA_CACHE=str(binaries / "model_cache"),
         CATENA_DATA=os.environ.get("CATENA_DATA", str(ROOT.parent / "shared" / "data")),
     )
