@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The expressions of effect files, checked and turned into GiNaC's. The whole grammar:
-//
-//     sum      = product { ("+" | "-") product }
-//     product  = factor { ("*" | "/") factor }
-//     factor   = [ "-" | "+" ] factor | power
-//     power    = primary [ "^" factor ]            right-associative, before the sign: -x^2 =
-//     -(x^2) primary  = number | name | function "(" sum ")" | "(" sum ")" number   = 12, 0.5, 1e-6
-//     exact: 0.1 is one tenth function = sin cos tan exp log sqrt tanh sinh cosh atan asinh
-//
-// `pi` is a number; every other name must be a symbol of the place the expression stands at. An
-// exponent must come out as a rational number p/q. Units are checked as the text is written, before
-// GiNaC may reorder or cancel anything: terms of a sum have one unit, arguments of functions (sqrt
-// aside) and exponents none. A term written as 0 has any unit. Radians are no unit.
+// The expressions of effect files (grammar: generator/description/expression_syntax.hpp), checked
+// and turned into GiNaC's. Numbers are exact: 0.1 is one tenth. `pi` is a number; every other name
+// must be a symbol of the place the expression stands at. An exponent must come out as a rational
+// number p/q. Units are checked on the text as written, before GiNaC may reorder or cancel
+// anything: terms of a sum have one unit, arguments of functions (sqrt aside) and exponents none. A
+// term written as 0 has any unit. Radians are no unit.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -47,7 +40,8 @@ std::pair<GiNaC::ex, Unit> parse_expression(const Expression& expression,
 /// Parses the definition with the symbols known so far and adds its name to them.
 void add_definition(const Definition& definition, ExpressionContext& context);
 
-/// "0.1" as 1/10. The text is a decimal number as Constant::text has it.
+/// "0.1" as 1/10. The text is a decimal number as Constant::text has it. Throws std::out_of_range
+/// beyond 400 powers of ten.
 GiNaC::ex exact_number(const std::string& decimal);
 
 }  // namespace catena

@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generator/description/effect_checks.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 
+#include "generator/description/expression_syntax.hpp"
 #include "generator/description/input_error.hpp"
 
 namespace catena {
 namespace {
-
-// The names that stand in an expression.
-std::set<std::string> names_in(const std::string& text) {
-  std::set<std::string> names;
-  const auto inner = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
-  for (auto at = text.begin(); at != text.end();) {
-    const auto end = std::find_if_not(at, text.end(), inner);
-    if (at == end) {
-      ++at;
-    } else {
-      // A number, 1e-6 too, is no name.
-      if (std::isalpha(static_cast<unsigned char>(*at))) names.emplace(at, end);
-      at = end;
-    }
-  }
-  return names;
-}
 
 class Checks {
  public:
@@ -49,11 +31,6 @@ class Checks {
     throw InputError(effect_.source_file + ":1: " + problem);
   }
 
-  [[noreturn]] static void fail(const Expression& expression, const std::string& problem) {
-    throw InputError(expression.file + ":" + std::to_string(expression.line) + ": " +
-                     expression.key + ": in \"" + expression.text + "\": " + problem);
-  }
-
   // Calls act(expression) for each that is given.
   template <class Action>
   void each_kinematic(const Action& act) const {
@@ -68,7 +45,7 @@ class Checks {
   // The names given here and those made from them by definitions.
   std::set<std::string> with_definitions(std::set<std::string> names) const {
     for (const Definition& definition : effect_.definitions) {
-      for (const std::string& used : names_in(definition.value.text)) {
+      for (const std::string& used : names_in(definition.value)) {
         if (names.contains(used)) names.insert(definition.name);
       }
     }
@@ -77,8 +54,8 @@ class Checks {
 
   static void refuse(const Expression& expression, const std::set<std::string>& names,
                      const std::string& why) {
-    for (const std::string& used : names_in(expression.text)) {
-      if (names.contains(used)) fail(expression, "\"" + used + "\" " + why);
+    for (const std::string& used : names_in(expression)) {
+      if (names.contains(used)) fail_at(expression, "\"" + used + "\" " + why);
     }
   }
 
@@ -114,7 +91,7 @@ class Checks {
 
   void check_all_used() const {
     std::set<std::string> used;
-    const auto use = [&](const Expression& expression) { used.merge(names_in(expression.text)); };
+    const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
     for (const Definition& definition : effect_.definitions) use(definition.value);
     for (const ForceTerm& force : effect_.forces) {
       use(force.side), use(force.down), use(force.normal), use(force.tangential);
