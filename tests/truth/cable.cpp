@@ -35,9 +35,8 @@ Vector operator*(double s, Vector a) { return {s * a.side, s * a.down}; }
 double dot(Vector a, Vector b) { return a.side * b.side + a.down * b.down; }
 double norm(Vector a) { return std::sqrt(dot(a, a)); }
 
-/// sign(x) with a rounded corner of width `scale`.
-double rounded_sign(double x, double scale) { return x / std::sqrt(x * x + scale * scale); }
-constexpr double kFrictionScale = 0.01;  // rad/s
+/// The sign of a rate (rad/s), rounded below 0.008 rad/s: sharper than any rate of interest.
+double rounded_sign(double rate) { return std::tanh(rate / 0.008); }
 
 class Chain {
  public:
@@ -45,7 +44,7 @@ class Chain {
       : cable_(cable),
         hidden_(hidden),
         n_(cable.links),
-        unknowns_(hidden.axial_compliance > 0 ? 2 * n_ : n_),
+        unknowns_(hidden.axial_stiffness > 0 ? 2 * n_ : n_),
         link_(cable.length / n_),
         link_mass_(cable.density * cable.length / n_) {}
 
@@ -59,8 +58,8 @@ class Chain {
 
   Vector support(double t) const {
     const double w = 2 * std::numbers::pi * hidden_.support_frequency;
-    const double s = std::sin(w * t + hidden_.support_phase);
-    return {hidden_.support_side_amplitude * s, hidden_.support_down_amplitude * s};
+    return {hidden_.support_side_amplitude * std::sin(w * t + hidden_.support_side_phase),
+            hidden_.support_down_amplitude * std::sin(w * t + hidden_.support_down_phase)};
   }
 
   double extension(const VectorXd& q, int i) const { return unknowns_ > n_ ? q[n_ + i] : 0.0; }
@@ -73,8 +72,7 @@ class Chain {
   struct Moving {
     Vector position, velocity, acceleration;
   };
-  Vector cable_force(double t, Vector at, Vector velocity, Vector along, Vector across,
-                     Vector acceleration) const;
+  Vector cable_force(Vector velocity, Vector along, Vector across) const;
   Vector load_force(double t, Vector at, Vector velocity) const;
 
   Cable cable_;
@@ -85,26 +83,24 @@ class Chain {
 };
 
 /// Hidden forces on one link at its centre; gravity and inertia are added by the caller.
-Vector Chain::cable_force(double, Vector, Vector velocity, Vector along, Vector across,
-                          Vector acceleration) const {
+Vector Chain::cable_force(Vector velocity, Vector along, Vector across) const {
   const Hidden& h = hidden_;
   const double vn = dot(velocity, across), vt = dot(velocity, along);
-  const double speed = norm(velocity);
   Vector force =
-      (-h.drag_linear_normal * vn - h.drag_quadratic_normal * speed * vn) * across +
-      (-h.drag_linear_tangential * vt - h.drag_quadratic_tangential * speed * vt) * along;
-  if (h.wind_drag != 0) {
-    const Vector relative = velocity - Vector{h.wind_speed, 0};
-    force = force - (h.wind_drag * norm(relative)) * relative;
-  }
-  force = force - (h.added_mass * dot(acceleration, across)) * across;
-  force = force - Vector{0, h.buoyancy * cable_.gravity};
-  return link_ * force;
+      -h.drag_isotropic * norm(velocity) * velocity +
+      (-h.drag_linear_normal * vn - h.drag_quadratic_normal * std::abs(vn) * vn) * across +
+      (-h.drag_linear_tangential * vt - h.drag_quadratic_tangential * std::abs(vt) * vt) * along;
+  const Vector relative = velocity - Vector{h.wind, 0};
+  const double un = dot(relative, across), ut = dot(relative, along);
+  force = force + (-h.wind_normal * std::abs(un) * un) * across +
+          (-h.wind_tangential * std::abs(ut) * ut) * along;
+  return link_ * (force - Vector{0, h.buoyancy * cable_.gravity});
 }
 
 Vector Chain::load_force(double t, Vector at, Vector velocity) const {
   const Hidden& h = hidden_;
-  Vector force = -h.load_drag * norm(velocity) * velocity;
+  Vector force =
+      -h.load_drag * norm(velocity) * velocity - Vector{0, h.load_buoyancy * cable_.gravity};
   if (h.magnet != 0) {
     const Vector away = Vector{0, cable_.length + h.magnet_depth} - at;
     const double distance2 = dot(away, away) + 1e-4;
@@ -122,16 +118,25 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
   const Hidden& h = hidden_;
   const bool stretches = unknowns_ > n_;
   thread_local std::vector<Vector> lack, along, across;
+  thread_local std::vector<double> turning;  // moments on a link, but for those of its joints
   lack.resize(static_cast<std::size_t>(n_));
   along.resize(lack.size());
   across.resize(lack.size());
+  turning.resize(lack.size());
 
   const Vector gravity = {cable_.gravity * std::sin(h.gravity_tilt),
                           cable_.gravity * std::cos(h.gravity_tilt)};
   const double w = 2 * std::numbers::pi * h.support_frequency;
-  const double s = std::sin(w * t + h.support_phase), c = std::cos(w * t + h.support_phase);
-  const Vector amplitude = {h.support_side_amplitude, h.support_down_amplitude};
-  Moving end = {s * amplitude, w * c * amplitude, -w * w * s * amplitude};
+  const auto harmonic = [&](double amplitude, double phase, double& x, double& xd, double& xdd) {
+    x = amplitude * std::sin(w * t + phase);
+    xd = amplitude * w * std::cos(w * t + phase);
+    xdd = -w * w * x;
+  };
+  Moving end;
+  harmonic(h.support_side_amplitude, h.support_side_phase, end.position.side, end.velocity.side,
+           end.acceleration.side);
+  harmonic(h.support_down_amplitude, h.support_down_phase, end.position.down, end.velocity.down,
+           end.acceleration.down);
 
   // Down the chain: positions, velocities, accelerations, and what each link is short of.
   for (int i = 0; i < n_; ++i) {
@@ -146,10 +151,20 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
               end.acceleration + (ddd - d * v[i] * v[i]) * along[k] +
                   (d * a[i] + 2 * dd * v[i]) * across[k]};
     };
-    const Moving centre = beyond(link_ / 2 + h.centre_offset, 0.5);
-    lack[k] =
-        link_mass_ * (gravity - centre.acceleration) +
-        cable_force(t, centre.position, centre.velocity, along[k], across[k], centre.acceleration);
+    const Moving centre = beyond((0.5 + h.centre_fraction) * link_, 0.5 + h.centre_fraction);
+    lack[k] = link_mass_ * (gravity - centre.acceleration) +
+              cable_force(centre.velocity, along[k], across[k]);
+    turning[k] = -h.link_damping * link_ * v[i];
+    if (h.added_normal != 0 || h.added_tangential != 0) {
+      // The fluid's momentum is link (normal vn n + tangential vt t); force = minus its rate, and
+      // the axes that turn with the link leave the moment link (tangential - normal) vn vt.
+      const double vn = dot(centre.velocity, across[k]), vt = dot(centre.velocity, along[k]);
+      const double vnd = dot(centre.acceleration, across[k]) - v[i] * vt;
+      const double vtd = dot(centre.acceleration, along[k]) + v[i] * vn;
+      lack[k] = lack[k] - link_ * h.added_normal * (vnd * across[k] - (vn * v[i]) * along[k]) -
+                link_ * h.added_tangential * (vtd * along[k] + (vt * v[i]) * across[k]);
+      turning[k] += link_ * (h.added_tangential - h.added_normal) * vn * vt;
+    }
     if (i == n_ / 2 - 1) {  // the link whose lower end is mid-cable
       if (h.wall_spring != 0) lack[k].side -= h.wall_spring * (centre.position.side - h.wall_side);
       if (h.kick != 0) {  // a smooth push of 40 ms
@@ -169,7 +184,8 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                               end.acceleration + (-d * v[n_ - 1] * v[n_ - 1]) * along[last] +
                                   (d * a[n_ - 1]) * across[last]};
   Vector carried = load * (gravity - load_centre.acceleration) +
-                   load_force(t, load_centre.position, load_centre.velocity);
+                   load_force(t, load_centre.position, load_centre.velocity) -
+                   h.load_added_mass * load_centre.acceleration;
 
   // Up the chain: the projections.
   const double stiffness = cable_.bending_stiffness / link_,
@@ -181,24 +197,21 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     const double e = stretches ? q[n_ + i] : 0;
     const double angle = q[i] - (i > 0 ? q[i - 1] : 0), rate = v[i] - (i > 0 ? v[i - 1] : 0);
     double moment = stiffness * (angle - h.rest_curvature * link_) + damping * rate +
+                    h.joint_quadratic_damping * std::abs(rate) * rate +
                     h.cubic_stiffness * angle * angle * angle +
-                    h.joint_friction * rounded_sign(rate, kFrictionScale);
-    if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_angle * memory[i];
+                    h.joint_friction * rounded_sign(rate);
+    if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
-      moment += h.pivot_stiffness * angle + h.pivot_damping * rate +
-                h.pivot_friction * rounded_sign(rate, kFrictionScale);
-    const double lever = link_ / 2 + h.centre_offset + e / 2;
+      moment += -stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
+                h.pivot_damping * rate + h.pivot_friction * rounded_sign(rate);
+    const double lever = (0.5 + h.centre_fraction) * (link_ + e);
     double torque = dot(across[k], (link_ + e) * carried + lever * lack[k]) - rotary * a[i] -
-                    moment + moment_below;
+                    moment + moment_below + turning[k];
     if (i == n_ - 1) torque += d * dot(across[k], carried) - h.load_rotary_inertia * a[i];
     r[i] = torque;
-    if (stretches) {
-      const double axial = e / (link_ * h.axial_compliance);
-      // a little axial damping, 1 % of critical for the load on its spring
-      const double axial_damping =
-          0.02 * std::sqrt(load / (h.axial_compliance * cable_.length)) * n_;
-      r[n_ + i] = dot(along[k], carried + 0.5 * lack[k]) - axial - axial_damping * v[n_ + i];
-    }
+    if (stretches)
+      r[n_ + i] = dot(along[k], carried + (0.5 + h.centre_fraction) * lack[k]) -
+                  h.axial_stiffness / link_ * (e + h.axial_relaxation * v[n_ + i]);
     moment_below = moment;
     carried = carried + lack[k];
   }
@@ -291,7 +304,7 @@ class Midpoint {
     for (int i = 0; i < chain_.links(); ++i) {
       const double w = middle[i] - (i > 0 ? middle[i - 1] : 0);
       m[i] = (memory_[i] + 0.5 * step_ * w) /
-             (1 + 0.5 * step_ * std::abs(w) / hidden_.hysteresis_angle);
+             (1 + 0.5 * step_ * std::abs(w) / hidden_.hysteresis_reach);
     }
     return m;
   }
@@ -336,7 +349,7 @@ VectorXd start_state(const Cable& cable, const Hidden& hidden, const Chain& chai
   // an extensible cable starts stretched by the load's weight, not slack
   if (chain.unknowns() > cable.links)
     q.tail(cable.links)
-        .setConstant(hidden.axial_compliance * chain.link() * cable.load_mass * cable.gravity);
+        .setConstant(chain.link() * cable.load_mass * cable.gravity / hidden.axial_stiffness);
   return q;
 }
 

@@ -29,7 +29,7 @@ struct Motion {
 };
 
 struct Integration {
-  double step = 2.5e-4;  // s; halving it moves no marker of the recordings by more than 0.05 mm
+  double step = 2e-4;  // s; halving it moves no marker of the recordings by more than 0.05 mm
 };
 
 /// Absolute angles of the links of a cable hanging between the origin and a held point, released

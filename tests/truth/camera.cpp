@@ -45,9 +45,13 @@ Recording film(const Cable& cable, const Hidden& hidden, const std::vector<doubl
   for (std::size_t i = 0; i < frames; ++i) {
     std::vector<double> side(markers), down(markers);
     for (std::size_t k = 0; k < markers; ++k) {
-      const double x = motion.side[i][k], y = motion.down[i][k];
-      const double seen_side = hidden.scale * (c * x + s * y) + hidden.camera_offset_side;
-      const double seen_down = hidden.scale * (c * y - s * x) + hidden.camera_offset_down;
+      const double sine = std::sin(motion.angle[i][k]), cosine = std::cos(motion.angle[i][k]);
+      const double x =
+          motion.side[i][k] + hidden.marker_across * cosine + hidden.marker_along * sine;
+      const double y =
+          motion.down[i][k] - hidden.marker_across * sine + hidden.marker_along * cosine;
+      const double seen_side = hidden.scale * (c * x + s * y) + hidden.origin_side;
+      const double seen_down = hidden.scale * (c * y - s * x) + hidden.origin_down;
       side[k] = pixels(seen_side + camera.noise * random.normal());
       down[k] = pixels(seen_down + camera.noise * random.normal());
       const double chance = random.uniform();
