@@ -106,7 +106,7 @@ TEST_CASE("halving the step moves no marker by more than 0.05 mm") {
     std::string name;
     double value;
   };
-  for (const Row row :
+  for (const Row& row :
        {Row{"air_drag_quadratic.normal", 0.2}, Row{"joint_dry_friction.moment", 0.01},
         Row{"axial_stretch.axial_stiffness", 1e4}, Row{"joint_hysteresis.moment", 0.02}}) {
     CAPTURE(row.name);
