@@ -59,24 +59,6 @@ std::vector<Distance> distances(const Problem& problem, const Residuals& residua
   return out;
 }
 
-/// Weights that make the mean of the channels' means of |r| the sum of weight * |r|.
-Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals) {
-  std::vector<std::vector<double>> count(problem.experiments().size());
-  for (std::size_t e = 0; e < count.size(); ++e)
-    count[e].assign(problem.experiments()[e].recording.channels.size(), 0);
-  for (const ResidualIndex& index : residuals.index)
-    ++count[static_cast<std::size_t>(index.experiment)][static_cast<std::size_t>(index.channel)];
-  double channels = 0;
-  for (const auto& experiment : count)
-    for (const double c : experiment) channels += c > 0;
-  Eigen::VectorXd weights(residuals.value.size());
-  for (std::size_t i = 0; i < residuals.index.size(); ++i)
-    weights[static_cast<Index>(i)] =
-        1 / (channels * count[static_cast<std::size_t>(residuals.index[i].experiment)]
-                             [static_cast<std::size_t>(residuals.index[i].channel)]);
-  return weights;
-}
-
 }  // namespace
 
 Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part) {
@@ -109,6 +91,23 @@ Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
     noise[static_cast<Index>(i)] = std::isnan(given) ? 1 : given;
   }
   return noise;
+}
+
+Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals) {
+  std::vector<std::vector<double>> count(problem.experiments().size());
+  for (std::size_t e = 0; e < count.size(); ++e)
+    count[e].assign(problem.experiments()[e].recording.channels.size(), 0);
+  for (const ResidualIndex& index : residuals.index)
+    ++count[static_cast<std::size_t>(index.experiment)][static_cast<std::size_t>(index.channel)];
+  double channels = 0;
+  for (const auto& experiment : count)
+    for (const double c : experiment) channels += c > 0;
+  Eigen::VectorXd weights(residuals.value.size());
+  for (std::size_t i = 0; i < residuals.index.size(); ++i)
+    weights[static_cast<Index>(i)] =
+        1 / (channels * count[static_cast<std::size_t>(residuals.index[i].experiment)]
+                             [static_cast<std::size_t>(residuals.index[i].channel)]);
+  return weights;
 }
 
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part) {

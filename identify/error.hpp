@@ -27,6 +27,10 @@ Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Par
 /// The noise to weigh each residual by: the experiment's, or 1 where it states none.
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
 
+/// Weights with which the sum of weight * |residual| is (7.1): the mean over the channels of each
+/// channel's mean.
+Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals);
+
 /// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
 /// Infinite if the evaluation failed; a failed simulation is never a good fit.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);

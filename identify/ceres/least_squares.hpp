@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "identify/fit.hpp"
+
+namespace catena {
+
+/// Fits the unknowns by Ceres' trust region method on the residuals and their exact sensitivities,
+/// within bounds, logarithmic unknowns by their logarithms:
+///
+///   measure            what is minimised
+///   least_squares      sum of rho(r^2), r in units of the noise; rho by the case's loss
+///   mean_distance      sum over frames and markers of sqrt(d^2 + e^2): a robust loss on the distance,
+///                      solved by reweighting; e small against the distances (6.5), (6.6)
+///   mean_absolute      the same on every channel, weighted as in (7.1)
+///
+/// A simulation that fails makes its step be refused. A target of its own (catena_ceres): Debian's
+/// Ceres brings libraries that are partly GPL.
+FitResult fit_least_squares(const Problem& problem, const FitOptions& options);
+
+}  // namespace catena

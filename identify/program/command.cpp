@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/command.hpp"
+
+#include <csignal>
+#include <iostream>
+
+#include "generator/description/input_error.hpp"
+#include "generator/description/whole_file.hpp"
+
+namespace catena {
+namespace {
+
+std::atomic<bool> g_interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+void on_interruption(int) { g_interrupted = true; }
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("CASE", options.case_file, "case file (TOML, kind = \"case\")")->required();
+  command.add_option("-o,--output", options.output,
+                     "folder for the results; default: the case's name and _result, here");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("--json", options.json, "print the result as JSON instead of tables");
+}
+
+const std::atomic<bool>& interrupted() { return g_interrupted; }
+
+void watch_for_interruption() {
+  struct sigaction action = {};
+  action.sa_handler = on_interruption;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second one ends the program
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+Model model_of(const Case& study, const CommonOptions& options) {
+  ProviderOptions provider;
+  if (!options.quiet)
+    provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
+  return provide_model(study.description, study.links, provider);
+}
+
+void write_output(const std::filesystem::path& folder, const OutputFiles& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError("--output " + folder.string() + ": cannot be made: " + error.message());
+  for (const auto& [name, text] : files) write_whole_file(folder / name, text);
+}
+
+std::filesystem::path output_folder(const CommonOptions& options) {
+  return options.output.empty() ? options.case_file.stem().string() + "_result" : options.output;
+}
+
+std::string file_name(const Problem& problem, int experiment, const std::string& stem) {
+  if (problem.experiments().size() < 2) return stem + ".csv";
+  std::string name = problem.experiments()[static_cast<std::size_t>(experiment)].spec.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+  return stem + "_" + name + ".csv";
+}
+
+}  // namespace catena

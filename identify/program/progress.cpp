@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+namespace catena {
+
+ProgressLine::ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+
+ProgressLine::~ProgressLine() {
+  if (written_) std::cerr << "\r\033[K" << std::flush;
+}
+
+void ProgressLine::show(double share, const std::string& text) {
+  if (!shown_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (written_ && now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  std::string line = "\r\033[K" + text;
+  if (share > 0) line += fmt::format(", at most {:.0f} s left", seconds * (1 - share) / share);
+  std::cerr << line << std::flush;
+  written_ = true;
+}
+
+}  // namespace catena

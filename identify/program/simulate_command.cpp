@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "generator/description/input_error.hpp"
+#include "identify/motion.hpp"
+#include "identify/program/command.hpp"
+#include "identify/program/tables.hpp"
+#include "identify/result_writer.hpp"
+
+namespace catena {
+namespace {
+
+std::vector<double> output_times(const SimulationSpec& settings) {
+  const auto count = static_cast<std::size_t>(std::floor(settings.duration / settings.step + 1e-9));
+  std::vector<double> times;
+  for (std::size_t k = 0; k <= count; ++k) times.push_back(static_cast<double>(k) * settings.step);
+  if (times.size() < 2) times.push_back(settings.duration);
+  return times;
+}
+
+bool keep_going() { return !interrupted(); }
+
+/// Throws where the simulation failed; false where it was interrupted.
+bool succeeded(const Simulation& simulation, const std::string& name) {
+  if (simulation.status == Status::kInterrupted) return false;
+  if (simulation.status != Status::kSuccess)
+    throw std::runtime_error(name + ": " + simulation.message);
+  return true;
+}
+
+void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
+                      OutputFiles& files) {
+  files.emplace_back(file_name(problem, experiment, "positions"), positions_csv(motion));
+  files.emplace_back(file_name(problem, experiment, "angles"), angles_csv(problem.model(), motion));
+  files.emplace_back(file_name(problem, experiment, "energy"), energy_csv(problem.model(), motion));
+}
+
+/// The case alone, for as long as it says.
+int simulate_alone(const Problem& problem, const CommonOptions& options) {
+  const Case& study = problem.study();
+  const Eigen::VectorXd x = problem.start();
+  const Motion motion = simulate_motion(
+      problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
+      output_times(study.simulation), study.simulation,
+      read_signals(study.signals, problem.model(), study.file.string()), keep_going);
+  if (!succeeded(motion.simulation, "simulation")) return kExitInterrupted;
+  OutputFiles files;
+  const std::string result = simulation_result_text(problem, motion);
+  files.emplace_back("result.json", result);
+  add_motion_files(problem, -1, motion, files);
+  write_output(output_folder(options), files);
+  if (options.json) std::cout << result;
+  if (!options.quiet && !options.json)
+    std::cout << simulation_table(motion) << "written to " << output_folder(options).string() << "\n";
+  return kExitSuccess;
+}
+
+/// Every experiment of the case, compared with what was measured.
+int simulate_experiments(const Problem& problem, const CommonOptions& options) {
+  const Eigen::VectorXd x = problem.start();
+  const Evaluation evaluation = evaluate(problem, x, true, false, keep_going);
+  if (interrupted()) return kExitInterrupted;
+  if (!evaluation.ok) throw std::runtime_error(evaluation.message);
+  OutputFiles files;
+  std::vector<Motion> motions;
+  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e) {
+    motions.push_back(motion_of(problem, x, e, keep_going));
+    if (!succeeded(motions.back().simulation,
+                   problem.experiments()[static_cast<std::size_t>(e)].spec.name))
+      return kExitInterrupted;
+    add_motion_files(problem, e, motions.back(), files);
+  }
+  const std::string result = comparison_result_text(problem, x, evaluation, motions);
+  files.emplace_back("result.json", result);
+  files.emplace_back("residuals.csv", residuals_csv(problem, evaluation));
+  write_output(output_folder(options), files);
+  if (options.json) std::cout << result;
+  if (!options.quiet && !options.json)
+    std::cout << gap_table(problem, nullptr, evaluation) << "written to "
+              << output_folder(options).string() << "\n";
+  return kExitSuccess;
+}
+
+int simulate_case(const CommonOptions& options) {
+  Case study = read_case(options.case_file);
+  if (study.experiments.empty() && std::isnan(study.simulation.duration))
+    throw InputError(study.file.string() +
+                     ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
+  const Model model = model_of(study, options);
+  const Problem problem(std::move(study), model);
+  return problem.experiments().empty() ? simulate_alone(problem, options)
+                                       : simulate_experiments(problem, options);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& program, int& exit_status) {
+  static CommonOptions options;
+  CLI::App* command = program.add_subcommand("simulate", "simulate the cable of a case file");
+  command->footer("Example:\n  catena simulate cable.toml --output swing\n"
+                  "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data in "
+                  "the case\nalso residuals.csv.");
+  add_common_options(*command, options);
+  command->callback([&exit_status] { exit_status = simulate_case(options); });
+}
+
+}  // namespace catena
