@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/command.hpp"
 
+#include <cctype>
 #include <csignal>
 #include <iostream>
 
@@ -51,7 +52,8 @@ void write_output(const std::filesystem::path& folder, const OutputFiles& files)
 }
 
 std::filesystem::path output_folder(const CommonOptions& options) {
-  return options.output.empty() ? options.case_file.stem().string() + "_result" : options.output;
+  if (!options.output.empty()) return options.output;
+  return options.case_file.stem().string() + "_result";
 }
 
 std::string file_name(const Problem& problem, int experiment, const std::string& stem) {
