@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Written by catena-derive. Do not edit: change the model description and derive again.
+#include "chain_3.hpp"
+
+#include "catena_model.h"
+
+namespace catena::chain_3 {
+
+namespace {
+
+const catena_quantity kCoordinateTable[] = {
+    {"theta_1", "rad"},
+    {"theta_2", "rad"},
+    {"theta_3", "rad"},
+};
+
+const catena_quantity kStateTable[] = {
+    {},
+};
+
+const catena_quantity kSignalTable[] = {
+    {},
+};
+
+const catena_quantity kTermTable[] = {
+    {"inertia", "N m"},
+    {"coriolis", "N m"},
+    {"gravity", "N m"},
+    {"elastic", "N m"},
+    {"friction", "N m"},
+    {"torque", "N m"},
+};
+
+const catena_parameter kParameterTable[] = {
+    {"length_1", "m", "length of link 1", NAN, 0.0, INFINITY, NAN},
+    {"length_2", "m", "length of link 2", NAN, 0.0, INFINITY, NAN},
+    {"length_3", "m", "length of link 3", NAN, 0.0, INFINITY, NAN},
+    {"mass_1", "kg", "mass of link 1", NAN, 0.0, INFINITY, NAN},
+    {"mass_2", "kg", "mass of link 2", NAN, 0.0, INFINITY, NAN},
+    {"mass_3", "kg", "mass of link 3", NAN, 0.0, INFINITY, NAN},
+    {"inertia_1", "kg m^2", "rotational inertia about its own centre of link 1", NAN, 0.0, INFINITY, NAN},
+    {"inertia_2", "kg m^2", "rotational inertia about its own centre of link 2", NAN, 0.0, INFINITY, NAN},
+    {"inertia_3", "kg m^2", "rotational inertia about its own centre of link 3", NAN, 0.0, INFINITY, NAN},
+    {"stiffness_1", "N m/rad", "stiffness of joint 1", NAN, 0.0, INFINITY, NAN},
+    {"stiffness_2", "N m/rad", "stiffness of joint 2", NAN, 0.0, INFINITY, NAN},
+    {"stiffness_3", "N m/rad", "stiffness of joint 3", NAN, 0.0, INFINITY, NAN},
+    {"damping_1", "N m s/rad", "damping of joint 1", NAN, 0.0, INFINITY, NAN},
+    {"damping_2", "N m s/rad", "damping of joint 2", NAN, 0.0, INFINITY, NAN},
+    {"damping_3", "N m s/rad", "damping of joint 3", NAN, 0.0, INFINITY, NAN},
+    {"torque_1", "N m", "external torque on the angle of link 1", 0.0, -INFINITY, INFINITY, NAN},
+    {"torque_2", "N m", "external torque on the angle of link 2", 0.0, -INFINITY, INFINITY, NAN},
+    {"torque_3", "N m", "external torque on the angle of link 3", 0.0, -INFINITY, INFINITY, NAN},
+    {"load_mass", "kg", "mass of the load at the free end", NAN, 0.0, INFINITY, NAN},
+    {"gravity", "m/s^2", "acceleration of gravity", 9.8100000000000005, -INFINITY, INFINITY, NAN},
+};
+
+const catena_energy kEnergyTable[] = {
+    {"kinetic", CATENA_STORED},
+    {"gravity", CATENA_STORED},
+    {"joint_elastic", CATENA_STORED},
+    {"joint_damping", CATENA_DISSIPATED},
+    {"torque", CATENA_SUPPLIED},
+};
+
+Point<double> point(const catena_point* p) {
+  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};
+}
+
+void c_residual(const catena_point* at, double* r) { residual(point(at), r); }
+void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
+  residual_tangent(point(at), point(along), dr);
+}
+void c_residual_term(const catena_point* at, int32_t term, double* r) {
+  residual_term(point(at), term, r);
+}
+void c_bias(const catena_point* at, double* h) { bias(point(at), h); }
+void c_mass_matrix(const catena_point* at, double* mass) {
+  mass_matrix(point(at), mass);
+}
+int32_t c_acceleration(const catena_point* at, double* a) {
+  return acceleration(point(at), a);
+}
+int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
+                        double* work) {
+  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);
+  newton_matrix(point(at), ca, cv, cq, matrix);
+  return matrix.factor();
+}
+void c_newton_solve(const double* work, double* x) {
+  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
+}
+void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
+void c_positions(const catena_point* at, double* side, double* down) {
+  positions(point(at), side, down);
+}
+void c_positions_tangent(const catena_point* at, const catena_point* along,
+                         double* dside, double* ddown) {
+  positions_tangent(point(at), point(along), dside, ddown);
+}
+void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {
+  velocities(point(at), side_rate, down_rate);
+}
+void c_internal_forces(const catena_point* at, double* moment, double* tension,
+                       double* curvature) {
+  internal_forces(point(at), moment, tension, curvature);
+}
+}  // namespace
+
+const ::catena_model& table() {
+  static const ::catena_model model = {
+      CATENA_MODEL_ABI,
+      sizeof(::catena_model),
+      "chain_3",
+      "fa7041eb0fff7d62b7a0a54413cc5a263a87087073ced168df3a0024accbbce8",
+      kLinks,
+      kCoordinates,
+      kStates,
+      kSignals,
+      kParameters,
+      6,  // terms
+      5,  // energies
+      0,  // uses_time
+      0,  // observes
+      1,  // structured
+      sizeof(NewtonMatrix<double>) / sizeof(double),
+      kCoordinateTable,
+      kStateTable,
+      kSignalTable,
+      kParameterTable,
+      kTermTable,
+      kEnergyTable,
+      c_residual,
+      c_residual_tangent,
+      c_residual_term,
+      nullptr,
+      nullptr,
+      c_mass_matrix,
+      c_bias,
+      c_acceleration,
+      c_newton_factor,
+      c_newton_solve,
+      c_energy,
+      c_positions,
+      c_positions_tangent,
+      c_velocities,
+      c_internal_forces,
+      nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
+  };
+  return model;
+}
+
+}  // namespace catena::chain_3
+
+#ifdef CATENA_SHARED_LIBRARY
+// The one entry of a shared library that holds this model alone.
+extern "C" const catena_model* catena_model_table() {
+  return &catena::chain_3::table();
+}
+#endif

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/derivation/chain.hpp"
+
+#include <stdexcept>
+
+namespace catena {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+const ex kHalf = numeric(1, 2);
+
+std::string rate_family(const std::string& family) {
+  const std::string velocity = "_velocity";
+  if (family.ends_with(velocity)) {
+    return family.substr(0, family.size() - velocity.size()) + "_acceleration";
+  }
+  if (family == "joint_angle") return "joint_rate";
+  return family + velocity;
+}
+
+// The covector of a variable, by the name of what it is in mechanics.
+std::string covector_family(const std::string& family) {
+  if (family == "joint_side") return "cut_force_side";
+  if (family == "joint_down") return "cut_force_down";
+  if (family == "joint_angle") return "joint_moment";
+  return family + "_force";
+}
+
+// A cut force is counted by the link below the cut.
+int covector_index(const Symbol& variable) {
+  const bool joint = variable.family == "joint_side" || variable.family == "joint_down";
+  return joint ? variable.index + 1 : variable.index;
+}
+
+}  // namespace
+
+Chain::Chain(const Description& description, int links, const std::string& only_term)
+    : description_(description),
+      links_(links),
+      only_term_(only_term),
+      time_(definitions_, rate_family) {
+  make_inputs();
+  make_kinematics();
+  add_chain_terms();
+  for (const Effect& effect : description_.effects) add_effect_terms(effect);
+  pull_back();
+  add_support_power();
+  add_sensors();
+}
+
+std::vector<std::string> Chain::term_names(const Description& description) {
+  std::vector<std::string> names{"kinetic", "gravity", "elastic", "friction", "torque"};
+  for (const Effect& effect : description.effects) {
+    if (!effect.forces.empty() || !effect.scalars.empty()) names.push_back(effect.id);
+  }
+  return names;
+}
+
+void Chain::make_inputs() {
+  const auto per_link = [&](const char* family) {
+    std::vector<ex> symbols(1);
+    for (Link i = 1; i <= links_; ++i) symbols.push_back(definitions_.input(family, i));
+    return symbols;
+  };
+  const auto add_coordinate = [&](const ex& q, const ex& v, const ex& a) {
+    coordinates_.push_back(q);
+    rates_.push_back(v);
+    accelerations_.push_back(a);
+    variables_.insert(definitions_.number_of(q));
+    variable_of_rate_[definitions_.number_of(v)] = definitions_.number_of(q);
+    time_.set(q, v);
+    time_.set(v, a);
+  };
+  length_ = per_link("length");
+  mass_ = per_link("mass");
+  inertia_ = per_link("inertia");
+  stiffness_ = per_link("stiffness");
+  damping_ = per_link("damping");
+  torque_ = per_link("torque");
+  load_mass_ = definitions_.input("load_mass");
+  gravity_ = definitions_.input("gravity");
+  time_symbol_ = definitions_.input("time");
+  time_.set(time_symbol_, 1);
+
+  theta_ = per_link("theta");
+  theta_dot_ = per_link("theta_dot");
+  theta_ddot_ = per_link("theta_ddot");
+  sine_.resize(1);
+  cosine_.resize(1);
+  for (Link i = 1; i <= links_; ++i) {
+    add_coordinate(theta_[i], theta_dot_[i], theta_ddot_[i]);
+    sine_.push_back(definitions_.define("sine", i, GiNaC::sin(theta_[i])));
+    cosine_.push_back(definitions_.define("cosine", i, GiNaC::cos(theta_[i])));
+    time_.set(sine_[i], cosine_[i] * theta_dot_[i]);
+    time_.set(cosine_[i], -sine_[i] * theta_dot_[i]);
+  }
+  for (const Effect& effect : description_.effects) {
+    for (const Coordinate& coordinate : effect.coordinates) {
+      const std::string name = effect.id + "_" + coordinate.name;
+      auto& symbols = effect_symbols_[effect.id + "." + coordinate.name];
+      symbols.resize(1);
+      for (Link i = 1; i <= links_; ++i) {
+        symbols.push_back(definitions_.input(name, i));
+        add_coordinate(symbols[i], definitions_.input(name + "_dot", i),
+                       definitions_.input(name + "_ddot", i));
+      }
+    }
+    for (const ExtraState& state : effect.states) {
+      auto& symbols = effect_symbols_[effect.id + "." + state.name];
+      symbols.resize(1);
+      const Link last = state.at == Place::kPivot ? 1 : links_;
+      for (Link i = 1; i <= last; ++i) {
+        symbols.push_back(definitions_.input(effect.id + "_" + state.name, i));
+      }
+    }
+    for (const SignalChannel& signal : effect.signals) {
+      const std::string name = effect.id + "_" + signal.name;
+      const ex value = definitions_.input(name);
+      const ex rate = definitions_.input(name + "_rate");
+      time_.set(value, rate);
+      time_.set(rate, definitions_.input(name + "_acceleration"));
+    }
+  }
+}
+
+ex Chain::define_variable(const std::string& family, int index, const ex& value) {
+  const ex variable = definitions_.define_always(family, index, value);
+  const int number = definitions_.number_of(variable);
+  variables_.insert(number);
+  ex rate = time_.of(value);
+  if (!rate.is_zero()) {
+    rate = definitions_.define_always(rate_family(family), index, rate);
+    variable_of_rate_[definitions_.number_of(rate)] = number;
+    const ex value_of_rate = definitions_[definitions_.number_of(rate)].value;
+    const std::string second = rate_family(rate_family(family));
+    time_.set(rate, definitions_.define_always(second, index, time_.of(value_of_rate)));
+  }
+  time_.set(variable, rate);
+  return variable;
+}
+
+// (2.24)-(2.27), with what effects change of them
+void Chain::make_kinematics() {
+  ex support_side = 0, support_down = 0;
+  for (const Effect& effect : description_.effects) {
+    support_side += evaluate(effect, effect.support.side, kShape, Place::kLoad, 0, "m");
+    support_down += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
+  }
+  joint_side_.push_back(define_variable("joint_side", 0, support_side));
+  joint_down_.push_back(define_variable("joint_down", 0, support_down));
+  const auto vector = [&] { return std::vector<ex>(1); };
+  reach_ = centre_side_ = centre_down_ = joint_angle_ = vector();
+  arc_ = hanging_depth_ = {ex(0)};
+
+  for (Link i = 1; i <= links_; ++i) {
+    const ex extension = kinematic(&Kinematics::extension, "m", Place::kLink, i);
+    reach_.push_back(extension.is_zero()
+                         ? length_[i]
+                         : define_variable("stretched_length", i, length_[i] + extension));
+    const ex offset = kinematic(&Kinematics::centre_offset, "m", Place::kLink, i);
+    arc_.push_back(definitions_.define("arc", i, arc_[i - 1] + length_[i]));
+    // from the upper to the lower end of the link
+    const ex span_side = define_variable("span_side", i, reach_[i] * sine_[i]);
+    const ex span_down = define_variable("span_down", i, reach_[i] * cosine_[i]);
+    centre_side_.push_back(define_variable(
+        "centre_side", i, joint_side_[i - 1] + kHalf * span_side + offset * sine_[i]));
+    centre_down_.push_back(define_variable(
+        "centre_down", i, joint_down_[i - 1] + kHalf * span_down + offset * cosine_[i]));
+    joint_side_.push_back(define_variable("joint_side", i, joint_side_[i - 1] + span_side));
+    joint_down_.push_back(define_variable("joint_down", i, joint_down_[i - 1] + span_down));
+    ex rest = kinematic(&Kinematics::rest_angle, "rad", Place::kJoint, i);
+    if (i == 1) rest += kinematic(&Kinematics::pivot_rest_angle, "rad", Place::kPivot, i);
+    const ex above = i == 1 ? ex(0) : theta_[i - 1];
+    joint_angle_.push_back(define_variable("joint_angle", i, theta_[i] - above - rest));
+  }
+  const ex load_offset = kinematic(&Kinematics::load_offset, "m", Place::kLoad, 0);
+  load_side_ = joint_side_[links_];
+  load_down_ = joint_down_[links_];
+  if (!load_offset.is_zero()) {
+    load_side_ = define_variable("load_side", kNoIndex, load_side_ + load_offset * sine_[links_]);
+    load_down_ = define_variable("load_down", kNoIndex, load_down_ + load_offset * cosine_[links_]);
+  }
+  load_mass_ += kinematic(&Kinematics::load_mass, "kg", Place::kLoad, 0);
+  load_inertia_ = kinematic(&Kinematics::load_inertia, "kg m^2", Place::kLoad, 0);
+  const ex tilt = kinematic(&Kinematics::gravity_tilt, "rad", Place::kLoad, 0);
+  cos_tilt_ = tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
+  sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
+
+  for (Link i = 0; i <= links_; ++i) {
+    point_side_.push_back(joint_side_[i]);
+    point_down_.push_back(joint_down_[i]);
+  }
+  point_side_.push_back(load_side_);
+  point_down_.push_back(load_down_);
+}
+
+void Chain::add_covector(const ex& variable, const ex& covector) {
+  covector_[definitions_.number_of(variable)] += covector;
+}
+
+void Chain::add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part) {
+  for (EnergyItem& energy : energies_) {
+    if (energy.name == item && energy.kind == kind) {
+      energy.parts.push_back(part);
+      return;
+    }
+  }
+  energies_.push_back({item, kind, {part}});
+}
+
+// d/dt(dT/dydot) - dT/dy
+void Chain::add_kinetic(const std::string& item, const ex& energy) {
+  add_energy(item, EnergyItem::kStored, energy);
+  for (const int number : definitions_.symbols_of(energy)) {
+    const Symbol symbol = definitions_[number];
+    const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
+    const auto rate = variable_of_rate_.find(number);
+    if (rate != variable_of_rate_.end()) covector_[rate->second] += time_.of(derivative);
+    if (variables_.count(number)) covector_[number] -= derivative;
+    if (symbol.family == "sine") {
+      add_covector(theta_[symbol.index], -derivative * cosine_[symbol.index]);
+    } else if (symbol.family == "cosine") {
+      add_covector(theta_[symbol.index], derivative * sine_[symbol.index]);
+    }
+  }
+}
+
+// dV/dy
+void Chain::add_potential(const std::string& item, const ex& energy) {
+  add_energy(item, EnergyItem::kStored, energy);
+  for (const int number : definitions_.symbols_of(energy)) {
+    const Symbol symbol = definitions_[number];
+    const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
+    if (variables_.count(number)) covector_[number] += derivative;
+    if (symbol.family == "sine") {
+      add_covector(theta_[symbol.index], derivative * cosine_[symbol.index]);
+    } else if (symbol.family == "cosine") {
+      add_covector(theta_[symbol.index], -derivative * sine_[symbol.index]);
+    }
+  }
+}
+
+// dD/dydot; the power that leaves is sum ydot dD/dydot
+void Chain::add_dissipation(const std::string& item, const ex& function) {
+  ex power = 0;
+  for (const int number : definitions_.symbols_of(function)) {
+    const auto rate = variable_of_rate_.find(number);
+    if (rate == variable_of_rate_.end()) continue;
+    const ex symbol = definitions_[number].symbol;
+    const ex derivative = function.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+    covector_[rate->second] += derivative;
+    power += symbol * derivative;
+  }
+  add_energy(item, EnergyItem::kDissipated, power);
+}
+
+// Virtual work: force times the variation of the variable
+void Chain::add_force(const std::string& item, const ex& variable, const ex& force) {
+  if (force.is_zero()) return;
+  add_covector(variable, -force);
+  add_energy(item, EnergyItem::kSupplied, force * time_.of(variable));
+}
+
+void Chain::add_chain_terms() {
+  hanging_depth_.resize(1);
+  for (Link k = 1; k <= links_; ++k) {
+    if (wanted("kinetic")) {
+      const ex v_side = time_.of(centre_side_[k]), v_down = time_.of(centre_down_[k]);
+      add_kinetic("kinetic", kHalf * mass_[k] * (v_side * v_side + v_down * v_down) +
+                                 kHalf * inertia_[k] * theta_dot_[k] * theta_dot_[k]);
+    }
+    hanging_depth_.push_back(
+        definitions_.define("hanging_depth", k, hanging_depth_[k - 1] + length_[k]));
+    if (wanted("gravity")) {
+      const ex height = hanging_depth_[k - 1] + length_[k] * kHalf -
+                        (cos_tilt_ * centre_down_[k] + sin_tilt_ * centre_side_[k]);
+      add_potential("gravity", mass_[k] * gravity_ * height);
+    }
+    if (wanted("elastic")) {
+      add_potential("joint_elastic", kHalf * stiffness_[k] * joint_angle_[k] * joint_angle_[k]);
+    }
+    if (wanted("friction")) {
+      const ex rate = time_.of(joint_angle_[k]);
+      add_dissipation("joint_damping", kHalf * damping_[k] * rate * rate);
+    }
+    if (wanted("torque")) add_force("torque", theta_[k], torque_[k]);
+  }
+  if (wanted("kinetic")) {
+    const ex v_side = time_.of(load_side_), v_down = time_.of(load_down_);
+    const ex turning = theta_dot_[links_];
+    add_kinetic("kinetic", kHalf * load_mass_ * (v_side * v_side + v_down * v_down) +
+                               kHalf * load_inertia_ * turning * turning);
+  }
+  if (wanted("gravity")) {
+    const ex height = hanging_depth_[links_] - (cos_tilt_ * load_down_ + sin_tilt_ * load_side_);
+    add_potential("gravity", load_mass_ * gravity_ * height);
+  }
+}
+
+void Chain::pull_back() {
+  std::vector<ex> cut_side(static_cast<size_t>(links_) + 2), cut_down(cut_side);
+  std::vector<ex> moment(cut_side);
+  const auto keep = [&](std::vector<ex>& where, const ex& variable, int index) {
+    const auto found = covector_.find(definitions_.number_of(variable));
+    where[static_cast<size_t>(index)] = found == covector_.end() ? ex(0) : found->second;
+  };
+  // Later variables are functions of earlier ones: go from the last back to the coordinates.
+  for (auto variable = variables_.rbegin(); variable != variables_.rend(); ++variable) {
+    const int number = *variable;
+    const auto found = covector_.find(number);
+    if (definitions_[number].is_input || found == covector_.end()) continue;
+    const Symbol symbol = definitions_[number];
+    const ex covector = definitions_.define(covector_family(symbol.family), covector_index(symbol),
+                                            found->second);
+    found->second = covector;
+    for (const int argument : definitions_.symbols_of(symbol.value)) {
+      const Symbol below = definitions_[argument];
+      const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(below.symbol));
+      if (variables_.count(argument)) {
+        covector_[argument] += covector * partial;
+      } else if (below.family == "sine") {
+        add_covector(theta_[below.index], covector * partial * cosine_[below.index]);
+      } else if (below.family == "cosine") {
+        add_covector(theta_[below.index], -covector * partial * sine_[below.index]);
+      }
+    }
+  }
+  for (const ex& q : coordinates_) {
+    const Symbol symbol = definitions_[definitions_.number_of(q)];
+    residual_.push_back(definitions_.named(covector_[definitions_.number_of(q)],
+                                           "residual_" + symbol.family, symbol.index));
+  }
+  for (Link i = 1; i <= links_; ++i) {
+    keep(cut_side, joint_side_[i - 1], i);
+    keep(cut_down, joint_down_[i - 1], i);
+    keep(moment, joint_angle_[i], i);
+    const ex spacing = i == 1 ? length_[1] : ex(kHalf * (length_[i - 1] + length_[i]));
+    const ex above = i == 1 ? ex(0) : theta_[i - 1];
+    curvatures_.push_back(
+        definitions_.named((theta_[i] - above) / spacing, "curvature", i));
+    tensions_.push_back(definitions_.named(-(cut_side[i] * sine_[i] + cut_down[i] * cosine_[i]),
+                                           "tension", i));
+    moments_.push_back(definitions_.named(-moment[i], "moment", i));
+  }
+  support_force_side_ = cut_side[1];
+  support_force_down_ = cut_down[1];
+}
+
+// The force that moves the support does work.
+void Chain::add_support_power() {
+  const ex power = support_force_side_ * time_.of(joint_side_[0]) +
+                   support_force_down_ * time_.of(joint_down_[0]);
+  if (!power.is_zero()) add_energy("support", EnergyItem::kSupplied, power);
+}
+
+}  // namespace catena

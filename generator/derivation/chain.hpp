@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The chain: its kinematics (2.24)-(2.27), energies (2.3)-(2.9) with the load's potential, dissipation
+// (3.2)-(3.14) and effects; and its equations of motion by Euler-Lagrange,
+//
+//     r_i = d/dt(dL/dqdot_i) - dL/dq_i + dD/dqdot_i - Q_i = 0,     L = T - V.
+//
+// How. T, V and D are written in variables y (positions of link centres and joints, joint angles)
+// that are functions of the coordinates q, y = y(q, t). The Euler-Lagrange expression is covariant
+// under such a change of variables,
+//
+//     d/dt(dL/dqdot_i) - dL/dq_i = sum_y [d/dt(dL/dydot) - dL/dy] dy/dq_i,
+//
+// as virtual work is. So each energy is differentiated in the few variables it is written in, and
+// what comes out is pulled back through the definitions of y, from the free end to the support, by
+// the chain rule. What arrives at the position of a joint on the way is the force that the upper
+// part of the chain exerts on the part below it: the cut force.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "generator/derivation/definitions.hpp"
+#include "generator/derivation/effect_expression.hpp"
+#include "generator/description/description.hpp"
+
+namespace catena {
+
+/// A stored energy (J) or a power (W), as the model table lists it.
+struct EnergyItem {
+  enum Kind { kStored, kDissipated, kSupplied };
+  std::string name;
+  Kind kind;
+  std::vector<GiNaC::ex> parts;  ///< to be summed
+};
+
+class Chain {
+ public:
+  /// Derives the equations. `only_term`: empty for all terms, else the one to keep ("kinetic",
+  /// "gravity", "elastic", "friction", "torque", or an effect's id).
+  Chain(const Description& description, int links, const std::string& only_term = "");
+
+  Definitions& definitions() { return definitions_; }
+  int links() const { return links_; }
+
+  /// Terms that the residual has: "kinetic", "gravity", "elastic", "friction", "torque", effects'.
+  static std::vector<std::string> term_names(const Description& description);
+
+  /// r, one entry a coordinate.
+  const std::vector<GiNaC::ex>& residual() const { return residual_; }
+  const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }
+  const std::vector<GiNaC::ex>& rates() const { return rates_; }
+  const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
+  const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
+
+  /// side, down of the support (0), the far end of each link (1..n) and the load (n + 1)
+  const std::vector<GiNaC::ex>& side() const { return point_side_; }
+  const std::vector<GiNaC::ex>& down() const { return point_down_; }
+  GiNaC::ex rate(const GiNaC::ex& expression) { return time_.of(expression); }
+
+  const std::vector<EnergyItem>& energies() const { return energies_; }
+  /// Joint moments, link tensions, curvatures (see catena_model.h), links entries each.
+  const std::vector<GiNaC::ex>& moments() const { return moments_; }
+  const std::vector<GiNaC::ex>& tensions() const { return tensions_; }
+  const std::vector<GiNaC::ex>& curvatures() const { return curvatures_; }
+
+  /// Sensor effects: what is reported of the inputs side, down, angle, and the clock.
+  struct Sensor {
+    GiNaC::ex side, down, angle, clock;
+    bool given = false;
+  };
+  const Sensor& sensor() const { return sensor_; }
+
+ private:
+  using ex = GiNaC::ex;
+  using Link = int;
+
+  void make_inputs();
+  void make_kinematics();
+  void add_chain_terms();
+  void add_effect_terms(const Effect& effect);
+  void add_sensors();
+  void add_support_power();
+  void pull_back();
+
+  bool wanted(const std::string& term) const { return only_term_.empty() || only_term_ == term; }
+  void add_kinetic(const std::string& item, const ex& energy);
+  void add_potential(const std::string& item, const ex& energy);
+  void add_dissipation(const std::string& item, const ex& function);
+  void add_force(const std::string& item, const ex& variable, const ex& force);
+  void add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part);
+  void add_covector(const ex& variable, const ex& covector);
+  ex define_variable(const std::string& family, int index, const ex& value);
+
+  /// What can be said of link or joint i (see docs): its shape alone, or its motion too.
+  enum Knowledge { kShape, kMotion };
+  /// Sum of what all effects say for one kinematic quantity, at link or joint i.
+  ex kinematic(Expression Kinematics::*quantity, const char* unit, Place place, Link i);
+  ex evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge, Place place,
+              Link i, const char* unit);
+  ExpressionContext context(const Effect& effect, Knowledge knowledge, Place place, Link i);
+  ex effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i);
+
+  Description description_;
+  int links_;
+  std::string only_term_;
+  Definitions definitions_;
+  Differential time_;
+
+  // Inputs, indexed by link 1..n (entry 0 unused)
+  std::vector<ex> theta_, theta_dot_, theta_ddot_, sine_, cosine_;
+  std::vector<ex> length_, mass_, inertia_, stiffness_, damping_, torque_;
+  ex load_mass_, gravity_, time_symbol_;
+  ex load_inertia_;
+  std::vector<ex> reach_;  ///< length of link i with its extension
+  std::vector<ex> joint_side_, joint_down_;    ///< far end of link i; 0 is the support
+  std::vector<ex> centre_side_, centre_down_;  ///< mass centre of link i
+  std::vector<ex> joint_angle_, arc_, hanging_depth_;
+  ex load_side_, load_down_, cos_tilt_, sin_tilt_;
+  std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
+
+  std::vector<ex> coordinates_, rates_, accelerations_, residual_, state_rates_;
+  std::vector<ex> point_side_, point_down_, moments_, tensions_, curvatures_;
+  std::vector<EnergyItem> energies_;
+  Sensor sensor_;
+  ex support_force_side_, support_force_down_;  ///< what the support exerts on the chain, N
+
+  std::set<int> variables_;              ///< numbers of the variables y, coordinates included
+  std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y
+  std::map<int, ex> covector_;           ///< number of y -> what belongs to it
+};
+
+}  // namespace catena

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/derivation/definitions.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+std::string full_name(const std::string& family, int index) {
+  return index == kNoIndex ? family : family + "[" + std::to_string(index) + "]";
+}
+
+void collect_symbols(const ex& e, std::set<std::string>& names) {
+  if (GiNaC::is_a<GiNaC::symbol>(e)) {
+    names.insert(GiNaC::ex_to<GiNaC::symbol>(e).get_name());
+    return;
+  }
+  for (size_t i = 0; i < e.nops(); ++i) collect_symbols(e.op(i), names);
+}
+
+bool is_polynomial_in_symbols(const ex& e) {
+  if (GiNaC::is_a<GiNaC::numeric>(e) || GiNaC::is_a<GiNaC::symbol>(e)) return true;
+  if (GiNaC::is_a<GiNaC::power>(e)) {
+    return GiNaC::is_a<GiNaC::symbol>(e.op(0)) && e.op(1).info(GiNaC::info_flags::integer);
+  }
+  if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+    for (size_t i = 0; i < e.nops(); ++i) {
+      if (!is_polynomial_in_symbols(e.op(i))) return false;
+    }
+    return true;
+  }
+  return false;
+}
+
+// A text that does not depend on GiNaC's order of terms.
+std::string structural_key(const ex& e) {
+  std::ostringstream out;
+  if (GiNaC::is_a<GiNaC::numeric>(e)) {
+    out << e;
+  } else if (GiNaC::is_a<GiNaC::symbol>(e)) {
+    out << GiNaC::ex_to<GiNaC::symbol>(e).get_name();
+  } else {
+    std::vector<std::string> parts;
+    for (size_t i = 0; i < e.nops(); ++i) parts.push_back(structural_key(e.op(i)));
+    std::string head;
+    if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+      std::sort(parts.begin(), parts.end());
+      head = GiNaC::is_a<GiNaC::add>(e) ? "+" : "*";
+    } else if (GiNaC::is_a<GiNaC::power>(e)) {
+      head = "^";
+    } else if (GiNaC::is_a<GiNaC::function>(e)) {
+      head = GiNaC::ex_to<GiNaC::function>(e).get_name();
+    } else if (e.nops() == 0) {  // constants such as Pi
+      out << e;
+      return out.str();
+    } else {
+      throw std::logic_error("structural_key: unexpected kind of expression");
+    }
+    out << head << '(';
+    for (const auto& part : parts) out << part << ',';
+    out << ')';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+ex Definitions::make(const std::string& family, int index, bool is_input, const ex& value) {
+  const auto rank = family_rank_.emplace(family, static_cast<int>(family_rank_.size()));
+  const std::string name = full_name(family, index);
+  const int number = size();
+  if (!number_by_name_.emplace(name, number).second) {
+    throw std::logic_error("defined twice: " + name);
+  }
+  symbols_.push_back({family, index, rank.first->second, is_input, GiNaC::realsymbol(name), value});
+  return symbols_.back().symbol;
+}
+
+ex Definitions::input(const std::string& family, int index) {
+  const auto found = number_by_name_.find(full_name(family, index));
+  if (found != number_by_name_.end()) return (*this)[found->second].symbol;
+  return make(family, index, true, ex(0));
+}
+
+std::string Definitions::unused_family(const std::string& wish, int index) const {
+  if (!number_by_name_.count(full_name(wish, index))) return wish;
+  for (int k = 2;; ++k) {
+    const std::string name = wish + "_" + std::to_string(k);
+    if (!number_by_name_.count(full_name(name, index))) return name;
+  }
+}
+
+ex Definitions::name_of(const std::string& family, int index, const ex& value) {
+  if (GiNaC::is_a<GiNaC::numeric>(value) || GiNaC::is_a<GiNaC::symbol>(value)) return value;
+  const std::string key = canonical_key(value);
+  const auto found = by_value_.find(key);
+  if (found != by_value_.end()) return found->second;
+  const ex symbol = make(unused_family(family, index), index, false, value);
+  by_value_.emplace(key, symbol);
+  return symbol;
+}
+
+ex Definitions::define(const std::string& family, int index, const ex& value) {
+  if (GiNaC::is_a<GiNaC::function>(value) && GiNaC::is_a<GiNaC::symbol>(value.op(0))) {
+    return name_of(family, index, value);
+  }
+  return name_of(family, index, named(value, family, index));
+}
+
+ex Definitions::define_always(const std::string& family, int index, const ex& value) {
+  return make(family, index, false, named(value, family, index));
+}
+
+ex Definitions::named(const ex& expression, const std::string& family, int index) {
+  const ex e = expression.expand();
+  if (is_polynomial_in_symbols(e)) return e;
+  if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+    std::vector<std::pair<std::string, ex>> parts;
+    for (size_t i = 0; i < e.nops(); ++i) parts.emplace_back(structural_key(e.op(i)), e.op(i));
+    std::sort(parts.begin(), parts.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    ex result = GiNaC::is_a<GiNaC::add>(e) ? 0 : 1;
+    for (const auto& part : parts) {
+      const ex operand = named(part.second, family, index);
+      result = GiNaC::is_a<GiNaC::add>(e) ? result + operand : result * operand;
+    }
+    return result.expand();
+  }
+  if (GiNaC::is_a<GiNaC::power>(e)) {
+    const ex exponent = e.op(1);
+    if (!GiNaC::is_a<GiNaC::numeric>(exponent) || !(2 * exponent).info(GiNaC::info_flags::integer)) {
+      throw std::logic_error("exponents must be whole or half numbers: " + structural_key(e));
+    }
+    const ex base = named(e.op(0), family, index);
+    if (exponent.info(GiNaC::info_flags::posint)) return GiNaC::pow(base, exponent).expand();
+    if (exponent.info(GiNaC::info_flags::integer)) {
+      return GiNaC::pow(name_of(family + "_divisor", index, base), exponent);
+    }
+    const ex radicand = name_of(family + "_radicand", index, base);
+    const ex root = name_of(family + "_root", index, GiNaC::sqrt(radicand));
+    return GiNaC::pow(root, 2 * exponent);
+  }
+  if (GiNaC::is_a<GiNaC::function>(e) && e.nops() == 1) {
+    const auto& function = GiNaC::ex_to<GiNaC::function>(e);
+    const ex argument =
+        name_of(family + "_argument", index, named(e.op(0), family, index));
+    const ex applied = GiNaC::function(function.get_serial(), argument);
+    if (!GiNaC::is_a<GiNaC::function>(applied)) return named(applied, family, index);
+    return name_of(family + "_" + function.get_name(), index, applied);
+  }
+  if (e.nops() == 0) return e;  // constants such as Pi
+  throw std::logic_error("cannot name " + structural_key(e));
+}
+
+std::vector<int> Definitions::symbols_of(const ex& expression) const {
+  std::set<std::string> names;
+  collect_symbols(expression, names);
+  std::vector<int> numbers;
+  for (const auto& name : names) numbers.push_back(number_by_name_.at(name));
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+int Definitions::number_of(const ex& symbol) const {
+  return number_by_name_.at(GiNaC::ex_to<GiNaC::symbol>(symbol).get_name());
+}
+
+std::string Definitions::canonical_key(const ex& expression) const {
+  return structural_key(expression);
+}
+
+Differential::Differential(Definitions& definitions, std::string (*family_name)(const std::string&))
+    : definitions_(definitions), family_name_(family_name) {}
+
+void Differential::set(const ex& symbol, const ex& differential) {
+  known_[definitions_.number_of(symbol)] = differential;
+}
+
+ex Differential::of_symbol(int number) {
+  const auto found = known_.find(number);
+  if (found != known_.end()) return found->second;
+  ex result = 0;
+  if (!definitions_[number].is_input) {
+    const Symbol symbol = definitions_[number];
+    result = definitions_.define(family_name_(symbol.family), symbol.index, of(symbol.value));
+  }
+  known_[number] = result;
+  return result;
+}
+
+ex Differential::of(const ex& expression) {
+  ex sum = 0;
+  for (const int number : definitions_.symbols_of(expression)) {
+    const ex differential = of_symbol(number);
+    if (differential.is_zero()) continue;
+    const auto& symbol = GiNaC::ex_to<GiNaC::symbol>(definitions_[number].symbol);
+    sum += expression.diff(symbol) * differential;
+  }
+  return sum.expand();
+}
+
+Substitution::Substitution(Definitions& definitions, std::string suffix)
+    : definitions_(definitions), suffix_(std::move(suffix)) {}
+
+void Substitution::set(const ex& symbol, const ex& replacement) {
+  known_[definitions_.number_of(symbol)] = replacement;
+}
+
+ex Substitution::of_symbol(int number) {
+  const auto found = known_.find(number);
+  if (found != known_.end()) return found->second;
+  const Symbol symbol = definitions_[number];
+  ex result = symbol.symbol;
+  if (!symbol.is_input) {
+    const ex value = of(symbol.value);
+    if (!value.is_equal(symbol.value)) {
+      result = definitions_.define(symbol.family + suffix_, symbol.index, value);
+    }
+  }
+  known_[number] = result;
+  return result;
+}
+
+ex Substitution::of(const ex& expression) {
+  GiNaC::exmap replacements;
+  for (const int number : definitions_.symbols_of(expression)) {
+    const ex replacement = of_symbol(number);
+    const ex& symbol = definitions_[number].symbol;
+    if (!replacement.is_equal(symbol)) replacements[symbol] = replacement;
+  }
+  if (replacements.empty()) return expression;
+  return expression.subs(replacements, GiNaC::subs_options::no_pattern).expand();
+}
+
+}  // namespace catena

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Single-assignment definitions: the form in which a derivation is kept.
+//
+// A cable of many links has equations that are long when written out and short when shared terms
+// have names. Each definition is a named expression over inputs and earlier definitions; GiNaC
+// differentiates, expands and compares their right-hand sides, which stay a few terms long for any
+// number of links.
+//
+// GiNaC orders its terms by hashes of addresses, so nothing here may depend on that order: families
+// and symbols are numbered in the order of their creation, and every traversal that creates
+// something goes by those numbers.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace catena {
+
+/// Index of a definition that belongs to no link.
+inline constexpr int kNoIndex = -1;
+
+struct Symbol {
+  std::string family;  ///< "joint_side_velocity"
+  int index;           ///< link it belongs to, or kNoIndex
+  int family_rank;     ///< order of the family's first appearance
+  bool is_input;       ///< given from outside: no right-hand side
+  GiNaC::ex symbol;
+  GiNaC::ex value;     ///< polynomial in symbols (negative powers of symbols allowed), or one function of a symbol
+};
+
+class Definitions {
+ public:
+  /// The symbol of an input, made at the first call.
+  GiNaC::ex input(const std::string& family, int index = kNoIndex);
+
+  /// Names an expression. Functions, roots and quotients of sums inside it get definitions of their
+  /// own ("<family>_<what>"), so that what remains is a polynomial in symbols. A value that is a
+  /// number or a symbol, or that has a name already, is returned as it is.
+  GiNaC::ex define(const std::string& family, int index, const GiNaC::ex& value);
+
+  /// The same, but under a name of its own even where the value is a number, a symbol or named.
+  GiNaC::ex define_always(const std::string& family, int index, const GiNaC::ex& value);
+
+  /// The expression with functions, roots and quotients named, expanded; family and index name them.
+  GiNaC::ex named(const GiNaC::ex& expression, const std::string& family, int index);
+
+  /// Numbers of the symbols in an expression, ascending (order of creation).
+  std::vector<int> symbols_of(const GiNaC::ex& expression) const;
+
+  int number_of(const GiNaC::ex& symbol) const;
+  const Symbol& operator[](int number) const { return symbols_[static_cast<size_t>(number)]; }
+  int size() const { return static_cast<int>(symbols_.size()); }
+
+  /// Text that is the same for equal expanded polynomials on every run.
+  std::string canonical_key(const GiNaC::ex& expression) const;
+
+ private:
+  GiNaC::ex make(const std::string& family, int index, bool is_input, const GiNaC::ex& value);
+  GiNaC::ex name_of(const std::string& family, int index, const GiNaC::ex& value);
+  std::string unused_family(const std::string& wish, int index) const;
+
+  std::vector<Symbol> symbols_;
+  std::unordered_map<std::string, int> number_by_name_;
+  std::unordered_map<std::string, int> family_rank_;
+  std::unordered_map<std::string, GiNaC::ex> by_value_;
+};
+
+/// Derivatives of expressions along a rule that says what the differential of each input is; the
+/// differentials of definitions become definitions ("<family><suffix>") themselves, so that a
+/// derivative costs no more than a small multiple of what it is the derivative of.
+class Differential {
+ public:
+  /// family_name maps a family to the name of its differential's family.
+  Differential(Definitions& definitions, std::string (*family_name)(const std::string&));
+  /// Sets the differential of a symbol; inputs without one have differential zero.
+  void set(const GiNaC::ex& symbol, const GiNaC::ex& differential);
+  GiNaC::ex of(const GiNaC::ex& expression);
+  GiNaC::ex of_symbol(int number);
+
+ private:
+  Definitions& definitions_;
+  std::string (*family_name_)(const std::string&);
+  std::map<int, GiNaC::ex> known_;
+};
+
+/// Expressions with some symbols replaced; definitions that contain them are defined anew
+/// ("<family><suffix>").
+class Substitution {
+ public:
+  Substitution(Definitions& definitions, std::string suffix);
+  void set(const GiNaC::ex& symbol, const GiNaC::ex& replacement);
+  GiNaC::ex of(const GiNaC::ex& expression);
+
+ private:
+  GiNaC::ex of_symbol(int number);
+
+  Definitions& definitions_;
+  std::string suffix_;
+  std::map<int, GiNaC::ex> known_;
+};
+
+}  // namespace catena

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Finds the structure of the matrices of a chain from its definitions, and proves it.
+//
+// A perturbation of the links, delta q_j = wq u_j, delta v_j = wv u_j, delta a_j = wa u_j, changes
+// the residual by N u, N = wa dr/da + wv dr/dv + wq dr/dq. Definitions that refer to themselves at
+// the link above (positions and their rates) carry it down the chain, those that refer to
+// themselves at the link below (cut forces) carry it up. If every one of them passes on what it
+// receives unchanged, as sums do,
+//
+//     delta X_i = delta X_{i-1} + B_i u_i
+//     delta Y_i = delta Y_{i+1} + F_i delta X_{i-1} + G_i u_i
+//     delta r_i = Hy_i delta Y_{i+1} + Hx_i delta X_{i-1} + D_i u_i + e_i u_{i-1} + f_i u_{i+1},
+//
+// then, with S_i = sum_{k >= i} F_k,
+//
+//     N_ij = Hy_i (G_j + S_{j+1} B_j)           j > i + 1
+//     N_ii = D_i + Hy_i S_{i+1} B_i
+//     N_ij = (Hx_i + Hy_i S_{i+1}) B_j          j < i - 1
+//
+// and e_i, f_i on the two neighbouring diagonals besides: tridiagonal plus semiseparable. Whether
+// the definitions are of this form is decided exactly, coefficient by coefficient, for each link.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <vector>
+
+#include "generator/derivation/chain.hpp"
+
+namespace catena {
+
+/// N = T + (upper part of U V') + (lower part of P Q'), T tridiagonal; links are counted from 1.
+struct Quasiseparable {
+  bool found = false;
+  std::string reason;  ///< if not found: what stands in the way
+  bool symmetric = false;  ///< proved: P = V, Q = U, e = f
+  int upper_rank = 0, lower_rank = 0;
+  // entry [i][r], i = 1..links (entry 0 unused)
+  std::vector<std::vector<GiNaC::ex>> upper_row, upper_column, lower_row, lower_column;
+  std::vector<GiNaC::ex> diagonal, below, above;  ///< T_{i,i} with all of N_ii; e_i; f_i
+};
+
+/// Weights of accelerations, velocities and coordinates in N.
+struct Weights {
+  GiNaC::ex acceleration, velocity, position;
+};
+
+/// `prefix` starts the names of the families it defines.
+Quasiseparable find_structure(Chain& chain, const Weights& weights, const std::string& prefix);
+
+}  // namespace catena

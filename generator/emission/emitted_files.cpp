@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/emitted_files.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "generator/emission/support_text.hpp"
+
+namespace catena {
+
+namespace {
+
+// Measured on n = 2..60: straight lines are faster up to about here, loops are smaller from here on.
+constexpr int kLongestStraight = 4;
+
+std::string summary_text(const Description& description, const ModelSummary& s) {
+  nlohmann::ordered_json json;
+  json["format"] = 1;
+  json["kind"] = "model_summary";
+  json["model"] = s.name;
+  json["description_hash"] = sha256_hex(canonical_text(description));
+  json["links"] = s.links;
+  json["coordinates"] = s.coordinates;
+  json["states"] = s.states;
+  json["signals"] = s.signals;
+  json["parameters"] = s.parameters;
+  json["layout"] = s.layout == Layout::kStraight ? "straight" : "loops";
+  auto& structure = json["structure"];
+  structure["mass_matrix"] = {{"semiseparable", s.mass_structured},
+                              {"symmetric", s.mass_symmetric},
+                              {"rank", s.mass_rank}};
+  structure["newton_matrix"] = {{"tridiagonal_plus_semiseparable", s.structured},
+                                {"rank_above", s.newton_upper_rank},
+                                {"rank_below", s.newton_lower_rank}};
+  structure["stiffness_matrix"] = {{"constant_symmetric_tridiagonal", s.stiffness_tridiagonal}};
+  structure["damping_matrix"] = {{"constant_symmetric_tridiagonal", s.damping_tridiagonal}};
+  structure["obstacle"] = s.why_not;
+  auto& functions = json["functions"];
+  functions = nlohmann::ordered_json::object();
+  for (const FunctionSummary& function : s.functions) {
+    const OperationCount& count = function.operations;
+    functions[function.name] = {{"additions", count.additions},
+                                {"multiplications", count.multiplications},
+                                {"divisions", count.divisions},
+                                {"functions", count.functions}};
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string look_up_header() {
+  return "// SPDX-License-Identifier: BSD-3-Clause\n"
+         "// Written by catena-derive. Do not edit: change the model description and derive again.\n"
+         "#pragma once\n\n#include \"catena_model.h\"\n\nnamespace catena {\n\n"
+         "/// The models compiled into this library, by ascending number of links; *count of them.\n"
+         "const catena_model* const* built_in_models(int* count);\n\n}  // namespace catena\n";
+}
+
+std::string look_up_source(const std::vector<std::string>& names) {
+  std::ostringstream out;
+  out << "// SPDX-License-Identifier: BSD-3-Clause\n"
+         "// Written by catena-derive. Do not edit: change the model description and derive again.\n"
+         "#include \"models.hpp\"\n\n";
+  for (const std::string& name : names) out << "#include \"" << name << ".hpp\"\n";
+  out << "\nnamespace catena {\n\nconst catena_model* const* built_in_models(int* count) {\n"
+         "  static const catena_model* const models[] = {\n";
+  for (const std::string& name : names) out << "      &" << name << "::table(),\n";
+  out << "  };\n  *count = " << names.size() << ";\n  return models;\n}\n\n}  // namespace catena\n";
+  return out.str();
+}
+
+std::string cmake_list(const std::vector<std::string>& names) {
+  std::ostringstream out;
+  out << "# SPDX-License-Identifier: BSD-3-Clause\n"
+         "# Written by catena-derive. Do not edit: change the model description and derive again.\n"
+         "add_library(catena_generated STATIC models.cpp";
+  for (const std::string& name : names) out << " " << name << ".cpp";
+  out << ")\n";
+  return out.str();
+}
+
+}  // namespace
+
+Layout layout_for(int links) {
+  return links <= kLongestStraight ? Layout::kStraight : Layout::kLoops;
+}
+
+EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
+                        const std::function<void(const ModelSummary&, double seconds)>& progress) {
+  EmittedFiles files = support_text();
+  std::vector<std::string> names;
+  for (const int n : links) {
+    const auto start = std::chrono::steady_clock::now();
+    EmittedModel model = emit_model(description, n, layout_for(n));
+    const std::string name = model.summary.name;
+    names.push_back(name);
+    files.merge(model.files);
+    files[name + ".json"] = summary_text(description, model.summary);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    progress(model.summary, elapsed.count());
+  }
+  if (library) {
+    files["models.hpp"] = look_up_header();
+    files["models.cpp"] = look_up_source(names);
+    files["CMakeLists.txt"] = cmake_list(names);
+  }
+  return files;
+}
+
+}  // namespace catena

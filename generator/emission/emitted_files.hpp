@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a derivation leaves on disk.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "generator/description/description.hpp"
+#include "generator/emission/model_writer.hpp"
+
+namespace catena {
+
+/// File name -> text.
+using EmittedFiles = std::map<std::string, std::string>;
+
+/// Everything needed to compile the models of a description at the given link counts, and per model
+/// a summary of what was found (<name>.json). `library`: also the look-up of all of them
+/// (models.hpp, models.cpp) and the list for CMake. `progress` is told of each model.
+EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
+                        const std::function<void(const ModelSummary&, double seconds)>& progress);
+
+/// Layout used at a link count: straight lines for short chains, loops for long ones.
+Layout layout_for(int links);
+
+}  // namespace catena

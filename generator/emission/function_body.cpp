@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/function_body.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+// A statement: a definition or an output.
+struct Item {
+  std::string family;  // of an output: before + after
+  int index;
+  ex value;
+  int number = -1;  // of a definition
+  const Output* output = nullptr;
+};
+
+struct Dependency {
+  std::string family;
+  int offset;
+  auto operator<=>(const Dependency&) const = default;
+};
+
+struct Family {
+  std::string name;
+  std::map<int, Item> items;           // by index
+  std::set<Dependency> dependencies;   // on other definitions; inputs are left out
+  bool is_output = false;
+  int sweep = -1;
+  bool local = true;  // read only at the same link in the same sweep
+};
+
+struct Sweep {
+  int direction;  // +1 towards the tip, -1 towards the support, 0: not over links
+  std::vector<size_t> families;
+};
+
+class Body {
+ public:
+  Body(const Definitions& definitions, const std::vector<Output>& outputs,
+       const InputDeclarations& inputs)
+      : definitions_(definitions), outputs_(outputs), inputs_(inputs) {
+    collect();
+  }
+
+  FunctionBody straight() {
+    declare_inputs();
+    std::vector<const Item*> items;
+    for (const Family& family : families_) {
+      for (const auto& [index, item] : family.items) items.push_back(&item);
+    }
+    std::stable_sort(items.begin(), items.end(), [](const Item* a, const Item* b) {
+      if ((a->output == nullptr) != (b->output == nullptr)) return a->output == nullptr;
+      return a->output == nullptr ? a->number < b->number : a->output < b->output;
+    });
+    const SymbolText text = [&](int number) {
+      const Symbol& symbol = definitions_[number];
+      if (symbol.is_input) return input_text(symbol, std::to_string(symbol.index));
+      return symbol.index == kNoIndex ? symbol.family
+                                      : symbol.family + "_" + std::to_string(symbol.index);
+    };
+    for (const Item* item : items) {
+      if (item->family == "cosine" && defines_sine(item->index)) continue;
+      line(statement(*item, std::to_string(item->index), text, true), 1);
+      ++result_.statements;
+    }
+    return std::move(result_);
+  }
+
+  FunctionBody loops() {
+    declare_inputs();
+    schedule();
+    for (const Sweep& sweep : sweeps_) write_sweep(sweep);
+    return std::move(result_);
+  }
+
+ private:
+  void collect() {
+    std::set<int> needed;
+    std::vector<int> open;
+    const auto need = [&](const ex& value) {
+      for (const int number : definitions_.symbols_of(value)) {
+        if (needed.insert(number).second) open.push_back(number);
+      }
+    };
+    for (const Output& output : outputs_) need(output.value);
+    while (!open.empty()) {
+      const int number = open.back();
+      open.pop_back();
+      if (!definitions_[number].is_input) need(definitions_[number].value);
+    }
+    std::map<std::string, size_t> position;
+    const auto family_of = [&](const std::string& name) -> Family& {
+      const auto [found, is_new] = position.emplace(name, families_.size());
+      if (is_new) {
+        families_.emplace_back();
+        families_.back().name = name;
+      }
+      return families_[found->second];
+    };
+    for (const int number : needed) {
+      const Symbol& symbol = definitions_[number];
+      if (symbol.is_input) {
+        used_inputs_.insert({symbol.family_rank, symbol.family});
+        continue;
+      }
+      // A definition of no link is a family of its own.
+      family_of(symbol.family).items[symbol.index] = {symbol.family, symbol.index, symbol.value,
+                                                      number, nullptr};
+    }
+    // Families in the order of their first appearance in the derivation.
+    std::stable_sort(families_.begin(), families_.end(), [&](const Family& a, const Family& b) {
+      return definitions_[a.items.begin()->second.number].family_rank <
+             definitions_[b.items.begin()->second.number].family_rank;
+    });
+    position.clear();
+    for (size_t k = 0; k < families_.size(); ++k) position[families_[k].name] = k;
+    for (const Output& output : outputs_) {
+      const std::string name = "=" + output.before + output.after;
+      Family& family = family_of(name);
+      family.is_output = true;
+      family.items[output.index] = {name, output.index, output.value, -1, &output};
+    }
+    for (Family& family : families_) {
+      for (const auto& [index, item] : family.items) {
+        for (const int number : definitions_.symbols_of(item.value)) {
+          const Symbol& symbol = definitions_[number];
+          if (symbol.is_input) continue;
+          const bool relative = index != kNoIndex && symbol.index != kNoIndex;
+          family.dependencies.insert({symbol.family, relative ? symbol.index - index : kUnrelated});
+        }
+      }
+    }
+    position_ = std::move(position);
+  }
+
+  bool defines_sine(int index) const {
+    const auto sine = position_.find("sine"), cosine = position_.find("cosine");
+    return sine != position_.end() && cosine != position_.end() &&
+           families_[sine->second].items.count(index) &&
+           families_[cosine->second].items.count(index);
+  }
+
+  // ---- sweeps ---------------------------------------------------------------------------------
+
+  bool done(const std::string& family) const { return families_[position_.at(family)].sweep >= 0; }
+
+  bool ready(const Family& family) const {
+    return std::all_of(family.dependencies.begin(), family.dependencies.end(),
+                       [&](const Dependency& d) { return done(d.family); });
+  }
+
+  std::vector<size_t> sweep_in(int direction) const {
+    std::vector<size_t> included;
+    std::set<std::string> names;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (size_t k = 0; k < families_.size(); ++k) {
+        const Family& family = families_[k];
+        if (family.sweep >= 0 || names.count(family.name) || family.items.count(kNoIndex)) continue;
+        const bool fits = std::all_of(
+            family.dependencies.begin(), family.dependencies.end(), [&](const Dependency& d) {
+              if (done(d.family)) return true;
+              if (d.offset == kUnrelated) return false;
+              const bool before = d.offset * direction < 0;
+              if (d.family == family.name) return before;
+              return names.count(d.family) > 0 && (before || d.offset == 0);
+            });
+        if (!fits) continue;
+        included.push_back(k);
+        names.insert(family.name);
+        grown = true;
+      }
+    }
+    return included;
+  }
+
+  void add_sweep(int direction, std::vector<size_t> members) {
+    for (const size_t k : members) families_[k].sweep = static_cast<int>(sweeps_.size());
+    sweeps_.push_back({direction, std::move(members)});
+  }
+
+  void schedule() {
+    std::vector<size_t> trigonometric;
+    for (const char* name : {"sine", "cosine"}) {
+      const auto found = position_.find(name);
+      if (found != position_.end()) trigonometric.push_back(found->second);
+    }
+    if (!trigonometric.empty()) add_sweep(1, trigonometric);
+    for (;;) {
+      bool open = false, alone = false;
+      for (size_t k = 0; k < families_.size(); ++k) {
+        if (families_[k].sweep >= 0) continue;
+        open = true;
+        if (families_[k].items.count(kNoIndex) && ready(families_[k])) {
+          add_sweep(0, {k});
+          alone = true;
+        }
+      }
+      if (!open) break;
+      if (alone) continue;
+      const auto forward = sweep_in(1), backward = sweep_in(-1);
+      if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
+      if (forward.size() >= backward.size()) {
+        add_sweep(1, forward);
+      } else {
+        add_sweep(-1, backward);
+      }
+    }
+    for (const Family& family : families_) {
+      for (const Dependency& d : family.dependencies) {
+        Family& read = families_[position_.at(d.family)];
+        if (d.offset != 0 || read.sweep != family.sweep) read.local = false;
+      }
+    }
+  }
+
+  // ---- text -----------------------------------------------------------------------------------
+
+  // Where to break: before the last sum in reach outside brackets, or else the last product.
+  static size_t break_of(const std::string& text, size_t from, size_t width) {
+    size_t sum = std::string::npos, product = std::string::npos;
+    int brackets = 0;
+    for (size_t k = 0; k + 2 < width; ++k) {
+      if (text[k] == '[') ++brackets;
+      if (text[k] == ']') --brackets;
+      if (k <= from || brackets > 0 || text[k] != ' ' || text[k + 2] != ' ') continue;
+      if (text[k + 1] == '+' || text[k + 1] == '-') sum = k;
+      if (text[k + 1] == '*') product = k;
+    }
+    return sum != std::string::npos && sum > from + width / 3 ? sum
+           : product != std::string::npos                      ? product
+                                                               : sum;
+  }
+
+  // Lines are broken before an operator where they would be longer than a page is wide.
+  void line(const std::string& text, int depth) {
+    constexpr size_t kWidth = 100;
+    std::string rest = std::string(static_cast<size_t>(2 * depth), ' ') + text;
+    const std::string indent(static_cast<size_t>(2 * depth) + 4, ' ');
+    while (rest.size() > kWidth) {
+      const size_t at = break_of(rest, indent.size(), kWidth);
+      if (at == std::string::npos) break;
+      result_.text += rest.substr(0, at) + "\n";
+      rest = indent + rest.substr(at + 1);
+    }
+    result_.text += rest + "\n";
+  }
+
+  void declare_inputs() {
+    for (const auto& [rank, family] : used_inputs_) {
+      const auto found = inputs_.find(family);
+      if (found == inputs_.end()) throw std::logic_error("input not declared: " + family);
+      line(found->second, 1);
+    }
+  }
+
+  static std::string input_text(const Symbol& symbol, const std::string& index) {
+    return symbol.index == kNoIndex ? symbol.family : symbol.family + "[" + index + "]";
+  }
+
+  std::string statement(const Item& item, const std::string& index, const SymbolText& text,
+                        bool straight) {
+    const auto value = [&] {
+      return expression_text(definitions_, item.value, item.index, text, &result_.operations);
+    };
+    if (item.output != nullptr) {
+      std::string place = item.output->before;
+      if (item.index != kNoIndex) {
+        const int shift = item.output->shift;
+        const bool number = std::isdigit(static_cast<unsigned char>(index[0])) != 0;
+        if (number) {
+          place += std::to_string(std::stoi(index) + shift);
+        } else {
+          place += index + (shift == 0 ? "" : shift > 0 ? " + " + std::to_string(shift)
+                                                        : " - " + std::to_string(-shift));
+        }
+      }
+      return place + item.output->after + " = " + value() + ";";
+    }
+    const Symbol& symbol = definitions_[item.number];
+    const Family& family = families_[position_.at(item.family)];
+    if (item.family == "sine" && defines_sine(item.index)) {
+      const std::string angle = text(definitions_.number_of(item.value.op(0)));
+      result_.operations.functions += 2;
+      if (straight) {
+        return "T sine_" + index + ", cosine_" + index + ";\n  sine_cosine(" + angle + ", sine_" +
+               index + ", cosine_" + index + ");";
+      }
+      return "sine_cosine(" + angle + ", sine[" + index + "], cosine[" + index + "]);";
+    }
+    std::string name = symbol.family;
+    if (symbol.index != kNoIndex) {
+      if (straight) {
+        name += "_" + index;
+      } else if (!family.local) {
+        return name + "[" + index + "] = " + value() + ";";
+      }
+    }
+    return "const T " + name + " = " + value() + ";";
+  }
+
+  // Statements of one link; `index` is the text of its number ("i" or digits).
+  std::string link_text(const Sweep& sweep, int link, const std::string& index) {
+    const SymbolText text = [&](int number) {
+      const Symbol& symbol = definitions_[number];
+      std::string at = index;
+      const int offset = symbol.index - link;
+      if (symbol.index == kNoIndex) {
+        // of no link
+      } else if (index != "i") {
+        at = std::to_string(symbol.index);
+      } else if (offset != 0) {
+        at += (offset > 0 ? " + " : " - ") + std::to_string(std::abs(offset));
+      }
+      if (symbol.is_input) return input_text(symbol, at);
+      if (symbol.index == kNoIndex) return symbol.family;
+      return families_[position_.at(symbol.family)].local ? symbol.family
+                                                          : symbol.family + "[" + at + "]";
+    };
+    std::string statements;
+    for (const size_t k : sweep.families) {
+      const auto item = families_[k].items.find(link);
+      if (item == families_[k].items.end()) continue;
+      if (item->second.family == "cosine" && defines_sine(link)) continue;
+      statements += statement(item->second, index, text, false) + "\n";
+    }
+    return statements;
+  }
+
+  void indented(const std::string& statements, int depth) {
+    size_t begin = 0;
+    while (begin < statements.size()) {
+      const size_t end = statements.find('\n', begin);
+      line(statements.substr(begin, end - begin), depth);
+      ++result_.statements;
+      begin = end + 1;
+    }
+  }
+
+  void write_sweep(const Sweep& sweep) {
+    if (sweep.direction == 0) {
+      indented(link_text(sweep, kNoIndex, ""), 1);
+      return;
+    }
+    int first = 1'000'000, last = -1;
+    for (const size_t k : sweep.families) {
+      const Family& family = families_[k];
+      first = std::min(first, family.items.begin()->first);
+      last = std::max(last, family.items.rbegin()->first);
+      if (!family.is_output && !family.local) {
+        line("T " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
+      }
+    }
+    bool any_local = false;
+    for (const size_t k : sweep.families) {
+      any_local = any_local || (!families_[k].is_output && families_[k].local);
+    }
+    const int step = sweep.direction;
+    for (int link = step > 0 ? first : last; link >= first && link <= last;) {
+      const std::string text = counted(sweep, link, "i");
+      int end = link + step;
+      while (end >= first && end <= last && uncounted(sweep, end, "i") == text) end += step;
+      const int run = std::abs(end - link);
+      if (run >= 3) {
+        const std::string start = std::to_string(link), stop = std::to_string(end - step);
+        line(step > 0 ? "for (int i = " + start + "; i <= " + stop + "; ++i) {"
+                      : "for (int i = " + start + "; i >= " + stop + "; --i) {",
+             1);
+        indented(text, 2);
+        line("}", 1);
+        result_.operations += times(last_count_, run - 1);
+      } else {
+        for (int k = link; k != end; k += step) {
+          const std::string one = k == link ? uncounted(sweep, k, std::to_string(k))
+                                            : counted(sweep, k, std::to_string(k));
+          if (one.empty()) continue;
+          if (any_local) line("{", 1);
+          indented(one, any_local ? 2 : 1);
+          if (any_local) line("}", 1);
+        }
+      }
+      link = end;
+    }
+  }
+
+  std::string counted(const Sweep& sweep, int link, const std::string& index) {
+    const OperationCount before = result_.operations;
+    std::string text = link_text(sweep, link, index);
+    last_count_ = result_.operations;
+    last_count_ += times(before, -1);
+    return text;
+  }
+
+  std::string uncounted(const Sweep& sweep, int link, const std::string& index) {
+    const OperationCount before = result_.operations;
+    std::string text = link_text(sweep, link, index);
+    result_.operations = before;
+    return text;
+  }
+
+  static OperationCount times(OperationCount count, long factor) {
+    return {count.additions * factor, count.multiplications * factor, count.divisions * factor,
+            count.functions * factor};
+  }
+
+  static constexpr int kUnrelated = 1'000'000;
+
+  const Definitions& definitions_;
+  const std::vector<Output>& outputs_;
+  const InputDeclarations& inputs_;
+  std::vector<Family> families_;
+  std::map<std::string, size_t> position_;
+  std::set<std::pair<int, std::string>> used_inputs_;
+  std::vector<Sweep> sweeps_;
+  FunctionBody result_;
+  OperationCount last_count_;
+};
+
+}  // namespace
+
+FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
+                           const InputDeclarations& inputs, Layout layout) {
+  Body body(definitions, outputs, inputs);
+  return layout == Layout::kStraight ? body.straight() : body.loops();
+}
+
+}  // namespace catena

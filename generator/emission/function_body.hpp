@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From definitions to the statements of a C++ function: what the outputs do not need is left out,
+// definitions are put in sweeps over the links (towards the tip, or towards the support), and
+// links whose statements read the same become one loop.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "generator/derivation/definitions.hpp"
+#include "generator/emission/polynomial_text.hpp"
+
+namespace catena {
+
+/// One assignment to the outside: before + (index + shift) + after = value.
+/// index kNoIndex: before + after = value.
+struct Output {
+  std::string before;
+  int index;
+  int shift;
+  std::string after;
+  GiNaC::ex value;
+};
+
+/// How inputs are reached: family -> declaration that brings its name into the function
+/// ("const FromOne<T> theta(at.q);").
+using InputDeclarations = std::map<std::string, std::string>;
+
+enum class Layout {
+  kStraight,  ///< one statement a definition
+  kLoops      ///< loops over links where they read the same
+};
+
+struct FunctionBody {
+  std::string text;  ///< statements, indented by two
+  OperationCount operations;
+  int statements = 0;
+};
+
+FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
+                           const InputDeclarations& inputs, Layout layout);
+
+}  // namespace catena

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The functions of one emitted model: which outputs each has, and the statements that compute them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "generator/derivation/chain.hpp"
+#include "generator/emission/function_body.hpp"
+#include "generator/emission/model_writer.hpp"
+
+namespace catena {
+
+struct EmittedFunction {
+  std::string name;
+  std::string comment;    ///< first line of its documentation
+  std::string signature;  ///< "void residual(const Point<T>& at, T* r)"
+  std::string before;     ///< statements around the body
+  FunctionBody body;
+  std::string after;
+  std::string wrapper;  ///< the double-precision C function in the .cpp, if the table has it
+};
+
+struct ModelFunctions {
+  ModelSummary summary;
+  std::vector<EmittedFunction> functions;
+  std::vector<std::string> terms;
+  std::vector<EnergyItem> energies;
+  std::string mass_type, newton_type;  ///< C++ types over T; empty: no structure
+  bool uses_time = false, observes = false;
+
+  /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
+  std::vector<std::string> table_entries() const;
+};
+
+ModelFunctions model_functions(const Description& description, int links, Layout layout);
+
+}  // namespace catena

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/model_writer.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "generator/derivation/chain.hpp"
+#include "generator/derivation/structure.hpp"
+#include "generator/emission/model_functions.hpp"
+#include "generator/emission/parameter_table.hpp"
+
+namespace catena {
+
+namespace {
+
+const char* const kBanner =
+    "// Written by catena-derive. Do not edit: change the model description and derive again.\n";
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string number(double value) {
+  if (std::isnan(value)) return "NAN";
+  if (std::isinf(value)) return value > 0 ? "INFINITY" : "-INFINITY";
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  const std::string text = out.str();
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string kind_text(EnergyItem::Kind kind) {
+  switch (kind) {
+    case EnergyItem::kStored:
+      return "CATENA_STORED";
+    case EnergyItem::kDissipated:
+      return "CATENA_DISSIPATED";
+    case EnergyItem::kSupplied:
+      return "CATENA_SUPPLIED";
+  }
+  return "";
+}
+
+std::string operations_text(const FunctionBody& body) {
+  const OperationCount& count = body.operations;
+  std::ostringstream out;
+  out << count.additions << " additions, " << count.multiplications << " multiplications, "
+      << count.divisions << " divisions, " << count.functions << " functions";
+  return out.str();
+}
+
+std::string structure_text(const ModelFunctions& functions) {
+  const ModelSummary& s = functions.summary;
+  std::ostringstream out;
+  if (s.mass_structured) {
+    out << "//   M: semiseparable of rank " << s.mass_rank
+        << (s.mass_symmetric ? ", symmetric" : "") << " (proved for every pair of links)\n";
+  } else {
+    out << "//   M: no structure used: " << s.why_not << "\n";
+  }
+  if (s.structured) {
+    out << "//   ca dr/da + cv dr/dv + cq dr/dq: tridiagonal plus semiseparable, ranks "
+        << s.newton_upper_rank << " (above) and " << s.newton_lower_rank << " (below the diagonal)\n";
+  } else {
+    out << "//   Newton matrix: general form: " << s.why_not << "\n";
+  }
+  if (s.stiffness_tridiagonal) out << "//   K: constant, symmetric, tridiagonal\n";
+  if (s.damping_tridiagonal) out << "//   C: constant, symmetric, tridiagonal\n";
+  return out.str();
+}
+
+std::string header_text(const Description& description, const ModelFunctions& functions) {
+  const ModelSummary& s = functions.summary;
+  std::ostringstream out;
+  out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "//\n";
+  out << "// Equations of motion of a hanging chain of " << s.links << " rigid link"
+      << (s.links == 1 ? "" : "s") << " with elastic, damped joints and a load";
+  if (!description.effects.empty()) {
+    out << ",\n// with";
+    for (const Effect& effect : description.effects) out << " " << effect.id;
+  }
+  out << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
+         "scalar.hpp.\n//\n// Structure found:\n"
+      << structure_text(functions)
+      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n"
+         "#include \"scalar.hpp\"\n\n";
+  out << "extern \"C\" {\nstruct catena_model;\n}\n\n";
+  out << "namespace catena::" << s.name << " {\n\n";
+  out << "inline constexpr int kLinks = " << s.links << ";\n"
+      << "inline constexpr int kCoordinates = " << s.coordinates << ";\n"
+      << "inline constexpr int kStates = " << s.states << ";\n"
+      << "inline constexpr int kSignals = " << s.signals << ";\n"
+      << "inline constexpr int kParameters = " << s.parameters << ";\n\n"
+      << "/// The same functions behind the table of catena_model.h, in double precision.\n"
+      << "const ::catena_model& table();\n";
+  if (!functions.mass_type.empty()) {
+    out << "\n/// Mass matrix in the form in which it is factored.\ntemplate <class T>\nusing "
+           "MassMatrix = "
+        << functions.mass_type << ";\n";
+  }
+  if (!functions.newton_type.empty()) {
+    out << "\n/// ca dr/da + cv dr/dv + cq dr/dq in the form in which it is factored.\n"
+           "template <class T>\nusing NewtonMatrix = "
+        << functions.newton_type << ";\n";
+  }
+  for (const EmittedFunction& function : functions.functions) {
+    out << "\n/// " << function.comment;
+    if (function.body.statements > 0) out << "\n/// " << operations_text(function.body);
+    out << "\ntemplate <class T>\n"
+        << function.signature << " {\n"
+        << function.before << function.body.text << function.after << "}\n";
+  }
+  out << "\n}  // namespace catena::" << s.name << "\n";
+  return out.str();
+}
+
+template <class Rows, class Print>
+void table_rows(std::ostringstream& out, const std::string& type, const std::string& name,
+                const Rows& rows, const Print& print) {
+  out << "const " << type << " " << name << "[] = {\n";
+  for (const auto& row : rows) {
+    out << "    {";
+    print(row);
+    out << "},\n";
+  }
+  if (rows.empty()) out << "    {},\n";
+  out << "};\n\n";
+}
+
+std::string source_text(const Description& description, const ModelFunctions& functions) {
+  const ModelSummary& s = functions.summary;
+  const ModelTable table = model_table(description, s.links);
+  std::ostringstream out;
+  out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "#include \"" << s.name
+      << ".hpp\"\n\n#include \"catena_model.h\"\n\nnamespace catena::" << s.name
+      << " {\n\nnamespace {\n\n";
+  const auto quantity = [&](const QuantityRow& row) {
+    out << quoted(row.name) << ", " << quoted(row.unit);
+  };
+  table_rows(out, "catena_quantity", "kCoordinateTable", table.coordinates, quantity);
+  table_rows(out, "catena_quantity", "kStateTable", table.states, quantity);
+  table_rows(out, "catena_quantity", "kSignalTable", table.signals, quantity);
+  table_rows(out, "catena_quantity", "kTermTable", functions.terms,
+             [&](const std::string& name) { out << quoted(name) << ", \"N m\""; });
+  table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
+             [&](const ParameterRow& row) {
+               out << quoted(row.name) << ", " << quoted(row.unit) << ", "
+                   << quoted(row.description) << ", " << number(row.default_value) << ", "
+                   << number(row.lower) << ", " << number(row.upper) << ", "
+                   << number(row.neutral);
+             });
+  table_rows(out, "catena_energy", "kEnergyTable", functions.energies,
+             [&](const EnergyItem& item) {
+               out << quoted(item.name) << ", " << kind_text(item.kind);
+             });
+  out << "Point<double> point(const catena_point* p) {\n"
+         "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
+  for (const EmittedFunction& function : functions.functions) out << function.wrapper;
+  out << "}  // namespace\n\nconst ::catena_model& table() {\n"
+         "  static const ::catena_model model = {\n"
+         "      CATENA_MODEL_ABI,\n      sizeof(::catena_model),\n      "
+      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description))) << ",\n"
+      << "      kLinks,\n      kCoordinates,\n      kStates,\n      kSignals,\n      kParameters,\n"
+      << "      " << functions.terms.size() << ",  // terms\n      " << functions.energies.size()
+      << ",  // energies\n      " << (functions.uses_time ? 1 : 0) << ",  // uses_time\n      "
+      << (functions.observes ? 1 : 0) << ",  // observes\n      " << (s.structured ? 1 : 0)
+      << ",  // structured\n      "
+      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0")
+      << ",\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
+         "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
+  for (const std::string& entry : functions.table_entries()) out << "      " << entry << ",\n";
+  out << "  };\n  return model;\n}\n\n}  // namespace catena::" << s.name << "\n\n"
+      << "#ifdef CATENA_SHARED_LIBRARY\n"
+         "// The one entry of a shared library that holds this model alone.\n"
+         "extern \"C\" const catena_model* catena_model_table() {\n  return &catena::"
+      << s.name << "::table();\n}\n#endif\n";
+  return out.str();
+}
+
+}  // namespace
+
+std::string model_name(const Description& description, int links) {
+  return description.id + "_" + std::to_string(links);
+}
+
+EmittedModel emit_model(const Description& description, int links, Layout layout) {
+  const ModelFunctions functions = model_functions(description, links, layout);
+  EmittedModel model;
+  model.summary = functions.summary;
+  const std::string name = functions.summary.name;
+  model.files[name + ".hpp"] = header_text(description, functions);
+  model.files[name + ".cpp"] = source_text(description, functions);
+  return model;
+}
+
+}  // namespace catena

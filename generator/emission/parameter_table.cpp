@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/parameter_table.hpp"
+
+#include <limits>
+
+namespace catena {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct ChainFamily {
+  const char *family, *unit, *description;
+  double default_value, lower;
+};
+
+constexpr ChainFamily kPerLink[] = {
+    {"length", "m", "length of link", kNone, 0},
+    {"mass", "kg", "mass of link", kNone, 0},
+    {"inertia", "kg m^2", "rotational inertia about its own centre of link", kNone, 0},
+    {"stiffness", "N m/rad", "stiffness of joint", kNone, 0},
+    {"damping", "N m s/rad", "damping of joint", kNone, 0},
+    {"torque", "N m", "external torque on the angle of link", 0, -kInfinity},
+};
+constexpr ChainFamily kShared[] = {
+    {"load_mass", "kg", "mass of the load at the free end", kNone, 0},
+    {"gravity", "m/s^2", "acceleration of gravity", 9.81, -kInfinity},
+};
+
+int copies(const EffectParameter& parameter, int links) {
+  return parameter.scope == Scope::kModel ? 1 : links;
+}
+
+int copies(const ExtraState& state, int links) { return state.at == Place::kPivot ? 1 : links; }
+
+}  // namespace
+
+ModelTable model_table(const Description& description, int links) {
+  ModelTable table;
+  for (const ChainFamily& row : kPerLink) {
+    for (int i = 1; i <= links; ++i) {
+      const std::string index = std::to_string(i);
+      table.parameters.push_back({std::string(row.family) + "_" + index, row.unit,
+                                  std::string(row.description) + " " + index, row.default_value,
+                                  row.lower, kInfinity, kNone});
+    }
+  }
+  for (const ChainFamily& row : kShared) {
+    table.parameters.push_back(
+        {row.family, row.unit, row.description, row.default_value, row.lower, kInfinity, kNone});
+  }
+  for (int i = 1; i <= links; ++i) {
+    table.coordinates.push_back({"theta_" + std::to_string(i), "rad"});
+  }
+  for (const Effect& effect : description.effects) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      const int count = copies(parameter, links);
+      for (int i = 1; i <= count; ++i) {
+        const std::string suffix =
+            parameter.scope == Scope::kModel ? "" : "_" + std::to_string(i);
+        table.parameters.push_back({effect.id + "." + parameter.name + suffix, parameter.unit,
+                                    parameter.description, parameter.default_value,
+                                    parameter.lower, parameter.upper, parameter.neutral});
+      }
+    }
+    for (const Coordinate& coordinate : effect.coordinates) {
+      for (int i = 1; i <= links; ++i) {
+        table.coordinates.push_back(
+            {effect.id + "." + coordinate.name + "_" + std::to_string(i), coordinate.unit});
+      }
+    }
+    for (const ExtraState& state : effect.states) {
+      for (int i = 1; i <= copies(state, links); ++i) {
+        table.states.push_back({effect.id + "." + state.name + "_" + std::to_string(i), state.unit});
+      }
+    }
+    for (const SignalChannel& signal : effect.signals) {
+      table.signals.push_back({effect.id + "." + signal.name, signal.unit});
+    }
+  }
+  return table;
+}
+
+InputDeclarations input_declarations(const Description& description, int links,
+                                     const std::string& point, const std::string& family_prefix) {
+  InputDeclarations declarations;
+  const auto array = [&](const std::string& family, const std::string& member, int offset) {
+    const std::string shift = offset == 0 ? "" : " + " + std::to_string(offset);
+    declarations[family_prefix + family] =
+        "const FromOne<T> " + family_prefix + family + "(" + point + member + shift + ");";
+  };
+  const auto scalar = [&](const std::string& family, const std::string& member, int offset) {
+    declarations[family_prefix + family] = "const T " + family_prefix + family + " = " + point +
+                                           member + "[" + std::to_string(offset) + "];";
+  };
+  int p = 0;
+  for (const ChainFamily& row : kPerLink) {
+    array(row.family, "p", p);
+    p += links;
+  }
+  for (const ChainFamily& row : kShared) scalar(row.family, "p", p++);
+  array("theta", "q", 0);
+  array("theta_dot", "v", 0);
+  array("theta_ddot", "a", 0);
+  declarations[family_prefix + "time"] = "const T " + family_prefix + "time = " + point + "t;";
+  int q = links, z = 0, u = 0;
+  for (const Effect& effect : description.effects) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      const std::string family = effect.id + "_" + parameter.name;
+      if (parameter.scope == Scope::kModel) {
+        scalar(family, "p", p);
+      } else {
+        array(family, "p", p);
+      }
+      p += copies(parameter, links);
+    }
+    for (const Coordinate& coordinate : effect.coordinates) {
+      const std::string family = effect.id + "_" + coordinate.name;
+      array(family, "q", q);
+      array(family + "_dot", "v", q);
+      array(family + "_ddot", "a", q);
+      q += links;
+    }
+    for (const ExtraState& state : effect.states) {
+      array(effect.id + "_" + state.name, "z", z);
+      z += copies(state, links);
+    }
+    for (const SignalChannel& signal : effect.signals) {
+      const std::string family = effect.id + "_" + signal.name;
+      scalar(family, "u", u++);
+      scalar(family + "_rate", "u", u++);
+      scalar(family + "_acceleration", "u", u++);
+    }
+  }
+  return declarations;
+}
+
+}  // namespace catena

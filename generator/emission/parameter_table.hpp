@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The order, names and units of a model's parameters, coordinates, states and signals: the table's
+// view of a description.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/description/description.hpp"
+#include "generator/emission/function_body.hpp"
+
+namespace catena {
+
+struct ParameterRow {
+  std::string name, unit, description;
+  double default_value, lower, upper, neutral;
+};
+
+struct QuantityRow {
+  std::string name, unit;
+};
+
+struct ModelTable {
+  std::vector<ParameterRow> parameters;
+  std::vector<QuantityRow> coordinates, states, signals;
+};
+
+ModelTable model_table(const Description& description, int links);
+
+/// Declarations that bring the derivation's inputs into an emitted function. `point` is how
+/// the point is reached ("at.", or "" for functions that are given t and p alone); `family_prefix`
+/// is "d_" for differentials.
+InputDeclarations input_declarations(const Description& description, int links,
+                                     const std::string& point, const std::string& family_prefix);
+
+}  // namespace catena

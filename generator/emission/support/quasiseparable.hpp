@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Linear equations whose matrix is tridiagonal plus semiseparable, in time proportional to n.
+//
+//     A_ij = upper_row_i . upper_column_j                 j > i + 1
+//     A_ij = upper_row_i . upper_column_j + above_i       j = i + 1
+//     A_ii = diagonal_i
+//     A_ij = lower_row_i . lower_column_j + below_i       j = i - 1
+//     A_ij = lower_row_i . lower_column_j                 j < i - 1
+//
+// Elimination from the last row up. What is left of the matrix after the rows below j are gone is of
+// the same form, with the correction
+//
+//     A_ik - upper_row_i . W lower_column_k  (and W's neighbours for row and column j alone),
+//
+// W an upper_rank x lower_rank matrix that each step updates by a rank-one term. No pivoting: stable
+// for positive definite matrices, as the mass matrix is, and for Newton matrices M + (small) that an
+// integrator's step size keeps near one.
+#pragma once
+
+#include "scalar.hpp"
+
+namespace catena {
+
+template <class T, int n, int upper_rank, int lower_rank>
+struct Quasiseparable {
+  static constexpr int ru = upper_rank > 0 ? upper_rank : 1;
+  static constexpr int rl = lower_rank > 0 ? lower_rank : 1;
+  T upper_row[n][ru], upper_column[n][ru], lower_row[n][rl], lower_column[n][rl];
+  T diagonal[n], below[n], above[n];
+
+  /// Factors in place: upper_column, lower_row and diagonal are overwritten (diagonal holds the
+  /// reciprocal pivots). Returns 0, or the 1-based row whose pivot vanished.
+  int factor() {
+    T w[ru][rl], w_column[ru], w_row[rl], w_corner = T(0);
+    for (int r = 0; r < ru; ++r) {
+      w_column[r] = T(0);
+      for (int s = 0; s < rl; ++s) w[r][s] = T(0);
+    }
+    for (int s = 0; s < rl; ++s) w_row[s] = T(0);
+    for (int j = n - 1; j >= 0; --j) {
+      T* column = upper_column[j];
+      T* row = lower_row[j];
+      T pivot = diagonal[j] - w_corner;
+      for (int r = 0; r < upper_rank; ++r) {
+        T w_q = T(0);
+        for (int s = 0; s < lower_rank; ++s) w_q += w[r][s] * lower_column[j][s];
+        pivot -= upper_row[j][r] * (w_q + w_column[r]);
+        column[r] -= w_q + w_column[r];
+      }
+      for (int s = 0; s < lower_rank; ++s) {
+        T w_p = w_row[s];
+        pivot -= w_row[s] * lower_column[j][s];
+        for (int r = 0; r < upper_rank; ++r) w_p += w[r][s] * upper_row[j][r];
+        row[s] -= w_p;
+      }
+      if (!usable_pivot(pivot)) return j + 1;
+      const T reciprocal = T(1) / pivot;
+      diagonal[j] = reciprocal;
+      if (j == 0) break;
+      const T before = above[j - 1] * reciprocal;
+      for (int r = 0; r < upper_rank; ++r) {
+        const T scaled = column[r] * reciprocal;
+        for (int s = 0; s < lower_rank; ++s) w[r][s] += scaled * row[s];
+        w_column[r] = scaled * below[j];
+      }
+      for (int s = 0; s < lower_rank; ++s) w_row[s] = before * row[s];
+      w_corner = before * below[j];
+    }
+    return 0;
+  }
+
+  /// Overwrites x, the right-hand side, with the solution.
+  void solve(T* x) const {
+    T carried[ru], sum[rl];
+    for (int r = 0; r < ru; ++r) carried[r] = T(0);
+    for (int s = 0; s < rl; ++s) sum[s] = T(0);
+    T last = T(0);
+    for (int j = n - 1; j >= 0; --j) {
+      T rest = x[j];
+      if (j + 1 < n) rest -= above[j] * last;
+      for (int r = 0; r < upper_rank; ++r) rest -= upper_row[j][r] * carried[r];
+      last = rest * diagonal[j];
+      x[j] = last;
+      for (int r = 0; r < upper_rank; ++r) carried[r] += upper_column[j][r] * last;
+    }
+    for (int j = 0; j < n; ++j) {
+      T known = T(0);
+      if (j > 0) known = below[j] * x[j - 1];
+      for (int s = 0; s < lower_rank; ++s) known += lower_row[j][s] * sum[s];
+      x[j] -= known * diagonal[j];
+      for (int s = 0; s < lower_rank; ++s) sum[s] += lower_column[j][s] * x[j];
+    }
+  }
+
+  /// The whole matrix, row by row. Not after factor().
+  void to_dense(T* matrix) const {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        T entry = i == j ? diagonal[i] : T(0);
+        if (j > i) {
+          for (int r = 0; r < upper_rank; ++r) entry += upper_row[i][r] * upper_column[j][r];
+          if (j == i + 1) entry += above[i];
+        } else if (j < i) {
+          for (int s = 0; s < lower_rank; ++s) entry += lower_row[i][s] * lower_column[j][s];
+          if (j == i - 1) entry += below[i];
+        }
+        matrix[i * n + j] = entry;
+      }
+    }
+  }
+};
+
+/// The symmetric, positive definite case without tridiagonal part:
+///
+///     A_ij = row_i . column_j  for j < i,  A_ii = diagonal_i.
+template <class T, int n, int rank>
+struct SymmetricSemiseparable {
+  static constexpr int rr = rank > 0 ? rank : 1;
+  T row[n][rr], column[n][rr], diagonal[n];
+
+  /// Factors in place (row and diagonal are overwritten; diagonal holds the reciprocal pivots).
+  /// Returns 0, or the 1-based row whose pivot is not positive.
+  int factor() {
+    T w[rr][rr];
+    for (int r = 0; r < rr; ++r) {
+      for (int s = 0; s < rr; ++s) w[r][s] = T(0);
+    }
+    for (int j = n - 1; j >= 0; --j) {
+      T pivot = diagonal[j];
+      for (int r = 0; r < rank; ++r) {
+        T w_q = T(0);
+        for (int s = 0; s < rank; ++s) w_q += (s <= r ? w[r][s] : w[s][r]) * column[j][s];
+        pivot -= column[j][r] * w_q;
+        row[j][r] -= w_q;
+      }
+      if (!positive_pivot(pivot)) return j + 1;
+      const T reciprocal = T(1) / pivot;
+      diagonal[j] = reciprocal;
+      for (int r = 0; r < rank; ++r) {
+        const T scaled = row[j][r] * reciprocal;
+        for (int s = 0; s <= r; ++s) w[r][s] += scaled * row[j][s];
+      }
+    }
+    return 0;
+  }
+
+  /// Overwrites x, the right-hand side, with the solution.
+  void solve(T* x) const {
+    T carried[rr], sum[rr];
+    for (int r = 0; r < rr; ++r) carried[r] = sum[r] = T(0);
+    for (int j = n - 1; j >= 0; --j) {
+      T rest = x[j];
+      for (int r = 0; r < rank; ++r) rest -= column[j][r] * carried[r];
+      x[j] = rest * diagonal[j];
+      for (int r = 0; r < rank; ++r) carried[r] += row[j][r] * x[j];
+    }
+    for (int j = 0; j < n; ++j) {
+      T known = T(0);
+      for (int r = 0; r < rank; ++r) known += row[j][r] * sum[r];
+      x[j] -= known * diagonal[j];
+      for (int r = 0; r < rank; ++r) sum[r] += column[j][r] * x[j];
+    }
+  }
+
+  /// The whole matrix, row by row. Not after factor().
+  void to_dense(T* matrix) const {
+    for (int i = 0; i < n; ++i) {
+      matrix[i * n + i] = diagonal[i];
+      for (int j = 0; j < i; ++j) {
+        T entry = T(0);
+        for (int r = 0; r < rank; ++r) entry += row[i][r] * column[j][r];
+        matrix[i * n + j] = matrix[j * n + i] = entry;
+      }
+    }
+  }
+};
+
+}  // namespace catena

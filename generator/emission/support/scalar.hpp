@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What emitted models need of a scalar type T: + - * /, construction from int and double, and sin,
+// cos, sqrt ... found in namespace catena or by argument-dependent look-up. double, long double,
+// automatic differentiation and SIMD types will do.
+#pragma once
+
+#include <cmath>
+
+namespace catena {
+
+using std::acos;
+using std::asin;
+using std::asinh;
+using std::atan;
+using std::cos;
+using std::cosh;
+using std::exp;
+using std::log;
+using std::sin;
+using std::sinh;
+using std::sqrt;
+using std::tan;
+using std::tanh;
+
+/// An array whose first entry has the index 1, as links and joints are counted.
+template <class T>
+class FromOne {
+ public:
+  explicit FromOne(const T* first) : first_(first) {}
+  const T& operator[](int i) const { return first_[i - 1]; }
+
+ private:
+  const T* first_;
+};
+
+/// State, parameters and time at which a model is evaluated; see catena_model.h.
+template <class T>
+struct Point {
+  T t;
+  const T *q, *v, *a, *z, *u, *p;
+};
+
+template <class T, class Number>
+constexpr T ratio(Number numerator, Number denominator) {
+  return T(numerator) / T(denominator);
+}
+
+template <class T>
+inline void sine_cosine(const T& angle, T& sine, T& cosine) {
+  sine = sin(angle);
+  cosine = cos(angle);
+}
+
+/// Whether a pivot of a positive definite matrix may be divided by; false for NaN.
+template <class T>
+inline bool positive_pivot(const T& pivot) {
+  return pivot > T(0);
+}
+
+/// Whether a pivot of a general matrix may be divided by; false for NaN.
+template <class T>
+inline bool usable_pivot(const T& pivot) {
+  return pivot > T(0) || pivot < T(0);
+}
+
+}  // namespace catena

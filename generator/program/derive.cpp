@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "generator/description/description.hpp"
+#include "generator/description/input_error.hpp"
+#include "generator/description/whole_file.hpp"
+#include "generator/emission/emitted_files.hpp"
+#include "generator/program/commands.hpp"
+
+namespace catena {
+
+namespace {
+
+struct Options {
+  std::string description, output = "generated";
+  std::vector<int> links;
+  std::vector<std::string> effects;
+  bool library = false;
+};
+
+Description description_of(const Options& options) {
+  Description description =
+      options.description.empty() ? plain_chain() : read_description(options.description);
+  for (const std::string& effect : options.effects) {
+    description.effects.push_back(effect.ends_with(".toml") ? read_effect(effect)
+                                                            : built_in_effect(effect));
+    if (options.description.empty()) description.id += "_" + description.effects.back().id;
+  }
+  if (!options.links.empty()) description.links = options.links;
+  if (description.links.empty()) {
+    throw InputError("no link count: give --links N, or `links = [...]` in the description");
+  }
+  for (const int n : description.links) {
+    if (n < 1) {
+      throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
+    }
+  }
+  return description;
+}
+
+void derive(const Options& options) {
+  const Description description = description_of(options);
+  const auto progress = [](const ModelSummary& s, double seconds) {
+    std::printf("%-24s %4d links  %s  %7.2f s\n", s.name.c_str(), s.links,
+                s.structured ? "O(n)   " : "general", seconds);
+    std::fflush(stdout);
+  };
+  const EmittedFiles files =
+      emit_files(description, description.links, options.library, progress);
+  std::filesystem::create_directories(options.output);
+  for (const auto& [name, text] : files) {
+    write_whole_file(std::filesystem::path(options.output) / name, text);
+  }
+  std::printf("written to %s\n", options.output.c_str());
+}
+
+}  // namespace
+
+void add_derive_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "derive", "Derive the equations of motion of a model and write them as C++");
+  command->add_option("--description", options->description,
+                      "model description (TOML); the plain chain if absent");
+  command->add_option("--links", options->links, "link counts, instead of the description's");
+  command->add_option("--effect", options->effects,
+                      "effect to add: a built-in id or a TOML file; may be repeated");
+  command->add_option("--output", options->output, "folder to write to")->capture_default_str();
+  command->add_flag("--library", options->library,
+                    "write the look-up of the models and the list for CMake too");
+  command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");
+  command->callback([options, &status] {
+    derive(*options);
+    status = 0;
+  });
+}
+
+}  // namespace catena

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// catena-derive: everything that takes computer algebra. Exit status 0 success, 1 a failed
+// computation or a difference found, 2 usage or input.
+#include <cstdio>
+#include <exception>
+
+#include "generator/description/input_error.hpp"
+#include "generator/program/commands.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app("Derives the equations of motion of hanging chains", "catena-derive");
+  app.require_subcommand(1);
+  int status = 0;
+  catena::add_derive_command(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const catena::InputError& error) {
+    std::fprintf(stderr, "catena-derive: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "catena-derive: %s\n", error.what());
+    return 1;
+  }
+  return status;
+}
