@@ -152,7 +152,7 @@ void Chain::make_kinematics() {
   joint_side_.push_back(define_variable("joint_side", 0, support_side));
   joint_down_.push_back(define_variable("joint_down", 0, support_down));
   const auto vector = [&] { return std::vector<ex>(1); };
-  reach_ = centre_side_ = centre_down_ = joint_angle_ = vector();
+  reach_ = centre_side_ = centre_down_ = middle_side_ = middle_down_ = joint_angle_ = vector();
   arc_ = hanging_depth_ = {ex(0)};
 
   for (Link i = 1; i <= links_; ++i) {
@@ -165,10 +165,15 @@ void Chain::make_kinematics() {
     // from the upper to the lower end of the link
     const ex span_side = define_variable("span_side", i, reach_[i] * sine_[i]);
     const ex span_down = define_variable("span_down", i, reach_[i] * cosine_[i]);
-    centre_side_.push_back(define_variable(
-        "centre_side", i, joint_side_[i - 1] + kHalf * span_side + offset * sine_[i]));
-    centre_down_.push_back(define_variable(
-        "centre_down", i, joint_down_[i - 1] + kHalf * span_down + offset * cosine_[i]));
+    middle_side_.push_back(
+        define_variable("centre_side", i, joint_side_[i - 1] + kHalf * span_side));
+    middle_down_.push_back(
+        define_variable("centre_down", i, joint_down_[i - 1] + kHalf * span_down));
+    const auto shifted = [&](const char* family, const ex& middle, const ex& direction) {
+      return offset.is_zero() ? middle : define_variable(family, i, middle + offset * direction);
+    };
+    centre_side_.push_back(shifted("mass_centre_side", middle_side_[i], sine_[i]));
+    centre_down_.push_back(shifted("mass_centre_down", middle_down_[i], cosine_[i]));
     joint_side_.push_back(define_variable("joint_side", i, joint_side_[i - 1] + span_side));
     joint_down_.push_back(define_variable("joint_down", i, joint_down_[i - 1] + span_down));
     ex rest = kinematic(&Kinematics::rest_angle, "rad", Place::kJoint, i);

@@ -119,6 +119,7 @@ class Chain {
   std::vector<ex> reach_;  ///< length of link i with its extension
   std::vector<ex> joint_side_, joint_down_;    ///< far end of link i; 0 is the support
   std::vector<ex> centre_side_, centre_down_;  ///< mass centre of link i
+  std::vector<ex> middle_side_, middle_down_;  ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
   ex load_side_, load_down_, cos_tilt_, sin_tilt_;
   std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"

@@ -66,8 +66,8 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     }
     if (motion) add_angle(i);
     if (motion && place == Place::kLinkCentre) {
-      add_point(centre_side_[i], centre_down_[i]);
-      add_directions(centre_side_[i], centre_down_[i], i);
+      add_point(middle_side_[i], middle_down_[i]);
+      add_directions(middle_side_[i], middle_down_[i], i);
     }
   } else if (place == Place::kJoint || place == Place::kPivot) {
     add("stiffness", stiffness_[i], "N m/rad");
@@ -97,7 +97,9 @@ ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge
   if (!expression.given()) return 0;
   ExpressionContext symbols = context(effect, knowledge, place, i);
   for (const Definition& definition : effect.definitions) {
-    if (definition.at != place || knowledge == kShape) continue;
+    const bool here = definition.at == place ||
+                      (definition.at == Place::kJoint && place == Place::kPivot);
+    if (definition.at != Place::kAnywhere && (!here || knowledge == kShape)) continue;
     add_definition(definition, symbols);
   }
   return parse_expression(expression, symbols, Unit::parse(unit));
@@ -148,8 +150,8 @@ void Chain::add_effect_terms(const Effect& effect) {
         down += -normal * sine_[link] + tangential * cosine_[link];
       }
       const bool centre = force.at == Place::kLinkCentre, load = force.at == Place::kLoad;
-      add_force(effect.id, centre ? centre_side_[i] : load ? load_side_ : joint_side_[i - 1], side);
-      add_force(effect.id, centre ? centre_down_[i] : load ? load_down_ : joint_down_[i - 1], down);
+      add_force(effect.id, centre ? middle_side_[i] : load ? load_side_ : joint_side_[i - 1], side);
+      add_force(effect.id, centre ? middle_down_[i] : load ? load_down_ : joint_down_[i - 1], down);
     });
   }
   for (const ScalarTerm& term : effect.scalars) {

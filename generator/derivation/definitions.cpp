@@ -154,7 +154,7 @@ ex Definitions::named(const ex& expression, const std::string& family, int index
     if (!GiNaC::is_a<GiNaC::function>(applied)) return named(applied, family, index);
     return name_of(family + "_" + function.get_name(), index, applied);
   }
-  if (e.nops() == 0) return e;  // constants such as Pi
+  if (e.is_equal(GiNaC::Pi)) return input("pi");
   throw std::logic_error("cannot name " + structural_key(e));
 }
 

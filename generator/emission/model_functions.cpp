@@ -91,7 +91,7 @@ class Builder {
   void seed_tangent() {
     for (int k = 0, count = definitions_.size(); k < count; ++k) {
       const Symbol symbol = definitions_[k];
-      if (symbol.is_input) {
+      if (symbol.is_input && symbol.family != "pi") {
         tangent_.set(symbol.symbol, definitions_.input("d_" + symbol.family, symbol.index));
       } else if (symbol.family == "sine" || symbol.family == "cosine") {
         const bool sine = symbol.family == "sine";

@@ -104,6 +104,7 @@ InputDeclarations input_declarations(const Description& description, int links,
   array("theta_dot", "v", 0);
   array("theta_ddot", "a", 0);
   declarations[family_prefix + "time"] = "const T " + family_prefix + "time = " + point + "t;";
+  declarations["pi"] = "const T pi = T(3.14159265358979323846);";
   int q = links, z = 0, u = 0;
   for (const Effect& effect : description.effects) {
     for (const EffectParameter& parameter : effect.parameters) {
