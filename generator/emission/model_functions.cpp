@@ -425,23 +425,25 @@ class Builder {
     }
     const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
     add("observe", "What the sensor reports of side, down (m) and angle (rad).",
-        "void observe(const T& t, const T* p, const T* in, T* out)",
+        "void observe([[maybe_unused]] const T& t, [[maybe_unused]] const T* p, const T* in, T* out)",
         body(from_one("out", reported), inputs),
         "void c_observe(double t, const double* p, const double in[3], double out[3]) {\n"
         "  observe(t, p, in, out);\n}\n");
     add("observe_tangent", "Its derivative along dp and din.",
-        "void observe_tangent(const T& t, const T* p, const T* dp, const T* in, const T* din,\n"
-        "                     T* dout)",
+        "void observe_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
+        "                     [[maybe_unused]] const T* dp, [[maybe_unused]] const T* in,\n"
+        "                     const T* din, T* dout)",
         body(from_one("dout", each(reported, [&](const ex& e) { return tangent_.of(e); })), inputs),
         "void c_observe_tangent(double t, const double* p, const double* dp, const double in[3],\n"
         "                       const double din[3], double dout[3]) {\n"
         "  observe_tangent(t, p, dp, in, din, dout);\n}\n");
     const std::string after = "  return out;\n";
     add("clock", "Model time at which what was recorded at t happened, s.",
-        "T clock(const T& t, const T* p)", body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
+        "T clock(const T& t, [[maybe_unused]] const T* p)", body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
         "double c_clock(double t, const double* p) { return clock(t, p); }\n", "  T out;\n", after);
     add("clock_tangent", "Its derivative along dp.",
-        "T clock_tangent(const T& t, const T* p, const T* dp)",
+        "T clock_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
+        "                [[maybe_unused]] const T* dp)",
         body({{"out", kNoIndex, 0, "", tangent_.of(sensor.clock)}}, inputs),
         "double c_clock_tangent(double t, const double* p, const double* dp) {\n"
         "  return clock_tangent(t, p, dp);\n}\n",

@@ -41,8 +41,8 @@ struct Point {
   const T *q, *v, *a, *z, *u, *p;
 };
 
-template <class T, class Number>
-constexpr T ratio(Number numerator, Number denominator) {
+template <class T, class Numerator, class Denominator>
+constexpr T ratio(Numerator numerator, Denominator denominator) {
   return T(numerator) / T(denominator);
 }
 
