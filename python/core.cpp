@@ -37,15 +37,17 @@ void SignalCheck::rethrow() const {
   if (raised_) throw py::error_already_set();
 }
 
-namespace {
-
-/// A view of a matrix with one column per time as an array with one row per time; `owner` keeps
-/// the memory alive.
-py::array rows_per_time(const Eigen::MatrixXd& matrix, py::handle owner) {
-  py::array_t<double> view({matrix.cols(), matrix.rows()}, matrix.data(), owner);
-  view.attr("setflags")("write"_a = false);
-  return view;
+py::array read_only(py::array array) {
+  array.attr("setflags")("write"_a = false);
+  return array;
 }
+
+py::array rows_per_time(const Eigen::MatrixXd& matrix, py::handle owner) {
+  return read_only(
+      py::array_t<double>({matrix.cols(), matrix.rows()}, matrix.data(), owner));
+}
+
+namespace {
 
 template <class Member>
 auto view_of(Member member) {
@@ -215,10 +217,8 @@ void add_simulation(py::module_& module) {
       .def_property_readonly("time",
                              [](py::object self) {
                                const auto& time = self.cast<const Trajectory&>().time;
-                               py::array_t<double> view(static_cast<py::ssize_t>(time.size()),
-                                                        time.data(), self);
-                               view.attr("setflags")("write"_a = false);
-                               return view;
+                               return read_only(py::array_t<double>(
+                                   static_cast<py::ssize_t>(time.size()), time.data(), self));
                              })
       .def_property_readonly("q", view_of(&Trajectory::q), "Coordinates, rad.")
       .def_property_readonly("v", view_of(&Trajectory::v), "Rates, rad/s.")

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pybind11/pybind11.h>
+#include <pybind11/numpy.h>
 
+#include <Eigen/Core>
 #include <chrono>
 #include <stdexcept>
 
@@ -25,6 +26,13 @@ class SignalCheck {
   std::chrono::steady_clock::time_point next_{};
   bool raised_ = false;
 };
+
+/// The array, which Python may then not write to.
+pybind11::array read_only(pybind11::array array);
+
+/// A view of a matrix with one column per time as an array with one row per time; `owner` keeps the
+/// memory alive.
+pybind11::array rows_per_time(const Eigen::MatrixXd& matrix, pybind11::handle owner);
 
 /// Cases, identify and diagnose (studies.cpp).
 void add_studies(pybind11::module_& module);

@@ -1,10 +1,223 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena._core: cases and what is done with them.
+// catena._core: cases with their data, and their identification.
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <memory>
+
+#include "identify/ceres/least_squares.hpp"
+#include "identify/error.hpp"
+#include "identify/fit.hpp"
+#include "identify/model_provider.hpp"
+#include "identify/problem.hpp"
 #include "python/core.hpp"
 
-namespace catena::python {
+namespace py = pybind11;
+using namespace py::literals;
 
-void add_studies(pybind11::module_&) {}
+namespace catena::python {
+namespace {
+
+/// A case with its model and data. Shared, because experiments and fits refer to it.
+struct Study {
+  std::shared_ptr<const Problem> problem;
+
+  explicit Study(const std::filesystem::path& path) {
+    py::gil_scoped_release unlock;
+    const Case study = read_case(path);
+    problem = std::make_shared<Problem>(study, provide_model(study.description, study.links));
+  }
+
+  int experiment(int index) const {
+    const auto count = static_cast<int>(problem->experiments().size());
+    if (index < 0 || index >= count)
+      throw std::invalid_argument("experiment: " + std::to_string(index) + "; there are " +
+                                  std::to_string(count) + ", counted from 0");
+    return index;
+  }
+
+  Eigen::VectorXd unknowns(const std::optional<Eigen::VectorXd>& x) const {
+    if (!x) return problem->start();
+    if (x->size() != problem->start().size())
+      throw std::invalid_argument("x: " + std::to_string(x->size()) + " values; there are " +
+                                  std::to_string(problem->start().size()) + " unknowns");
+    return *x;
+  }
+
+  /// frames x channels
+  Eigen::MatrixXd predict(const std::optional<Eigen::VectorXd>& x, int index) const {
+    SignalCheck check;
+    const Eigen::VectorXd at = unknowns(x);
+    Prediction prediction;
+    {
+      py::gil_scoped_release unlock;
+      prediction =
+          problem->predict(at, experiment(index), true, {}, [&check] { return check(); });
+    }
+    check.rethrow();
+    if (!prediction.ok()) throw ComputationError(prediction.message);
+    return prediction.simulated.transpose();
+  }
+
+  double error(const std::optional<Eigen::VectorXd>& x) const {
+    SignalCheck check;
+    const Eigen::VectorXd at = unknowns(x);
+    Evaluation evaluation;
+    {
+      py::gil_scoped_release unlock;
+      evaluation = evaluate(*problem, at, false, false, [&check] { return check(); });
+    }
+    check.rethrow();
+    if (!evaluation.ok) throw ComputationError(evaluation.message);
+    return error_of(*problem, evaluation, Part::kFit);
+  }
+};
+
+struct Identification {
+  std::shared_ptr<const Problem> problem;
+  FitResult fit;
+  std::vector<Gap> before, after;
+
+  py::dict unknowns() const {
+    py::dict values;
+    for (std::size_t i = 0; i < problem->unknowns().size(); ++i)
+      values[py::str(problem->unknowns()[i].name)] = fit.x[static_cast<Eigen::Index>(i)];
+    return values;
+  }
+  std::string case_text_of(const std::filesystem::path& directory) const {
+    return case_text(problem->with(fit.x), directory);
+  }
+};
+
+Identification identify(const Study& study, const std::optional<py::function>& progress) {
+  SignalCheck check;
+  std::atomic<bool> stop{false};
+  std::exception_ptr raised;
+  FitOptions options;
+  options.stop = &stop;
+  options.progress = [&](const Progress& made) {
+    if (!check()) stop = true;
+    if (!progress || raised) return;
+    py::gil_scoped_acquire lock;
+    try {
+      (*progress)(made.evaluations, made.limit, made.error);
+    } catch (...) {
+      raised = std::current_exception();
+      stop = true;
+    }
+  };
+  Identification found{study.problem, {}, {}, {}};
+  const Problem& problem = *study.problem;
+  {
+    py::gil_scoped_release unlock;
+    found.fit = fit(problem, options, fit_least_squares);
+    const auto gaps = [&](const Eigen::VectorXd& x) {
+      return gaps_of(problem, evaluate(problem, x, true, false, [&] { return check(); }));
+    };
+    if (!stop && found.fit.status != FitStatus::kFailed) {
+      found.before = gaps(problem.start());
+      found.after = gaps(found.fit.x);
+    }
+  }
+  check.rethrow();
+  if (raised) std::rethrow_exception(raised);
+  if (found.fit.status == FitStatus::kFailed) throw ComputationError(found.fit.message);
+  return found;
+}
+
+std::vector<std::string> unknown_names(const Study& study) {
+  std::vector<std::string> names;
+  for (const Unknown& unknown : study.problem->unknowns()) names.push_back(unknown.name);
+  return names;
+}
+
+std::vector<std::string> channel_names(const Recording& recording) {
+  std::vector<std::string> names;
+  for (const Channel& channel : recording.channels) names.push_back(channel.name);
+  return names;
+}
+
+}  // namespace
+
+void add_studies(py::module_& module) {
+  py::class_<Experiment>(module, "Experiment", "One recording of a study.")
+      .def_property_readonly("name", [](const Experiment& e) { return e.spec.name; })
+      .def_property_readonly("fitted", &Experiment::fitted)
+      .def_property_readonly("fit_frames", [](const Experiment& e) { return e.recording.fit_frames; },
+                             "The first so many frames are fitted, the rest validates.")
+      .def_property_readonly("channels", [](const Experiment& e) { return channel_names(e.recording); })
+      .def_property_readonly("time",
+                             [](py::object self) {
+                               const auto& time = self.cast<const Experiment&>().recording.time;
+                               return read_only(py::array_t<double>(
+                                   static_cast<py::ssize_t>(time.size()), time.data(), self));
+                             })
+      .def_property_readonly(
+          "measured",
+          [](py::object self) {
+            return rows_per_time(self.cast<const Experiment&>().recording.measured, self);
+          },
+          "Frames x channels, m or rad; NaN where a point was not seen.");
+
+  py::class_<Study>(module, "Study", "A case file with its model and its data.")
+      .def(py::init<const std::filesystem::path&>(), "case"_a)
+      .def_property_readonly("title", [](const Study& s) { return s.problem->study().title; })
+      .def_property_readonly("model", [](const Study& s) { return s.problem->model(); })
+      .def_property_readonly("unknowns", &unknown_names, "Names of what is to be found.")
+      .def_property_readonly("start", [](const Study& s) { return s.problem->start(); },
+                             "Their starting values.")
+      .def_property_readonly(
+          "experiments", [](const Study& s) -> const auto& { return s.problem->experiments(); },
+          py::return_value_policy::reference_internal)
+      .def("model_parameters",
+           [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+             return s.problem->model_parameters(s.unknowns(x), s.experiment(experiment));
+           },
+           "x"_a = py::none(), "experiment"_a = 0, "The model's parameter array.")
+      .def("initial_state",
+           [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+             return s.problem->initial_state(s.unknowns(x), s.experiment(experiment));
+           },
+           "x"_a = py::none(), "experiment"_a = 0, "The state at the first frame.")
+      .def("predict", &Study::predict, "x"_a = py::none(), "experiment"_a = 0,
+           "What the model says at every frame, frames x channels as Experiment.measured.")
+      .def("error", &Study::error, "x"_a = py::none(),
+           "The case's error measure over what is fitted.")
+      .def("identify", &identify, "progress"_a = py::none(),
+           "Finds the unknowns by the method the case names. progress(evaluations, limit, error) is "
+           "called on the way; what it raises ends the search and is raised again.");
+
+  py::class_<Gap>(module, "Gap", "How far model and measurement are apart, m or rad.")
+      .def_readonly("experiment", &Gap::experiment)
+      .def_property_readonly("part",
+                             [](const Gap& gap) {
+                               return gap.part == Part::kFit ? "fit" : "validate";
+                             })
+      .def_readonly("rms", &Gap::rms)
+      .def_readonly("mean_absolute", &Gap::mean_absolute)
+      .def_readonly("mean_distance", &Gap::mean_distance)
+      .def_readonly("largest", &Gap::largest);
+  py::class_<Identification>(module, "Identification", "What identify found.")
+      .def_property_readonly("status",
+                             [](const Identification& i) { return name_of(i.fit.status); })
+      .def_property_readonly("x", [](const Identification& i) { return i.fit.x; })
+      .def_property_readonly("unknowns", &Identification::unknowns, "Value of each, by name.")
+      .def_property_readonly("error", [](const Identification& i) { return i.fit.error; })
+      .def_property_readonly("start_error",
+                             [](const Identification& i) { return i.fit.start_error; })
+      .def_property_readonly("evaluations",
+                             [](const Identification& i) { return i.fit.evaluations; })
+      .def_property_readonly("seconds", [](const Identification& i) { return i.fit.seconds; })
+      .def_readonly("gaps_before", &Identification::before)
+      .def_readonly("gaps", &Identification::after)
+      .def("case_text", &Identification::case_text_of, "directory"_a = ".",
+           "The case with what was found as its starting values; paths in it are relative to "
+           "directory.");
+}
 
 }  // namespace catena::python

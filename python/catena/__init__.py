@@ -8,6 +8,9 @@ fails ComputationError (a RuntimeError), Ctrl-C KeyboardInterrupt.
 
 from ._core import (
     ComputationError,
+    Experiment,
+    Gap,
+    Identification,
     InputError,
     Model,
     Seed,
@@ -15,6 +18,7 @@ from ._core import (
     Simulation,
     State,
     Statistics,
+    Study,
     Trajectory,
     catenary,
     from_angles,
@@ -26,6 +30,9 @@ from ._core import (
 
 __all__ = [
     "ComputationError",
+    "Experiment",
+    "Gap",
+    "Identification",
     "InputError",
     "Model",
     "Seed",
@@ -33,6 +40,7 @@ __all__ = [
     "Simulation",
     "State",
     "Statistics",
+    "Study",
     "Trajectory",
     "catenary",
     "from_angles",
