@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cvodes/cvodes.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/dynamics.hpp"
+#include "runtime/newton_matrix.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/sensitivity_solver.hpp"
+#include "runtime/state_vector.hpp"
+#include "runtime/step_solver.hpp"
+
+namespace catena {
+
+struct SunContextDeleter {
+  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+};
+struct NVectorDeleter {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+};
+struct CvodesDeleter {
+  void operator()(void* cvodes) const { CVodeFree(&cvodes); }
+};
+using SunContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, SunContextDeleter>;
+using NVectorHandle = std::unique_ptr<_generic_N_Vector, NVectorDeleter>;
+using CvodesHandle = std::unique_ptr<void, CvodesDeleter>;
+
+/// CVODES at work on one model: from the initial state through all output times. One object serves
+/// one run.
+class Integrator {
+ public:
+  Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+             double start, const SimulationOptions& options, const Signals& signals,
+             const std::vector<Seed>& seeds);
+
+  /// Fills `result`, whose sensitivity has one entry per seed.
+  void run(const std::vector<double>& times, SensitiveSimulation& result);
+
+ private:
+  static int rates(double t, N_Vector y, N_Vector ydot, void* self);
+  static int powers(double t, N_Vector y, N_Vector power, void* self);
+  static int sensitivity_rates(int count, double t, N_Vector y, N_Vector ydot, int which,
+                               N_Vector s, N_Vector sdot, void* self, N_Vector, N_Vector);
+  static int error_weights(N_Vector y, N_Vector weight, void* self);
+
+  void start_quadratures();
+  void start_sensitivities(const std::vector<Seed>& seeds);
+  void record(double t, std::size_t column, SensitiveSimulation& result);
+  void record_energy(double t, std::size_t column, SensitiveSimulation& result);
+  void explain(int flag, SensitiveSimulation& result);
+  void count(SensitiveSimulation& result) const;
+  std::string name_of(int element) const;
+
+  SimulationOptions options_;
+  Dynamics dynamics_;
+  int n_;
+  LinearSolver used_ = LinearSolver::kAutomatic;
+  SunContextHandle context_;
+  std::unique_ptr<NewtonMatrix> matrix_;
+  std::unique_ptr<StepSolver> step_solver_;
+  std::vector<Seed> seeds_;
+  std::unique_ptr<SensitivitySolver> sensitivity_solver_;
+  NVectorHandle y_, output_, quadrature_;
+  std::vector<NVectorHandle> sensitivities_;
+  std::vector<int> integrated_;  // energy items that are powers
+  std::vector<double> energies_;
+  StepSolver::Failure rates_failure_;
+  CvodesHandle cvodes_;  // last: freed first
+};
+
+}  // namespace catena

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runtime/newton_matrix.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace catena {
+
+StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
+    : factor_(model.table().newton_factor),
+      solve_(model.table().newton_solve),
+      work_(static_cast<std::size_t>(model.table().newton_work)) {}
+
+int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
+  return factor_(&at, 1.0, gamma, gamma * gamma, work_.data());
+}
+
+void StructuredNewtonMatrix::solve(double* x) const { solve_(work_.data(), x); }
+
+DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) {
+  const int n = model.coordinates(), size = n + model.states();
+  matrix_.resize(size, size);
+  factors_ = Eigen::PartialPivLU<Eigen::MatrixXd>(size);
+  permuted_.resize(size);
+  for (std::vector<double>* direction : {&dq_, &dv_, &da_})
+    direction->assign(static_cast<std::size_t>(n), 0.0);
+  dz_.assign(static_cast<std::size_t>(model.states()), 0.0);
+}
+
+int DenseNewtonMatrix::factor(Dynamics& dynamics, const catena_point& at, double gamma) {
+  const catena_model& table = dynamics.table();
+  const int n = table.coordinates, states = table.states;
+  const double* zero = dynamics.zero();
+  const catena_point along{0.0, dq_.data(), dv_.data(), da_.data(), dz_.data(), zero, zero};
+  for (int j = 0; j < n + states; ++j) {
+    const auto i = static_cast<std::size_t>(j < n ? j : j - n);
+    if (j < n) {
+      dq_[i] = gamma * gamma;
+      dv_[i] = gamma;
+      da_[i] = 1.0;
+    } else {
+      dz_[i] = gamma;
+    }
+    double* column = matrix_.col(j).data();
+    table.residual_tangent(&at, &along, column);
+    if (states > 0) {
+      // dv and dz carry one factor gamma already
+      table.state_rate_tangent(&at, &along, column + n);
+      for (int k = 0; k < states; ++k) column[n + k] = -column[n + k];
+      if (j >= n) column[j] += 1.0;
+    }
+    if (j < n)
+      dq_[i] = dv_[i] = da_[i] = 0.0;
+    else
+      dz_[i] = 0.0;
+  }
+  factors_.compute(matrix_);
+  for (int j = 0; j < n + states; ++j) {
+    const double pivot = factors_.matrixLU()(j, j);
+    if (pivot == 0.0 || !std::isfinite(pivot)) return j + 1;
+  }
+  return 0;
+}
+
+void DenseNewtonMatrix::solve(double* x) const {
+  Eigen::Map<Eigen::VectorXd> unknown(x, permuted_.size());
+  permuted_.noalias() = factors_.permutationP() * unknown;
+  factors_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(permuted_);
+  factors_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(permuted_);
+  unknown = permuted_;
+}
+
+std::unique_ptr<NewtonMatrix> make_newton_matrix(const Model& model, LinearSolver requested,
+                                                 LinearSolver& used) {
+  const bool possible = model.table().structured != 0 && model.states() == 0;
+  if (requested == LinearSolver::kStructured && !possible)
+    throw std::invalid_argument(
+        "linear_solver = structured, but the Newton matrix of this model has no structure to "
+        "exploit; choose automatic or dense");
+  if (possible && requested != LinearSolver::kDense) {
+    used = LinearSolver::kStructured;
+    return std::make_unique<StructuredNewtonMatrix>(model);
+  }
+  used = LinearSolver::kDense;
+  return std::make_unique<DenseNewtonMatrix>(model);
+}
+
+}  // namespace catena

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <memory>
+#include <vector>
+
+#include "runtime/dynamics.hpp"
+#include "runtime/simulation.hpp"
+
+namespace catena {
+
+/// The matrix of the equations of one implicit step. A multistep method sets, with gamma > 0 and
+/// constants from the past,
+///     q = q* + gamma v,   v = v* + gamma a,   z = z* + gamma zdot,
+/// so that the residuals gamma r(t, q, v, a, z) and z - z* - gamma zdot depend on v and z alone:
+///     | M + gamma dr/dv + gamma^2 dr/dq              gamma dr/dz      |
+///     | -gamma (dzdot/dv + gamma dzdot/dq)       1 - gamma dzdot/dz   |
+/// Angles are eliminated exactly: the system has the size of the chain, not twice that.
+class NewtonMatrix {
+ public:
+  virtual ~NewtonMatrix() = default;
+  /// Factors the matrix at a point. Returns 0, or the 1-based index of the unknown without a pivot.
+  virtual int factor(Dynamics& dynamics, const catena_point& at, double gamma) = 0;
+  /// Overwrites the right-hand side (coordinates, then states) with the solution.
+  virtual void solve(double* x) const = 0;
+};
+
+/// By the emitted factorisation, O(links); for models without extra states.
+class StructuredNewtonMatrix : public NewtonMatrix {
+ public:
+  explicit StructuredNewtonMatrix(const Model& model);
+  int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
+  void solve(double* x) const override;
+
+ private:
+  decltype(catena_model::newton_factor) factor_;
+  decltype(catena_model::newton_solve) solve_;
+  std::vector<double> work_;
+};
+
+/// By LU with row exchanges; columns from the model's tangents.
+class DenseNewtonMatrix : public NewtonMatrix {
+ public:
+  explicit DenseNewtonMatrix(const Model& model);
+  int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
+  void solve(double* x) const override;
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  std::vector<double> dq_, dv_, da_, dz_;
+  mutable Eigen::VectorXd permuted_;
+};
+
+/// The one that `requested` asks for; `used` says which it is. Throws std::invalid_argument if the
+/// structured one is asked of a model that has none.
+std::unique_ptr<NewtonMatrix> make_newton_matrix(const Model& model, LinearSolver requested,
+                                                 LinearSolver& used);
+
+}  // namespace catena
