@@ -20,8 +20,8 @@ class Dynamics {
         parameters_(parameters),
         signals_(signals),
         signal_values_(static_cast<std::size_t>(3 * model.signals())),
-        zero_(static_cast<std::size_t>(std::max({1, model.coordinates(), model.states(),
-                                                 model.parameters(), 3 * model.signals()}))) {}
+        zero_(static_cast<std::size_t>(std::max(
+            {1, model.coordinates(), model.states(), model.parameters(), 3 * model.signals()}))) {}
 
   const catena_model& table() const { return model_.table(); }
   const Model& model() const { return model_; }

@@ -95,8 +95,8 @@ Eigen::Vector2d free_end(const Eigen::VectorXd& angles, const Eigen::VectorXd& l
   return {lengths.dot(angles.array().sin().matrix()), lengths.dot(angles.array().cos().matrix())};
 }
 
-/// Angles of the neighbouring catenary whose polygon ends at `held`: the end of the curve is moved by
-/// what the polygon misses (which changes little with the end) until nothing is missed.
+/// Angles of the neighbouring catenary whose polygon ends at `held`: the end of the curve is moved
+/// by what the polygon misses (which changes little with the end) until nothing is missed.
 Eigen::VectorXd held_angles(const Eigen::Vector2d& held, const Eigen::VectorXd& lengths) {
   Eigen::Vector2d end = held;
   Eigen::VectorXd angles = catenary_angles(end, lengths);
@@ -157,8 +157,8 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
   const int n = model.coordinates();
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(
-      std::max({n, model.states(), model.parameters(), 3 * model.signals()}));
+  const Eigen::VectorXd zero =
+      Eigen::VectorXd::Zero(std::max({n, model.states(), model.parameters(), 3 * model.signals()}));
   Equilibrium result;
   result.state = State::zero(model);
   Eigen::VectorXd& q = result.state.q;

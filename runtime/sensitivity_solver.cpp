@@ -43,20 +43,18 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
   N_Vector *predictions, *sensitivities, *histories;
   void* user;
   int which = 0;
-  CVodeGetNonlinearSystemData(cvode, &t, &prediction, &state, &rate, &gamma, &rl1, &history,
-                              &user);
-  CVodeGetNonlinearSystemDataSens(cvode, &t, &predictions, &sensitivities, &gamma, &rl1,
-                                  &histories, &user);
+  CVodeGetNonlinearSystemData(cvode, &t, &prediction, &state, &rate, &gamma, &rl1, &history, &user);
+  CVodeGetNonlinearSystemDataSens(cvode, &t, &predictions, &sensitivities, &gamma, &rl1, &histories,
+                                  &user);
   CVodeGetCurrentSensSolveIndex(cvode, &which);
 
   const double *q = elements(state), *v = q + n, *z = v + n;
-  const catena_point at =
-      self.dynamics_.at(t, q, v, self.step_solver_.acceleration(), z);
+  const catena_point at = self.dynamics_.at(t, q, v, self.step_solver_.acceleration(), z);
   if (which == 0) {
     ++self.factorisations_;
-    if (const int pivot = self.matrix_.factor(self.dynamics_, at, gamma)) {
+    if (self.matrix_.factor(self.dynamics_, at, gamma) != 0) {
       self.step_solver_.forget_factors();
-      return pivot > 0 ? SUN_NLS_CONV_RECVR : SUN_NLS_MEM_FAIL;
+      return SUN_NLS_CONV_RECVR;
     }
     self.step_solver_.factors_renewed(gamma);
   }
@@ -83,8 +81,7 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
   for (int i = 0; i < n; ++i) change[i] *= -gamma;
   if (states > 0) {
     self.dynamics_.table().state_rate_tangent(&at, &along, change + n);
-    for (int i = 0; i < states; ++i)
-      change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
+    for (int i = 0; i < states; ++i) change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
   }
   self.matrix_.solve(change);
 

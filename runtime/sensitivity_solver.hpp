@@ -11,8 +11,9 @@ namespace catena {
 /// Solves the equations of one step for one sensitivity, after StepSolver has solved for the state.
 ///
 /// They are the linearisation of the step's own equations: with (sq, sv, sz) the derivative of the
-/// state along a seed and a = (e_v + rl1 zn1_v) / gamma as there, dr along (sq, sv, sa, sz, dp) = 0.
-/// The Newton matrix is factored anew at the solution, once for all seeds; no iteration is needed.
+/// state along a seed and a = (e_v + rl1 zn1_v) / gamma as there, dr along (sq, sv, sa, sz, dp) =
+/// 0. The Newton matrix is factored anew at the solution, once for all seeds; no iteration is
+/// needed.
 class SensitivitySolver {
  public:
   SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix, StepSolver& step_solver,

@@ -35,6 +35,11 @@ void destroy(N_Vector x) {
   N_VFreeEmpty(x);
 }
 
+void space(N_Vector x, Index* reals, Index* integers) {
+  *reals = size(x);
+  *integers = 1;
+}
+
 // z = a x + b y
 CATENA_VECTOR_LOOP void linear_sum(double a, const double* x, double b, const double* y, double* z,
                                    Index n) {
@@ -115,8 +120,7 @@ int linear_combination_op(int count, double* c, N_Vector* x, N_Vector z) {
 
 // z_k = a_k x + y_k
 int scale_add_multi_op(int count, double* a, N_Vector x, N_Vector* y, N_Vector* z) {
-  for (int k = 0; k < count; ++k)
-    linear_sum(a[k], data(x), 1.0, data(y[k]), data(z[k]), size(x));
+  for (int k = 0; k < count; ++k) linear_sum(a[k], data(x), 1.0, data(y[k]), data(z[k]), size(x));
   return 0;
 }
 
@@ -125,6 +129,7 @@ _generic_N_Vector_Ops make_operations() {
   ops.nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
   ops.nvclone = &clone;
   ops.nvdestroy = &destroy;
+  ops.nvspace = &space;
   ops.nvgetarraypointer = &data;
   ops.nvgetlength = &size;
   ops.nvlinearsum = &linear_sum_op;

@@ -12,18 +12,15 @@ namespace {
 
 // The values of CVODE's own Newton iteration (Hindmarsh and others 2005, section 2.1).
 constexpr int kMaxIterations = 4;
-constexpr double kRateMemory = 0.3;      // how much of the old rate of convergence is kept
-constexpr double kDivergence = 2.0;      // growth of a correction that means divergence
-constexpr double kGammaChange = 0.2;     // change of gamma that calls for new factors
+constexpr double kRateMemory = 0.3;   // how much of the old rate of convergence is kept
+constexpr double kDivergence = 2.0;   // growth of a correction that means divergence
+constexpr double kGammaChange = 0.2;  // change of gamma that calls for new factors
 constexpr long kStepsPerFactors = 20;
 
 }  // namespace
 
 StepSolver::StepSolver(Dynamics& dynamics, NewtonMatrix& matrix, SUNContext context)
-    : dynamics_(dynamics),
-      matrix_(matrix),
-      n_(dynamics.coordinates()),
-      states_(dynamics.states()) {
+    : dynamics_(dynamics), matrix_(matrix), n_(dynamics.coordinates()), states_(dynamics.states()) {
   const auto n = static_cast<std::size_t>(n_), states = static_cast<std::size_t>(states_);
   for (std::vector<double>* values : {&q_, &v_, &a_}) values->assign(n, 0.0);
   for (std::vector<double>* values : {&z_, &zdot_}) values->assign(states, 0.0);
@@ -93,7 +90,7 @@ int StepSolver::factor(const Step& step) {
   ++factorisations_;
   if (const int pivot = matrix_.factor(dynamics_, at, step.gamma)) {
     forget_factors();
-    return fail(Status::kSingular, n_ + pivot - 1, step.t);
+    return fail(Status::kSingular, pivot - 1, step.t);
   }
   factored_gamma_ = step.gamma;
   steps_since_factored_ = 0;
@@ -133,12 +130,12 @@ int StepSolver::iterate(const Step& step) {
     ++all_iterations_;
     for (int i = 0; i < n_; ++i) change_[static_cast<std::size_t>(i)] *= -step.gamma;
     for (int i = 0; i < states_; ++i)
-      change_[static_cast<std::size_t>(n_ + i)] =
-          step.gamma * zdot_[static_cast<std::size_t>(i)] -
-          step.rl1 * step.history[2 * n_ + i] - correction_v[n_ + i];
+      change_[static_cast<std::size_t>(n_ + i)] = step.gamma * zdot_[static_cast<std::size_t>(i)] -
+                                                  step.rl1 * step.history[2 * n_ + i] -
+                                                  correction_v[n_ + i];
     for (int i = 0; i < size; ++i)
       if (!std::isfinite(change_[static_cast<std::size_t>(i)]))
-        return fail(Status::kNotFinite, n_ + i, step.t);
+        return fail(Status::kNotFinite, i, step.t);
     matrix_.solve(change_.data());
 
     double sum = 0.0;
@@ -158,7 +155,7 @@ int StepSolver::iterate(const Step& step) {
       sum += change * step.weight[n_ + i] * (change * step.weight[n_ + i]);
     }
     const double norm = std::sqrt(sum / (n_ + size));
-    if (!std::isfinite(norm)) return fail(Status::kNotFinite, n_, step.t);
+    if (!std::isfinite(norm)) return fail(Status::kNotFinite, 0, step.t);
     if (iteration > 0) rate_ = std::max(kRateMemory * rate_, norm / before);
     if (norm * std::min(1.0, rate_) <= step.tolerance) {
       set_point(step);
@@ -172,12 +169,12 @@ int StepSolver::iterate(const Step& step) {
     if (std::abs(change_[static_cast<std::size_t>(i)] * step.weight[n_ + i]) >
         std::abs(change_[static_cast<std::size_t>(worst)] * step.weight[n_ + worst]))
       worst = i;
-  return fail(Status::kNoConvergence, n_ + worst, step.t);
+  return fail(Status::kNoConvergence, worst, step.t);
 }
 
-int StepSolver::fail(Status status, int element, double t) {
+int StepSolver::fail(Status status, int equation, double t) {
   ++all_failures_;
-  failure_ = {status, element, t};
+  failure_ = {status, equation < n_ ? equation : n_ + equation, t};
   return SUN_NLS_CONV_RECVR;
 }
 

@@ -23,11 +23,12 @@ using SunNonlinearSolverHandle =
 /// Solves the equations of one step of CVODES for a second-order system, in place of its general
 /// nonlinear and linear solvers.
 ///
-/// CVODES asks for the correction e of the prediction y_p with e + rl1 zn1 = gamma f(t, y_p + e), the
-/// last two being its history and f the right-hand side. For y = (q, v, z) the rows of q are solved
-/// for q at once. In the others f is never formed: with a = (e_v + rl1 zn1_v) / gamma the equation for
-/// v is the residual form of the equations of motion, r(t, q, v, a, z) = 0, so an iteration of
-/// Newton's method needs one residual and one solve, no acceleration and no product with M.
+/// CVODES asks for the correction e of the prediction y_p with e + rl1 zn1 = gamma f(t, y_p + e),
+/// the last two being its history and f the right-hand side. For y = (q, v, z) the rows of q are
+/// solved for q at once. In the others f is never formed: with a = (e_v + rl1 zn1_v) / gamma the
+/// equation for v is the residual form of the equations of motion, r(t, q, v, a, z) = 0, so an
+/// iteration of Newton's method needs one residual and one solve, no acceleration and no product
+/// with M.
 ///
 /// To CVODES it is a solver of the kind "fixed point", which is the kind that brings its own linear
 /// algebra.
@@ -38,8 +39,8 @@ class StepSolver {
   /// To be given to CVodeSetNonlinearSolver; lives as long as this object.
   SUNNonlinearSolver handle() const { return handle_.get(); }
 
-  /// Why the last step that failed did so: kNoConvergence, kNotFinite or kSingular, and at which
-  /// element of (q, v, z).
+  /// Why the last step that failed did so: kNoConvergence, kNotFinite or kSingular, and in the
+  /// equation of which element of (q, z), as its place in (q, v, z).
   struct Failure {
     Status status = Status::kSuccess;
     int element = 0;
@@ -81,7 +82,7 @@ class StepSolver {
   int factor(const Step& step);
   int iterate(const Step& step);
   void set_point(const Step& step);
-  int fail(Status status, int element, double t);
+  int fail(Status status, int equation, double t);
 
   Dynamics& dynamics_;
   NewtonMatrix& matrix_;

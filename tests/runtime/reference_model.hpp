@@ -251,7 +251,7 @@ struct Texts {
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (const auto& family : families)
       for (int i = 1; i <= n; ++i) {
-        const bool torque = family == families[5];
+        const bool torque = &family == &families[5];
         names.push_back(family[0] + std::to_string(i));
         parameters.push_back({names.back().c_str(), family[1], family[2], torque ? 0.0 : none,
                               torque ? -infinity : 0.0, infinity, none});

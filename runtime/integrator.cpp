@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runtime/integrator.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "runtime/number_text.hpp"
+
+namespace catena {
+namespace {
+
+double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// CVODES reports the arguments we give it; a refusal is an error of this program.
+void require(int flag, const char* call) {
+  if (flag < 0) throw std::logic_error(std::string(call) + ": " + CVodeGetReturnFlagName(flag));
+}
+
+SUNContext new_context() {
+  SUNContext context = nullptr;
+  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
+  return context;
+}
+
+void copy_state(const State& state, N_Vector y) {
+  double* out = elements(y);
+  for (const Eigen::VectorXd* part : {&state.q, &state.v, &state.z})
+    out = std::copy(part->data(), part->data() + part->size(), out);
+}
+
+void copy_column(const double* y, int n, int states, std::size_t column, Trajectory& trajectory) {
+  const auto k = static_cast<Eigen::Index>(column);
+  trajectory.q.col(k) = Eigen::Map<const Eigen::VectorXd>(y, n);
+  trajectory.v.col(k) = Eigen::Map<const Eigen::VectorXd>(y + n, n);
+  trajectory.z.col(k) = Eigen::Map<const Eigen::VectorXd>(y + 2 * n, states);
+}
+
+void resize(const Model& model, std::size_t count, Trajectory& trajectory) {
+  const auto columns = static_cast<Eigen::Index>(count);
+  trajectory.q.conservativeResize(model.coordinates(), columns);
+  trajectory.v.conservativeResize(model.coordinates(), columns);
+  trajectory.z.conservativeResize(model.states(), columns);
+  if (trajectory.energy.rows() > 0) trajectory.energy.conservativeResize(model.energies(), columns);
+}
+
+}  // namespace
+
+Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+                       double start, const SimulationOptions& options, const Signals& signals,
+                       const std::vector<Seed>& seeds)
+    : options_(options),
+      dynamics_(model, parameters, signals),
+      n_(model.coordinates()),
+      context_(new_context()),
+      matrix_(make_newton_matrix(model, options.linear_solver, used_)),
+      step_solver_(std::make_unique<StepSolver>(dynamics_, *matrix_, context_.get())),
+      seeds_(seeds),
+      y_(new_state_vector(dynamics_.size(), context_.get())),
+      output_(new_state_vector(dynamics_.size(), context_.get())),
+      energies_(static_cast<std::size_t>(model.energies())),
+      cvodes_(CVodeCreate(options.method == Method::kBdf ? CV_BDF : CV_ADAMS, context_.get())) {
+  if (!cvodes_) throw std::bad_alloc();
+  copy_state(initial, y_.get());
+  const auto silent = [](int, const char*, const char*, char*, void*) {};
+  require(CVodeSetErrHandlerFn(cvodes_.get(), silent, nullptr), "CVodeSetErrHandlerFn");
+  require(CVodeInit(cvodes_.get(), &Integrator::rates, start, y_.get()), "CVodeInit");
+  require(CVodeSetUserData(cvodes_.get(), this), "CVodeSetUserData");
+  require(CVodeWFtolerances(cvodes_.get(), &Integrator::error_weights), "CVodeWFtolerances");
+  require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
+          "CVodeSetNonlinearSolver");
+  if (options_.energy) start_quadratures();
+  if (!seeds_.empty()) start_sensitivities(seeds_);
+}
+
+void Integrator::start_quadratures() {
+  const catena_model& table = dynamics_.table();
+  for (int i = 0; i < table.energies; ++i)
+    if (table.energy_item[i].kind != CATENA_STORED) integrated_.push_back(i);
+  if (integrated_.empty()) return;
+  quadrature_.reset(
+      new_state_vector(static_cast<sunindextype>(integrated_.size()), context_.get()));
+  std::fill_n(elements(quadrature_.get()), integrated_.size(), 0.0);
+  require(CVodeQuadInit(cvodes_.get(), &Integrator::powers, quadrature_.get()), "CVodeQuadInit");
+}
+
+void Integrator::start_sensitivities(const std::vector<Seed>& seeds) {
+  std::vector<N_Vector> initial;
+  for (const Seed& seed : seeds) {
+    sensitivities_.emplace_back(new_state_vector(dynamics_.size(), context_.get()));
+    copy_state({seed.q, seed.v, seed.z}, sensitivities_.back().get());
+    initial.push_back(sensitivities_.back().get());
+  }
+  const int count = static_cast<int>(seeds.size());
+  require(CVodeSensInit1(cvodes_.get(), count, CV_STAGGERED1, &Integrator::sensitivity_rates,
+                         initial.data()),
+          "CVodeSensInit1");
+  // CVODES wants tolerances although the sensitivities do not take part in the error test.
+  std::vector<double> absolute(seeds.size(), options_.absolute_tolerance_velocity);
+  require(CVodeSensSStolerances(cvodes_.get(), options_.relative_tolerance, absolute.data()),
+          "CVodeSensSStolerances");
+  require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");
+  sensitivity_solver_ = std::make_unique<SensitivitySolver>(dynamics_, *matrix_, *step_solver_,
+                                                            seeds_, context_.get());
+  require(CVodeSetNonlinearSolverSensStg1(cvodes_.get(), sensitivity_solver_->handle()),
+          "CVodeSetNonlinearSolverSensStg1");
+}
+
+int Integrator::rates(double t, N_Vector y, N_Vector ydot, void* user) {
+  auto& self = *static_cast<Integrator*>(user);
+  const int n = self.n_, states = self.dynamics_.states();
+  const double *q = elements(y), *v = q + n, *z = v + n;
+  double* out = elements(ydot);
+  std::copy_n(v, n, out);
+  double* a = out + n;
+  double* zdot = a + n;
+
+  // After each step CVODES asks for the rates at the solution, which the step has just found.
+  N_Vector prediction, state, rate, history;
+  double now, gamma, rl1;
+  void* same_user;
+  CVodeGetNonlinearSystemData(self.cvodes_.get(), &now, &prediction, &state, &rate, &gamma, &rl1,
+                              &history, &same_user);
+  if (y == state && t == self.step_solver_->time()) {
+    std::copy_n(self.step_solver_->acceleration(), n, a);
+    std::copy_n(self.step_solver_->state_rate(), states, zdot);
+    return 0;
+  }
+
+  const catena_model& table = self.dynamics_.table();
+  const catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
+  if (const int pivot = table.acceleration(&at, a)) {
+    self.rates_failure_ = {Status::kSingular, pivot - 1, t};
+    return 1;
+  }
+  if (states > 0) table.state_rate(&at, zdot);
+  for (int i = 0; i < n + states; ++i)
+    if (!std::isfinite(a[i])) {
+      self.rates_failure_ = {Status::kNotFinite, i < n ? i : n + i, t};
+      return 1;
+    }
+  return 0;
+}
+
+int Integrator::powers(double t, N_Vector y, N_Vector power, void* user) {
+  auto& self = *static_cast<Integrator*>(user);
+  const double *q = elements(y), *v = q + self.n_, *z = v + self.n_;
+  const catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
+  self.dynamics_.table().energy(&at, self.energies_.data());
+  for (std::size_t i = 0; i < self.integrated_.size(); ++i)
+    elements(power)[i] = self.energies_[static_cast<std::size_t>(self.integrated_[i])];
+  return 0;
+}
+
+int Integrator::sensitivity_rates(int, double t, N_Vector y, N_Vector ydot, int which, N_Vector s,
+                                  N_Vector sdot, void* user, N_Vector, N_Vector) {
+  auto& self = *static_cast<Integrator*>(user);
+  const int n = self.n_, states = self.dynamics_.states();
+  const catena_model& table = self.dynamics_.table();
+  const double *q = elements(y), *v = q + n, *z = v + n, *a = elements(ydot) + n;
+  const double *sq = elements(s), *sv = sq + n, *sz = sv + n;
+  double* out = elements(sdot);
+  const double* zero = self.dynamics_.zero();
+  const catena_point at = self.dynamics_.at(t, q, v, a, z);
+  const catena_point along{
+      0.0, sq, sv, zero, sz, zero, self.seeds_[static_cast<std::size_t>(which)].parameters.data()};
+  std::copy_n(sv, n, out);
+  // dr along (sq, sv, sa, sz, dp) = 0 for sa; at gamma = 0 the Newton matrix is M
+  table.residual_tangent(&at, &along, out + n);
+  for (int i = 0; i < n; ++i) out[n + i] = -out[n + i];
+  if (states > 0) table.state_rate_tangent(&at, &along, out + 2 * n);
+  self.step_solver_->forget_factors();
+  if (const int pivot = self.matrix_->factor(self.dynamics_, at, 0.0)) {
+    self.rates_failure_ = {Status::kSingular, pivot - 1, t};
+    return 1;
+  }
+  self.matrix_->solve(out + n);
+  return 0;
+}
+
+int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
+  const auto& self = *static_cast<Integrator*>(user);
+  const SimulationOptions& options = self.options_;
+  const double* value = elements(y);
+  double* out = elements(weight);
+  const int n = self.n_, size = self.dynamics_.size();
+  for (int i = 0; i < n; ++i)
+    out[i] = 1.0 / (options.relative_tolerance * std::abs(value[i]) +
+                    options.absolute_tolerance_position);
+  for (int i = n; i < size; ++i)
+    out[i] = 1.0 / (options.relative_tolerance * std::abs(value[i]) +
+                    options.absolute_tolerance_velocity);
+  return 0;
+}
+
+void Integrator::run(const std::vector<double>& times, SensitiveSimulation& result) {
+  const double begin = cpu_seconds();
+  const Model& model = dynamics_.model();
+  result.trajectory.time = times;
+  if (options_.energy) result.trajectory.energy.resize(model.energies(), 0);
+  resize(model, times.size(), result.trajectory);
+  result.sensitivity.resize(seeds_.size());
+  for (Trajectory& sensitivity : result.sensitivity) {
+    sensitivity.time = times;
+    resize(model, times.size(), sensitivity);
+  }
+  result.energy_imbalance = options_.energy ? 0.0 : std::nan("");
+
+  copy_column(elements(y_.get()), n_, dynamics_.states(), 0, result.trajectory);
+  for (std::size_t i = 0; i < seeds_.size(); ++i)
+    copy_column(elements(sensitivities_[i].get()), n_, dynamics_.states(), 0,
+                result.sensitivity[i]);
+  if (options_.energy) record_energy(times[0], 0, result);
+
+  result.status = Status::kSuccess;
+  std::size_t next = 1;
+  if (next < times.size()) {
+    CVodeSetStopTime(cvodes_.get(), times.back());
+    // Below this a step is lost in the rounding of t: at a wall, give up rather than creep.
+    const double longest = std::max(std::abs(times.front()), std::abs(times.back()));
+    CVodeSetMinStep(cvodes_.get(), 64.0 * std::numeric_limits<double>::epsilon() * longest);
+  }
+  for (long step = 0; next < times.size(); ++step) {
+    double t = times[0];
+    if (step >= options_.max_steps) {
+      CVodeGetCurrentTime(cvodes_.get(), &t);
+      result.status = Status::kTooManySteps;
+      result.message = std::to_string(options_.max_steps) +
+                       " steps were taken and t = " + number_text(t) + " s is reached, of " +
+                       number_text(times.back()) + " s";
+      break;
+    }
+    const int flag = CVode(cvodes_.get(), times.back(), y_.get(), &t, CV_ONE_STEP);
+    if (flag < 0) {
+      explain(flag, result);
+      break;
+    }
+    for (; next < times.size() && times[next] <= t; ++next) record(times[next], next, result);
+    if (options_.keep_going && next < times.size() && !options_.keep_going(t)) {
+      result.status = Status::kInterrupted;
+      result.message = "interrupted at t = " + number_text(t) + " s";
+      break;
+    }
+  }
+  if (next < times.size()) {
+    result.trajectory.time.resize(next);
+    resize(model, next, result.trajectory);
+    for (Trajectory& sensitivity : result.sensitivity) {
+      sensitivity.time.resize(next);
+      resize(model, next, sensitivity);
+    }
+  }
+  count(result);
+  result.statistics.cpu_seconds = cpu_seconds() - begin;
+}
+
+void Integrator::record(double t, std::size_t column, SensitiveSimulation& result) {
+  require(CVodeGetDky(cvodes_.get(), t, 0, output_.get()), "CVodeGetDky");
+  copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.trajectory);
+  if (options_.energy) record_energy(t, column, result);
+  for (std::size_t i = 0; i < seeds_.size(); ++i) {
+    require(CVodeGetSensDky1(cvodes_.get(), t, 0, static_cast<int>(i), output_.get()),
+            "CVodeGetSensDky1");
+    copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.sensitivity[i]);
+  }
+}
+
+void Integrator::record_energy(double t, std::size_t column, SensitiveSimulation& result) {
+  const auto k = static_cast<Eigen::Index>(column);
+  const catena_model& table = dynamics_.table();
+  const Trajectory& motion = result.trajectory;
+  auto energy = result.trajectory.energy.col(k);
+  const catena_point at = dynamics_.at(t, motion.q.col(k).data(), motion.v.col(k).data(),
+                                       dynamics_.zero(), motion.z.col(k).data());
+  table.energy(&at, energies_.data());
+  energy = Eigen::Map<const Eigen::VectorXd>(energies_.data(), energy.size());
+  if (!integrated_.empty() && column > 0)
+    require(CVodeGetQuadDky(cvodes_.get(), t, 0, quadrature_.get()), "CVodeGetQuadDky");
+  for (std::size_t i = 0; i < integrated_.size(); ++i)
+    energy[integrated_[i]] = elements(quadrature_.get())[i];
+  double balance = 0.0;  // stored + dissipated - supplied, now less at first
+  for (int i = 0; i < table.energies; ++i) {
+    const double change = energy[i] - result.trajectory.energy(i, 0);
+    balance += table.energy_item[i].kind == CATENA_SUPPLIED ? -change : change;
+  }
+  result.energy_imbalance = std::max(result.energy_imbalance, std::abs(balance));
+}
+
+void Integrator::explain(int flag, SensitiveSimulation& result) {
+  StepSolver::Failure failure;
+  const char* what = "";
+  switch (flag) {
+    case CV_CONV_FAILURE:
+      failure = step_solver_->failure();
+      break;
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_SRHSFUNC_ERR:
+    case CV_REPTD_SRHSFUNC_ERR:
+    case CV_UNREC_SRHSFUNC_ERR:
+    case CV_SRHSFUNC_FAIL:
+      failure = rates_failure_;
+      break;
+    default: {
+      failure.status = Status::kStepFailure;
+      CVodeGetCurrentTime(cvodes_.get(), &failure.t);
+      CVodeGetEstLocalErrors(cvodes_.get(), output_.get());
+      const double* error = elements(output_.get());
+      CVodeGetErrWeights(cvodes_.get(), y_.get());
+      const double* weight = elements(y_.get());
+      for (int i = 1; i < dynamics_.size(); ++i)
+        if (std::abs(error[i] * weight[i]) >
+            std::abs(error[failure.element] * weight[failure.element]))
+          failure.element = i;
+    }
+  }
+  switch (failure.status) {
+    case Status::kNotFinite:
+      what = "the equations give no finite number";
+      break;
+    case Status::kSingular:
+      what = "the mass or Newton matrix loses its pivot";
+      break;
+    case Status::kNoConvergence:
+      what = "the equations of a step cannot be solved";
+      break;
+    default:
+      what = "the error test fails however small the step";
+  }
+  result.status = failure.status;
+  result.message = std::string(what) + ": " + name_of(failure.element) +
+                   " at t = " + number_text(failure.t) + " s";
+}
+
+std::string Integrator::name_of(int element) const {
+  const catena_model& table = dynamics_.table();
+  if (element < n_) return table.coordinate[element].name;
+  if (element < 2 * n_) return std::string(table.coordinate[element - n_].name) + "_rate";
+  return table.state[element - 2 * n_].name;
+}
+
+void Integrator::count(SensitiveSimulation& result) const {
+  Statistics& statistics = result.statistics;
+  CVodeGetNumSteps(cvodes_.get(), &statistics.steps);
+  CVodeGetNumErrTestFails(cvodes_.get(), &statistics.error_test_failures);
+  statistics.residual_evaluations = step_solver_->residual_evaluations();
+  statistics.newton_iterations = step_solver_->iterations();
+  statistics.newton_failures = step_solver_->failures();
+  statistics.jacobian_evaluations = step_solver_->factorisations();
+  if (sensitivity_solver_) statistics.jacobian_evaluations += sensitivity_solver_->factorisations();
+  statistics.used = used_;
+}
+
+}  // namespace catena

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runtime/simulation.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "runtime/integrator.hpp"
+#include "runtime/number_text.hpp"
+#include "runtime/sensitivity.hpp"
+
+namespace catena {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void check_vector(const std::string& name, const Eigen::VectorXd& values, int size) {
+  if (values.size() != size)
+    refuse(name + ": " + std::to_string(values.size()) + " values given, the model has " +
+           std::to_string(size));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      refuse(name + ", entry " + std::to_string(i + 1) + " = " + number_text(values[i]) +
+             " must be finite");
+}
+
+void check_times(const std::vector<double>& times) {
+  if (times.empty()) refuse("times: none given; the first is the start");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::string entry =
+        "times, entry " + std::to_string(i + 1) + " = " + number_text(times[i]) + " s";
+    if (!std::isfinite(times[i])) refuse(entry + " must be finite");
+    if (i > 0 && !(times[i] > times[i - 1]))
+      refuse(entry + " does not come after " + number_text(times[i - 1]) + " s");
+  }
+}
+
+void check_positive(const char* name, double value) {
+  if (!(value > 0.0) || !std::isfinite(value))
+    refuse(std::string(name) + " = " + number_text(value) + " must be positive");
+}
+
+void check_options(const SimulationOptions& options) {
+  check_positive("relative_tolerance", options.relative_tolerance);
+  check_positive("absolute_tolerance_position", options.absolute_tolerance_position);
+  check_positive("absolute_tolerance_velocity", options.absolute_tolerance_velocity);
+  if (options.max_steps < 1)
+    refuse("max_steps = " + std::to_string(options.max_steps) + " must be at least 1");
+}
+
+void check_signals(const Model& model, const Signals& signals, const std::vector<double>& times) {
+  if (signals.count() != model.signals())
+    refuse("signals: " + std::to_string(signals.count()) + " given, the model has " +
+           std::to_string(model.signals()));
+  for (int i = 0; i < model.signals(); ++i)
+    if (signals.name(i) != model.table().signal[i].name)
+      refuse("signal " + std::to_string(i + 1) + " is \"" + signals.name(i) +
+             "\", the model asks for \"" + model.table().signal[i].name + "\"");
+  if (signals.count() > 0 &&
+      (times.front() < signals.first_time() || times.back() > signals.last_time()))
+    refuse("signals are given from " + number_text(signals.first_time()) + " to " +
+           number_text(signals.last_time()) + " s, the simulation needs them from " +
+           number_text(times.front()) + " to " + number_text(times.back()) + " s");
+}
+
+}  // namespace
+
+Seed Seed::zero(const Model& model) {
+  const State state = State::zero(model);
+  return {Eigen::VectorXd::Zero(model.parameters()), state.q, state.v, state.z};
+}
+
+Seed Seed::parameter(const Model& model, int index) {
+  Seed seed = zero(model);
+  seed.parameters[index] = 1.0;
+  return seed;
+}
+
+Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+                    const std::vector<double>& times, const SimulationOptions& options,
+                    const Signals& signals) {
+  return simulate_with_sensitivities(model, parameters, initial, {}, times, options, signals);
+}
+
+SensitiveSimulation simulate_with_sensitivities(
+    const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+    const std::vector<Seed>& seeds, const std::vector<double>& times,
+    const SimulationOptions& options, const Signals& signals) {
+  model.check_parameters(parameters);
+  const auto check_state = [&](const std::string& name, const auto& state) {
+    check_vector(name + " q", state.q, model.coordinates());
+    check_vector(name + " v", state.v, model.coordinates());
+    check_vector(name + " z", state.z, model.states());
+  };
+  check_state("initial", initial);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const std::string name = "seed " + std::to_string(i + 1);
+    check_vector(name + " parameters", seeds[i].parameters, model.parameters());
+    check_state(name, seeds[i]);
+  }
+  check_times(times);
+  check_options(options);
+  check_signals(model, signals, times);
+  SensitiveSimulation result;
+  Integrator(model, parameters, initial, times.front(), options, signals, seeds).run(times, result);
+  return result;
+}
+
+}  // namespace catena
