@@ -10,16 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#if __has_include("generated/models.hpp")
 #include "generated/models.hpp"
-#else
-namespace catena {
-inline const catena_model* const* built_in_models(int* count) {
-  *count = 0;
-  return nullptr;
-}
-}  // namespace catena
-#endif
 #include "generator/description/input_error.hpp"
 #include "generator/description/nearest_name.hpp"
 #include "runtime/number_text.hpp"
