@@ -47,6 +47,12 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
       if (i > links)
         throw InputError(table.file + ": column \"" + point.angle_column + "\"; the model has " +
                          std::to_string(links) + " links; say which angles to use in [[experiment]]");
+    } else if (experiment.source != DataSource::kCatena) {
+      const auto column = static_cast<std::size_t>(2 * i - 1);  // after the time: x and y of each
+      if (column + 1 >= table.names.size()) break;
+      point.side_column = table.names[column];
+      point.down_column = table.names[column + 1];
+      point.name = point.side_column.substr(0, point.side_column.size() - 2);
     } else {
       point.name = "marker " + index;
       point.side_column = "side_" + index + "_m";
@@ -157,9 +163,8 @@ void warn_of_motion_out_of_plane(Recording& recording) {
 }  // namespace
 
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
-  const Table table = experiment.source == DataSource::kCatena
-                          ? read_table(experiment.data)
-                          : import_tracker_table(experiment);
+  const Table table =
+      import_tracker_table(experiment.source, experiment.data, experiment.likelihood_floor);
   Recording recording;
   recording.points = experiment.points.empty()
                          ? default_points(experiment, table, links, cable_length)

@@ -5,17 +5,19 @@
 
 namespace catena {
 
-/// Reads what tracker programs export, as it is, into a table with the columns "time_s" (or
-/// "frame") and "<point> side", "<point> down" in the file's own units and axes:
+/// Reads what tracker programs export, as it is, into a table: first the column "time", then
+/// "NAME x", "NAME y" for every point, in the file's own units and axes:
 ///
-///   Tracker     a line with the names of the tracks, each followed by empty cells, then a line of
-///               column names t, x, y, ... ; separated by comma, semicolon or tabulator; decimal commas
-///   Kinovea     "Time" and "<name> X", "<name> Y" (the export for spreadsheets), or one block per
-///               trajectory under "Label : name" with lines "time;x;y"; time h:mm:ss:cc or s
-///   DeepLabCut  three lines scorer, bodyparts, coords; columns x, y, likelihood per body part; the
-///               first column counts frames
+///   Tracker     a line with the names of the tracks over their columns, then a line t, x, y, x, y, ...;
+///               further columns (speeds) are passed over. Comma, semicolon or tabulator between
+///               cells; decimal commas where the separator is not a comma
+///   Kinovea     its text export: "#Kinovea Trajectory data export", then for every track "# NAME"
+///               and lines "time x y"; times as numbers or h:mm:ss:cc
+///   DeepLabCut  lines scorer, bodyparts, coords; columns x, y, likelihood per body part; the first
+///               column counts frames. Points less likely than the floor are not seen
 ///
 /// Throws InputError naming file, line and rule.
-Table import_tracker_table(const ExperimentSpec& experiment);
+Table import_tracker_table(DataSource source, const std::filesystem::path& path,
+                           double likelihood_floor);
 
 }  // namespace catena
