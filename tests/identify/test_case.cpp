@@ -159,10 +159,10 @@ TEST_CASE("what is written is read back the same") {
   const std::string twice =
       case_text(parse_case(once, "case.toml", folder.path()), folder.path());
   CHECK(once == twice);
-  for (const char* line : {"arc_length = 0.75", "origin = [320.0, 20.0]", "start = 0.25",
+  for (const char* line : {"arc_length = 0.75", "origin = [320, 20]", "start = 0.25",
                            "held = {side = 0.5, down = 1.25}", "data = \"data.csv\"",
-                           "growing_windows = [0.5, 1.0]", "per_experiment = true"})
-    CHECK_MESSAGE(once.find(line) != std::string::npos, line);
+                           "growing_windows = [0.5, 1]", "per_experiment = true"})
+    CHECK_MESSAGE(once.find(line) != std::string::npos, std::string(line));
 }
 
 TEST_CASE("each mistake is named with its line, key, value and rule") {
@@ -178,7 +178,7 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"links = 4", "links = 4.5", "model.links"},
       {"links = 4", "links = 2000000", "do not fit into memory"},
       {"links = 4", "linsk = 4", "links"},
-      {"length = 2.0", "length = -2.0", "case.toml:9: cable.length: -2.0; must be positive"},
+      {"length = 2.0", "length = -2.0", "case.toml:9: cable.length: -2; must be positive"},
       {"length = 2.0", "length = \"2 m\"", "cable.length"},
       {"length = 2.0", "length = 2.0\nlink_lengths = [1.0, 1.0]", "one per link"},
       {"length = 2.0", "link_lengths = [1.0, 1.0, 0.0, 1.0]", "number 3 is 0"},
@@ -225,7 +225,7 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
     } catch (const InputError& error) {
       message = error.what();
     }
-    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ", row.expected);
+    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ", std::string(row.expected));
     CHECK_MESSAGE(message.starts_with("case.toml:"), message);
   }
 }
