@@ -42,6 +42,7 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
   const auto add_point = [&](const ex& side, const ex& down) {
     add("side", side, "m");
     add("down", down, "m");
+    add("depth", cos_tilt_ * down + sin_tilt_ * side, "m");
     add("velocity_side", time_.of(side), "m/s");
     add("velocity_down", time_.of(down), "m/s");
   };

@@ -24,6 +24,7 @@ const std::map<std::string, Letter>& letters() {
       {"load_mass", {"m", "m", "c", 0}},
       {"side", {"r", "r", "s", 0}},
       {"down", {"r", "r", "d", 0}},
+      {"depth", {"r", "r", "g", 0}},
       {"velocity_side", {"v", "v", "s", 0}},
       {"velocity_down", {"v", "v", "d", 0}},
       {"velocity_normal", {"v", "v", "n", 0}},

@@ -2,9 +2,10 @@
 //
 // The physics of an effect as formulas for eyes: LaTeX (math mode, amsmath) and MathML.
 //
-// v_n, v_t, v_s, v_d: velocity along normal, tangent, side, down; r_s, r_d: position; theta: angle of
-// the link; phi: angle of the joint, from its rest; l, m, I: length, mass, inertia of the link; k, c:
-// stiffness, damping of the joint; s, Delta: arc length and spacing at the joint; m_c: load.
+// v_n, v_t, v_s, v_d: velocity along normal, tangent, side, down; r_s, r_d, r_g: position along
+// side, down, gravity; theta: angle of the link; phi: angle of the joint, from its rest; l, m, I:
+// length, mass, inertia of the link; k, c: stiffness, damping of the joint; s, Delta: arc length
+// and spacing at the joint; m_c: load.
 #pragma once
 
 #include <string>

@@ -217,3 +217,57 @@ TEST_CASE("at the neutral values the equations are those of the plain chain") {
     }
   }
 }
+
+TEST_CASE("sensor effects report what they say, and the truth at their neutral values") {
+  GiNaC::Digits = kDigits;
+  const ex side = numeric(3, 10), down = numeric(7, 10), angle = numeric(4, 10), time = 2;
+  const auto p = [](const std::string& name) { return random_value(name, 5); };
+  struct Reported {
+    ex side, down, angle, time;
+  };
+  const std::map<std::string, Reported> expected = {
+      {"clock_offset", {side, down, angle, time + p("clock_offset_offset")}},
+      {"scale", {side * p("scale_factor"), down * p("scale_factor"), angle, time}},
+      // a point at distance r and angle phi from down is seen at phi + tilt
+      {"camera_tilt",
+       {GiNaC::sqrt(side * side + down * down) *
+            GiNaC::sin(GiNaC::atan(side / down) + p("camera_tilt_tilt")),
+        GiNaC::sqrt(side * side + down * down) *
+            GiNaC::cos(GiNaC::atan(side / down) + p("camera_tilt_tilt")),
+        angle + p("camera_tilt_tilt"), time}},
+      {"marker_offset",
+       {side + p("marker_offset_along") * GiNaC::sin(angle) +
+            p("marker_offset_across") * GiNaC::sin(angle + GiNaC::Pi / 2),
+        down + p("marker_offset_along") * GiNaC::cos(angle) +
+            p("marker_offset_across") * GiNaC::cos(angle + GiNaC::Pi / 2),
+        angle, time}},
+      {"origin_offset",
+       {side + p("origin_offset_side_shift"), down + p("origin_offset_down_shift"), angle, time}},
+  };
+  for (const std::string& id : built_in_effect_ids()) {
+    const Effect effect = built_in_effect(id);
+    if (!is_sensor_alone(effect)) continue;
+    CAPTURE(id);
+    REQUIRE(expected.contains(id));
+    Chain chain(with({id}), kLinks);
+    REQUIRE(chain.sensor().given);
+    for (const bool at_neutral : {false, true}) {
+      Evaluation derived(chain.definitions(), [&](const std::string& name) -> ex {
+        if (name == "side") return side;
+        if (name == "down") return down;
+        if (name == "angle") return angle;
+        if (name == "time") return time;
+        if (!at_neutral) return random_value(name, 5);
+        for (const EffectParameter& parameter : effect.parameters) {
+          if (name == id + "_" + parameter.name) return numeric(parameter.neutral);
+        }
+        return 0;
+      });
+      const Reported truth = at_neutral ? Reported{side, down, angle, time} : expected.at(id);
+      CHECK(difference(truth.side.evalf(), derived.of(chain.sensor().side)) < kTolerance);
+      CHECK(difference(truth.down.evalf(), derived.of(chain.sensor().down)) < kTolerance);
+      CHECK(difference(truth.angle.evalf(), derived.of(chain.sensor().angle)) < kTolerance);
+      CHECK(difference(truth.time.evalf(), derived.of(chain.sensor().clock)) < kTolerance);
+    }
+  }
+}
