@@ -9,5 +9,6 @@
 namespace catena {
 
 void add_derive_command(CLI::App& app, int& status);
+void add_verify_command(CLI::App& app, int& status);
 
 }  // namespace catena
