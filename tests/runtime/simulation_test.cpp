@@ -94,7 +94,7 @@ TEST_CASE(
     const auto run = catena::simulate(model, p, start, times(2.0, 40), options);
     REQUIRE(run.status == Status::kSuccess);
     const auto& energy = run.trajectory.energy;
-    REQUIRE(energy.rows() == 6);
+    REQUIRE(energy.rows() == 5);
     CHECK(energy.row(3).tail(1)[0] > 0.1);  // joint_damping has dissipated, J
     CHECK((energy.row(3).tail(40) - energy.row(3).head(40)).minCoeff() >= 0.0);
     // The torque's work is torque times turn, whatever the path.
