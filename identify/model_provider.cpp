@@ -113,7 +113,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   std::string compiler = options.compiler;
   if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
   const std::vector<std::string> flags = {"-std=c++20", "-O2", "-shared", "-fPIC",
-                                          "-ffp-contract=off"};
+                                          "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         identity_of(derive) + "\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;
