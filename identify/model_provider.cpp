@@ -151,6 +151,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   run(command, "compiling the model",
       "; a C++ compiler is needed for models that are not built in (set CXX to name one)");
 
+  Model::load(sources / "model.so");  // what cannot be used never gets into the cache
   // Another process may have been quicker: then its entry stays.
   std::error_code error;
   fs::rename(sources, entry, error);
