@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -96,23 +95,37 @@ Eigen::Vector2d free_end(const Eigen::VectorXd& angles, const Eigen::VectorXd& l
 }
 
 /// Angles of the neighbouring catenary whose polygon ends at `held`: the end of the curve is moved
-/// by what the polygon misses (which changes little with the end) until nothing is missed.
+/// until nothing is missed, by Newton's method with differences, each step shortened until it
+/// helps.
 Eigen::VectorXd held_angles(const Eigen::Vector2d& held, const Eigen::VectorXd& lengths) {
-  Eigen::Vector2d end = held;
-  Eigen::VectorXd angles = catenary_angles(end, lengths);
-  double missed_before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 1000; ++iteration) {
-    const Eigen::Vector2d missed = held - free_end(angles, lengths);
-    // Down to rounding, and as far below as it still gets better.
-    if (missed.norm() <= 1e-12 * lengths.sum() && missed.norm() >= missed_before) return angles;
-    missed_before = missed.norm();
-    end += missed;
-    angles = catenary_angles(end, lengths);
+  const double whole = lengths.sum(), difference = 1e-7 * whole;
+  const auto missed_by = [&](const Eigen::Vector2d& end) -> Eigen::Vector2d {
+    return held - free_end(catenary_angles(end, lengths), lengths);
+  };
+  Eigen::Vector2d end = held, missed = missed_by(end);
+  for (int iteration = 0; iteration < 100 && missed.norm() > 1e-15 * whole; ++iteration) {
+    Eigen::Matrix2d slope;
+    for (int k = 0; k < 2; ++k) {
+      // inwards, where there is a catenary
+      const double h = end[k] > 0.0 ? -difference : difference;
+      slope.col(k) = (missed_by(end + h * Eigen::Vector2d::Unit(k)) - missed) / h;
+    }
+    Eigen::Vector2d step = -slope.partialPivLu().solve(missed);
+    Eigen::Vector2d still_missed = missed_by(end + step);
+    for (int halving = 0; halving < 40 && !(still_missed.norm() < missed.norm()); ++halving) {
+      step /= 2;
+      still_missed = missed_by(end + step);
+    }
+    if (!(still_missed.norm() < missed.norm())) break;
+    end += step;
+    missed = still_missed;
   }
-  throw std::invalid_argument("no catenary was found whose " + std::to_string(lengths.size()) +
-                              " chords end on the held point (side " + number_text(held[0]) +
-                              " m, down " + number_text(held[1]) +
-                              " m); take more links, or the chords of the curve as they are");
+  if (missed.norm() > 1e-12 * whole)
+    throw std::invalid_argument("no catenary was found whose " + std::to_string(lengths.size()) +
+                                " chords end on the held point (side " + number_text(held[0]) +
+                                " m, down " + number_text(held[1]) +
+                                " m); take more links, or the chords of the curve as they are");
+  return catenary_angles(end, lengths);
 }
 
 }  // namespace
