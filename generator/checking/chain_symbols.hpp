@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <vector>
+
+namespace catena {
+
+/// The symbols in which a chain of n links is written. Vectors are indexed 1..n; entry 0 stands for
+/// the fixed support: angle[0], rate[0] and acceleration[0] are 0, the others unused.
+struct ChainSymbols {
+  explicit ChainSymbols(int links);
+
+  int links;
+  std::vector<GiNaC::ex> angle;         ///< theta_i, absolute, from the downward vertical, rad
+  std::vector<GiNaC::ex> rate;          ///< thetadot_i, rad/s
+  std::vector<GiNaC::ex> acceleration;  ///< thetaddot_i, rad/s^2
+  std::vector<GiNaC::ex> length;        ///< l_i, m
+  std::vector<GiNaC::ex> mass;          ///< m_i, kg
+  std::vector<GiNaC::ex> inertia;       ///< I_i, about the link's own centre, kg m^2
+  std::vector<GiNaC::ex> stiffness;     ///< k_i, N m/rad
+  std::vector<GiNaC::ex> damping;       ///< c_i, N m s/rad
+  std::vector<GiNaC::ex> torque;        ///< T_i, external, on theta_i, N m
+  GiNaC::ex load_mass;                  ///< m_c, kg
+  GiNaC::ex gravity;                    ///< g, m/s^2
+
+  /// d/dt of an expression in these symbols, angles and rates being functions of time. Throws
+  /// std::invalid_argument if it contains an acceleration (no third derivatives here) .
+  [[nodiscard]] GiNaC::ex time_derivative(const GiNaC::ex& expression) const;
+
+  /// True if angles, rates and accelerations do not occur in the expression.
+  [[nodiscard]] bool is_constant(const GiNaC::ex& expression) const;
+
+ private:
+  GiNaC::exmap derivative_;  ///< angle -> rate, rate -> acceleration
+  GiNaC::exset accelerations_;
+};
+
+}  // namespace catena

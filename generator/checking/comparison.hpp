@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/checking/derivation.hpp"
+
+namespace catena {
+
+enum class Verdict {
+  kEqual,      ///< proved
+  kDifferent,  ///< disproved, or beyond what is decided but different at a state to many digits
+  kUndecided   ///< beyond what is decided, and equal at every state tried
+};
+
+/// What is known about one entry.
+struct Finding {
+  Verdict verdict = Verdict::kUndecided;
+  std::string remark;                  ///< in what sense equal, or why undecided; may be empty
+  std::string difference;              ///< by hand minus model (or left minus right), readable
+  std::string simplest;                ///< the shortest term of a long difference, else empty
+  std::size_t terms = 0;               ///< of the difference
+  std::vector<std::string> origins;    ///< where the difference comes from
+  std::vector<std::string> state;      ///< "theta_1 = 0.73" ...: where the two values below stand
+  std::string value;                   ///< by hand, or left side, 12 digits
+  std::string expected;                ///< the model's, or right side
+};
+
+/// One finding for each entry of the derivation, in its order. The chain's side is derived afresh from
+/// its energies (FlatDerivation). `seed` selects the numeric states.
+std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
+
+}  // namespace catena

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/checking/flat_derivation.hpp"
+
+#include <functional>
+
+namespace catena {
+namespace {
+
+using GiNaC::ex;
+
+Contributions joined(Contributions first, const Contributions& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// Applies an operation to every part and drops those it leaves nothing of.
+Contributions each(const Contributions& parts, const std::function<ex(const ex&)>& operation) {
+  Contributions result;
+  for (const Contribution& part : parts) {
+    ex value = operation(part.value);
+    if (!value.is_zero()) result.push_back({part.origin, part.scale, part.is_weight, std::move(value)});
+  }
+  return result;
+}
+
+ex derivative(const ex& e, const ex& symbol) { return e.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)); }
+
+}  // namespace
+
+ex total(const Contributions& parts) {
+  GiNaC::exvector values;
+  for (const Contribution& part : parts) values.push_back(part.value);
+  return GiNaC::add(values);
+}
+
+FlatDerivation::FlatDerivation(const ChainSymbols& symbols) : symbols_(symbols) {
+  const ex half = GiNaC::numeric(1, 2);
+  ex joint_down = 0, joint_side = 0, joint_height = 0;  // the joint above the link
+  const auto kinetic_energy = [&](const ex& mass, const ex& down, const ex& side) {
+    return half * mass *
+           (GiNaC::pow(symbols.time_derivative(down), 2) +
+            GiNaC::pow(symbols.time_derivative(side), 2));
+  };
+  for (std::size_t k = 1; k < symbols.angle.size(); ++k) {
+    const std::string index = std::to_string(k);
+    const ex& theta = symbols.angle[k];
+    const ex& l = symbols.length[k];
+    const ex& m = symbols.mass[k];
+    const ex down = joint_down + l / 2 * GiNaC::cos(theta);          // (2.24)
+    const ex side = joint_side + l / 2 * GiNaC::sin(theta);          // (2.24)
+    const ex height = joint_height + l / 2 * (1 - GiNaC::cos(theta));  // (2.7)
+    kinetic_.push_back({"kinetic energy of link " + index, m, false, kinetic_energy(m, down, side)});
+    kinetic_.push_back({"rotational energy of link " + index, symbols.inertia[k], false,
+                        half * symbols.inertia[k] * GiNaC::pow(symbols.rate[k], 2)});
+    gravity_potential_.push_back({"gravity of link " + index, m, true, m * symbols.gravity * height});
+    elastic_potential_.push_back(
+        {"spring of joint " + index, symbols.stiffness[k], false,
+         half * symbols.stiffness[k] * GiNaC::pow(theta - symbols.angle[k - 1], 2)});
+    dissipation_.push_back(
+        {"damper of joint " + index, symbols.damping[k], false,
+         half * symbols.damping[k] * GiNaC::pow(symbols.rate[k] - symbols.rate[k - 1], 2)});
+    joint_down += l * GiNaC::cos(theta);
+    joint_side += l * GiNaC::sin(theta);
+    joint_height += l * (1 - GiNaC::cos(theta));
+  }
+  kinetic_.push_back(  // (2.25): the load sits at the end of the last link
+      {"kinetic energy of the load", symbols.load_mass, false, kinetic_energy(symbols.load_mass, joint_down, joint_side)});
+  gravity_potential_.push_back(
+      {"gravity of the load", symbols.load_mass, true, symbols.load_mass * symbols.gravity * joint_height});
+}
+
+Contributions FlatDerivation::kinetic() const { return kinetic_; }
+
+Contributions FlatDerivation::potential() const {
+  return joined(elastic_potential_, gravity_potential_);
+}
+
+Contributions FlatDerivation::dissipation() const { return dissipation_; }
+
+Contributions FlatDerivation::lagrangian() const {
+  return joined(kinetic_, each(potential(), [](const ex& part) { return -part; }));
+}
+
+Contributions FlatDerivation::inertial(int i) const {
+  const auto index = static_cast<std::size_t>(i);
+  return each(kinetic_, [&](const ex& part) {
+    return symbols_.time_derivative(derivative(part, symbols_.rate[index])) -
+           derivative(part, symbols_.angle[index]);
+  });
+}
+
+Contributions FlatDerivation::mass(int i, int j) const {
+  // d/dthetaddot_j of d/dt dT/dthetadot_i, by the chain rule of d/dt.
+  return each(kinetic_, [&](const ex& part) {
+    const ex momentum = derivative(part, symbols_.rate[static_cast<std::size_t>(i)]);
+    return derivative(momentum, symbols_.rate[static_cast<std::size_t>(j)]);
+  });
+}
+
+Contributions FlatDerivation::damping(int i, int j) const {
+  return each(dissipation_, [&](const ex& part) {
+    return derivative(derivative(part, symbols_.rate[static_cast<std::size_t>(i)]),
+                      symbols_.rate[static_cast<std::size_t>(j)]);
+  });
+}
+
+Contributions FlatDerivation::stiffness(int i, int j) const {
+  return each(elastic_potential_, [&](const ex& part) {
+    return derivative(derivative(part, symbols_.angle[static_cast<std::size_t>(i)]),
+                      symbols_.angle[static_cast<std::size_t>(j)]);
+  });
+}
+
+Contributions FlatDerivation::coriolis(int i) const {
+  GiNaC::exmap at_rest;
+  for (std::size_t j = 1; j < symbols_.acceleration.size(); ++j)
+    at_rest[symbols_.acceleration[j]] = 0;
+  return each(inertial(i), [&](const ex& part) {
+    return part.subs(at_rest, GiNaC::subs_options::no_pattern);
+  });
+}
+
+Contributions FlatDerivation::gravity(int i) const {
+  return each(gravity_potential_, [&](const ex& part) {
+    return derivative(part, symbols_.angle[static_cast<std::size_t>(i)]);
+  });
+}
+
+Contributions FlatDerivation::equation(int i) const {
+  const auto index = static_cast<std::size_t>(i);
+  Contributions result = inertial(i);
+  for (const Contributions* potentials : {&elastic_potential_, &gravity_potential_})
+    result = joined(std::move(result), each(*potentials, [&](const ex& part) {
+                      return derivative(part, symbols_.angle[index]);
+                    }));
+  result = joined(std::move(result), each(dissipation_, [&](const ex& part) {
+                    return derivative(part, symbols_.rate[index]);
+                  }));
+  result.push_back({"torque T_" + std::to_string(i), symbols_.torque[index], false, -symbols_.torque[index]});
+  return result;
+}
+
+}  // namespace catena

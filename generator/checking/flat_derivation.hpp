@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <vector>
+
+#include "generator/checking/chain_symbols.hpp"
+
+namespace catena {
+
+/// A part of a quantity and the piece of the chain it comes from, e.g. "kinetic energy of link 3".
+struct Contribution {
+  std::string origin;
+  GiNaC::ex scale;   ///< the mass, inertia, stiffness, damping or torque in which the part is linear
+  bool is_weight;    ///< whether it is proportional to g as well
+  GiNaC::ex value;
+};
+using Contributions = std::vector<Contribution>;
+
+/// The sum of the parts.
+GiNaC::ex total(const Contributions& parts);
+
+/// The chain's equations straight from its energies: kinematics (2.24)-(2.27), energies (2.3)-(2.9)
+/// with the load's potential m_c g h_c that (2.9) leaves out, Rayleigh dissipation, and
+///   d/dt(dL/dthetadot_i) - dL/dtheta_i + dD/dthetadot_i - T_i = 0.
+/// Nothing is simplified and nothing is known in advance about the result; every part keeps the body,
+/// joint or torque it comes from. Indices run from 1 to n. Heights are above the hanging rest: (2.7).
+/// Each call costs about n^2 terms, so single entries of chains of many links are cheap.
+class FlatDerivation {
+ public:
+  explicit FlatDerivation(const ChainSymbols& symbols);
+
+  [[nodiscard]] Contributions kinetic() const;      ///< T, J
+  [[nodiscard]] Contributions potential() const;    ///< V, J
+  [[nodiscard]] Contributions dissipation() const;  ///< D, W
+  [[nodiscard]] Contributions lagrangian() const;   ///< T - V, J
+
+  [[nodiscard]] Contributions mass(int i, int j) const;       ///< M_ij, factor of thetaddot_j
+  [[nodiscard]] Contributions damping(int i, int j) const;    ///< C_ij, factor of thetadot_j
+  [[nodiscard]] Contributions stiffness(int i, int j) const;  ///< K_ij, factor of theta_j
+  [[nodiscard]] Contributions coriolis(int i) const;          ///< F_i, N m
+  [[nodiscard]] Contributions gravity(int i) const;           ///< G_i, N m
+  /// Left side of equation i with everything on it: M a + C w + K theta + F + G - T, N m.
+  [[nodiscard]] Contributions equation(int i) const;
+
+ private:
+  [[nodiscard]] Contributions inertial(int i) const;  ///< d/dt dT/dthetadot_i - dT/dtheta_i
+
+  const ChainSymbols& symbols_;
+  Contributions kinetic_, gravity_potential_, elastic_potential_, dissipation_;
+};
+
+}  // namespace catena

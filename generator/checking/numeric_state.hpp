@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catena {
+
+/// Working precision of evaluate_at, decimal digits.
+inline constexpr int kStateDigits = 60;
+
+/// Values for symbols at which two expressions are compared.
+struct NumericState {
+  GiNaC::exmap values;
+  std::vector<std::string> assignments;  ///< "theta_1 = 0.73", in reading order
+};
+
+/// Symbols in the expressions, in reading order.
+std::vector<GiNaC::ex> symbols_in(const std::vector<GiNaC::ex>& expressions);
+
+/// Seeded values with two decimals: positive symbols within 0.1..3, others within -3..3. The same seed
+/// and symbols give the same state.
+NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t seed);
+
+/// The value to kStateDigits, or nothing where it is not a real number.
+std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state);
+
+}  // namespace catena
