@@ -57,8 +57,7 @@ class Attribution {
     for (const auto& [source, piece] : pieces) {
       const Fraction value{GiNaC::add(piece.terms), difference.denominator};
       const auto part = model.find(source);
-      result.push_back(part == model.end() ? stray(source, value)
-                                           : compared(part->second, value));
+      result.push_back(part == model.end() ? stray(source, value) : compared(part->second, value));
     }
     if (!homeless.empty())
       result.push_back("terms linear in no single mass, inertia, stiffness, damping or torque: " +
@@ -105,8 +104,8 @@ class Attribution {
     for (const Contribution& part : parts) {
       const Fraction value = form_(part.value);
       if (value.numerator.is_zero() || value.denominator != 1) continue;
-      const ex first = GiNaC::is_a<GiNaC::add>(value.numerator) ? value.numerator.op(0)
-                                                                : value.numerator;
+      const ex first =
+          GiNaC::is_a<GiNaC::add>(value.numerator) ? value.numerator.op(0) : value.numerator;
       const std::optional<Source> source = source_of(first);
       if (!source) continue;
       ModelPart& entry = result[*source];
@@ -124,6 +123,7 @@ class Attribution {
     const std::optional<numeric> excess = ratio(difference.numerator, model.numerator);
     if (!excess) return std::nullopt;
     const numeric factor = *excess + 1;
+    if (factor == 0) return std::nullopt;  // all parts are missing, each is named
     return factor == -1 ? "the whole entry has the wrong sign"
                         : "the whole entry is multiplied by " + text_of(factor);
   }
@@ -146,7 +146,6 @@ class Attribution {
         const numeric factor = *excess + 1;
         if (factor == 0) return part.origin + ": missing";
         if (factor == -1) return part.origin + ": has the wrong sign";
-        if (factor == 2) return part.origin + ": counted twice";
         return part.origin + ": multiplied by " + text_of(factor);
       }
     }
@@ -154,8 +153,8 @@ class Attribution {
   }
 
   std::string stray(const Source& source, const Fraction& piece) const {
-    return source.first.name + " does not belong here" +
-           (source.second ? " together with g" : "") + ": " + text_of(piece, form_);
+    return source.first.name + " does not belong here" + (source.second ? " together with g" : "") +
+           ": " + text_of(piece, form_);
   }
 
   const ChainSymbols& chain_;

@@ -79,17 +79,28 @@ class Comparison {
 
   Contributions model_parts(const Entry& entry) const {
     switch (entry.quantity) {
-      case Quantity::kLagrangian: return model_->lagrangian();
-      case Quantity::kKinetic: return model_->kinetic();
-      case Quantity::kPotential: return model_->potential();
-      case Quantity::kDissipation: return model_->dissipation();
-      case Quantity::kMass: return model_->mass(entry.row, entry.column);
-      case Quantity::kDamping: return model_->damping(entry.row, entry.column);
-      case Quantity::kStiffness: return model_->stiffness(entry.row, entry.column);
-      case Quantity::kCoriolis: return model_->coriolis(entry.row);
-      case Quantity::kGravity: return model_->gravity(entry.row);
-      case Quantity::kEquation: return model_->equation(entry.row);
-      case Quantity::kIdentity: break;
+      case Quantity::kLagrangian:
+        return model_->lagrangian();
+      case Quantity::kKinetic:
+        return model_->kinetic();
+      case Quantity::kPotential:
+        return model_->potential();
+      case Quantity::kDissipation:
+        return model_->dissipation();
+      case Quantity::kMass:
+        return model_->mass(entry.row, entry.column);
+      case Quantity::kDamping:
+        return model_->damping(entry.row, entry.column);
+      case Quantity::kStiffness:
+        return model_->stiffness(entry.row, entry.column);
+      case Quantity::kCoriolis:
+        return model_->coriolis(entry.row);
+      case Quantity::kGravity:
+        return model_->gravity(entry.row);
+      case Quantity::kEquation:
+        return model_->equation(entry.row);
+      case Quantity::kIdentity:
+        break;
     }
     return {};
   }
@@ -119,7 +130,8 @@ class Comparison {
           "up to the constant " + text_of(difference, form) + ", which no equation of motion sees";
       return true;
     }
-    if (quantity != Quantity::kLagrangian || !same_equations(sides.hand - sides.model)) return false;
+    if (quantity != Quantity::kLagrangian || !same_equations(sides.hand - sides.model))
+      return false;
     finding.verdict = Verdict::kEqual;
     finding.remark = "up to the time derivative " + text_of(difference, form) +
                      ", which no equation of motion sees";
@@ -189,8 +201,8 @@ class Comparison {
       NormalForm form({above, below});
       const Fraction over = form(above), under = form(below);
       if (over.numerator.is_zero() || under.numerator.is_zero()) continue;
-      const ex factor = ((over.numerator * under.denominator) /
-                         (over.denominator * under.numerator)).normal();
+      const ex factor =
+          ((over.numerator * under.denominator) / (over.denominator * under.numerator)).normal();
       if (is_constant({factor, 1}, form)) result.push_back(factor);
     }
     return result;
@@ -201,14 +213,13 @@ class Comparison {
     const std::vector<ex> symbols = symbols_in({sides.hand, sides.model});
     int real = 0;
     for (int attempt = 0; attempt < kStates; ++attempt) {
-      const NumericState state =
-          random_state(symbols, seed_ + static_cast<std::uint64_t>(attempt));
+      const NumericState state = random_state(symbols, seed_ + static_cast<std::uint64_t>(attempt));
       const std::optional<numeric> hand = evaluate_at(sides.hand, state);
       const std::optional<numeric> model = evaluate_at(sides.model, state);
       if (!hand || !model) continue;
       ++real;
-      const bool differs = GiNaC::abs(*hand - *model) >
-                           closeness() * (1 + GiNaC::abs(*hand) + GiNaC::abs(*model));
+      const bool differs =
+          GiNaC::abs(*hand - *model) > closeness() * (1 + GiNaC::abs(*hand) + GiNaC::abs(*model));
       if (differs || finding.state.empty()) {
         finding.state = state.assignments;
         finding.value = twelve_digits(*hand);
@@ -220,10 +231,12 @@ class Comparison {
     }
     if (decided) return;
     finding.remark =
-        real == 0 ? "not rational in parameters, angles, rates, their sines and cosines, and no "
-                    "state tried gave real numbers"
-                  : "not rational in parameters, angles, rates, their sines and cosines; both sides "
-                    "agree to 40 digits at " + std::to_string(real) + " random states";
+        real == 0
+            ? "not rational in parameters, angles, rates, their sines and cosines, and no "
+              "state tried gave real numbers"
+            : "not rational in parameters, angles, rates, their sines and cosines; both sides "
+              "agree to 40 digits at " +
+                  std::to_string(real) + " random states";
   }
 
   void describe(const Sides& sides, const Fraction& difference, NormalForm& form,
@@ -241,10 +254,6 @@ class Comparison {
           parts.begin(), parts.end(),
           [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
     if (sides.parts.empty() || finding.verdict != Verdict::kDifferent) return;
-    if (sides.hand.is_zero()) {
-      finding.origins = {"yours is 0"};
-      return;
-    }
     finding.origins = origins_of(shown, sides.parts, *derivation_.chain, form);
   }
 

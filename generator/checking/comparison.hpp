@@ -18,18 +18,18 @@ enum class Verdict {
 /// What is known about one entry.
 struct Finding {
   Verdict verdict = Verdict::kUndecided;
-  std::string remark;                  ///< in what sense equal, or why undecided; may be empty
-  std::string difference;              ///< by hand minus model (or left minus right), readable
-  std::string simplest;                ///< the shortest term of a long difference, else empty
-  std::size_t terms = 0;               ///< of the difference
-  std::vector<std::string> origins;    ///< where the difference comes from
-  std::vector<std::string> state;      ///< "theta_1 = 0.73" ...: where the two values below stand
-  std::string value;                   ///< by hand, or left side, 12 digits
-  std::string expected;                ///< the model's, or right side
+  std::string remark;                ///< in what sense equal, or why undecided; may be empty
+  std::string difference;            ///< by hand minus model (or left minus right), readable
+  std::string simplest;              ///< the shortest term of a long difference, else empty
+  std::size_t terms = 0;             ///< of the difference
+  std::vector<std::string> origins;  ///< where the difference comes from
+  std::vector<std::string> state;    ///< "theta_1 = 0.73" ...: where the two values below stand
+  std::string value;                 ///< by hand, or left side, 12 digits
+  std::string expected;              ///< the model's, or right side
 };
 
-/// One finding for each entry of the derivation, in its order. The chain's side is derived afresh from
-/// its energies (FlatDerivation). `seed` selects the numeric states.
+/// One finding for each entry of the derivation, in its order. The chain's side is derived afresh
+/// from its energies (FlatDerivation). `seed` selects the numeric states.
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
 
 }  // namespace catena

@@ -3,7 +3,6 @@
 
 #include <ginac/ginac.h>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,28 +27,27 @@ enum class Quantity {
   kIdentity
 };
 
-/// How the quantity is written, e.g. M; nullptr-free: every quantity has one.
+/// How the quantity is written, e.g. M, equation.
 std::string name_of(Quantity quantity);
 
 /// One statement to be checked, evaluated.
 struct Entry {
   Quantity quantity = Quantity::kIdentity;
-  int row = 0;            ///< 1..n, where the quantity has rows
-  int column = 0;         ///< 1..n, where it has columns
-  std::string label;      ///< "M[1,2]", "equation 1" or the identity's own label
-  GiNaC::ex value;        ///< as derived by hand; left side of an equation or identity
-  GiNaC::ex right = 0;    ///< right side of an equation or identity
-  Location at;            ///< where it got this value
+  int row = 0;                        ///< 1..n, where the quantity has rows
+  int column = 0;                     ///< 1..n, where it has columns
+  std::string label;                  ///< "M[1,2]", "equation 1" or the identity's own label
+  GiNaC::ex value;                    ///< as derived by hand; left side of an equation or identity
+  GiNaC::ex right = 0;                ///< right side of an equation or identity
+  Location at;                        ///< where it got this value
   std::vector<Location> overwritten;  ///< where it had got values before
 };
 
 /// A hand derivation with its loops run and its sums written out.
 struct Derivation {
-  std::unique_ptr<ChainSymbols> chain;              ///< null for a scalar derivation
-  std::map<std::string, GiNaC::ex> free_symbols;    ///< of a scalar derivation, by name
-  GiNaC::exmap given;                               ///< parameter -> value, holds on both sides
-  std::vector<Entry> entries;                       ///< in the order of Quantity, then of indices
-  std::vector<std::string> notes;                   ///< worth knowing, no errors
+  std::unique_ptr<ChainSymbols> chain;  ///< null for a scalar derivation
+  GiNaC::exmap given;                   ///< parameter -> value, holds on both sides
+  std::vector<Entry> entries;           ///< in the order of Quantity, then of indices
+  std::vector<std::string> notes;       ///< worth knowing, no errors
 };
 
 }  // namespace catena

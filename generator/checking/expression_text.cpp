@@ -31,12 +31,12 @@ struct Wave {
 
   bool operator<(const Wave& other) const {
     if (sine != other.sine) return sine < other.sine;
-    return std::lexicographical_compare(
-        angle.begin(), angle.end(), other.angle.begin(), other.angle.end(),
-        [](const auto& a, const auto& b) {
-          return a.first != b.first ? SymbolOrder(a.first) < SymbolOrder(b.first)
-                                    : a.second > b.second;
-        });
+    return std::lexicographical_compare(angle.begin(), angle.end(), other.angle.begin(),
+                                        other.angle.end(), [](const auto& a, const auto& b) {
+                                          return a.first != b.first
+                                                     ? SymbolOrder(a.first) < SymbolOrder(b.first)
+                                                     : a.second > b.second;
+                                        });
   }
 };
 
@@ -67,8 +67,7 @@ Waves times(const Waves& waves, const Wave& factor) {
       Wave combined = wave;
       combined.sine = wave.sine != factor.sine;
       for (const auto& [angle, multiple] : factor.angle)
-        combined.angle[angle] =
-            combined.angle[angle] + (plus ? multiple : numeric(-1) * multiple);
+        combined.angle[angle] = combined.angle[angle] + (plus ? multiple : numeric(-1) * multiple);
       numeric value = coefficient / 2;
       if (factor.sine && plus == wave.sine) value = -value;
       normalise(combined, value);
@@ -113,8 +112,7 @@ std::string angle_text(const Wave& wave) {
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> terms;
   for (const auto& [name, multiple] : parts)
-    terms.push_back(
-        signed_text(multiple.is_negative(), product_text(multiple, {name.name}, {})));
+    terms.push_back(signed_text(multiple.is_negative(), product_text(multiple, {name.name}, {})));
   return joined_by_signs(terms);
 }
 
@@ -146,8 +144,8 @@ std::string base_text(const ex& base) {
 /// A polynomial in parameters: numbers times Laurent monomials.
 using ParameterSum = std::map<Monomial, numeric>;
 
-/// The part common to all terms: least exponents and the greatest common number, with the sign of the
-/// first term.
+/// The part common to all terms: least exponents and the greatest common number, with the sign of
+/// the first term.
 std::pair<numeric, Monomial> content(const ParameterSum& sum) {
   Monomial common = sum.begin()->first;
   numeric over = 0, under = 1;
@@ -218,8 +216,8 @@ class Reader {
         number = number * GiNaC::ex_to<numeric>(factor);
         return;
       }
-      const bool power = GiNaC::is_a<GiNaC::power>(factor) &&
-                         factor.op(1).info(GiNaC::info_flags::integer);
+      const bool power =
+          GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::integer);
       const ex symbol = power ? factor.op(0) : factor;
       const int exponent = power ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
       const NormalForm::Generator generator = form_.generator(symbol);
@@ -283,8 +281,8 @@ class Reader {
         std::vector<std::string> inner_over, inner_under;
         append(quotient(monomial, common), inner_over, inner_under);
         const numeric relative = coefficient / number;
-        terms.push_back(signed_text(relative.is_negative(),
-                                    product_text(relative, inner_over, inner_under)));
+        terms.push_back(
+            signed_text(relative.is_negative(), product_text(relative, inner_over, inner_under)));
       }
       over.push_back("(" + joined_by_signs(terms) + ")");
     }
@@ -314,9 +312,7 @@ SymbolOrder::SymbolOrder(const std::string& the_name)
     if (base == kFamilies[i]) family = static_cast<int>(i);
 }
 
-bool SymbolOrder::is_state() const {
-  return family >= kFirstState;
-}
+bool SymbolOrder::is_state() const { return family >= kFirstState; }
 
 std::vector<std::string> readable_parts(const ex& numerator, const NormalForm& form) {
   Reader reader(form);

@@ -22,9 +22,9 @@ struct SymbolOrder {
   [[nodiscard]] bool is_state() const;
 };
 
-/// An expanded polynomial as a sum of products to be read: products of sines and cosines become sines
-/// and cosines of sums of angles, and parameters with the same factor are collected in brackets.
-/// Each part starts with its sign unless that is +; parts are in a fixed order.
+/// An expanded polynomial as a sum of products to be read: products of sines and cosines become
+/// sines and cosines of sums of angles, and parameters with the same factor are collected in
+/// brackets. Each part starts with its sign unless that is +; parts are in a fixed order.
 std::vector<std::string> readable_parts(const GiNaC::ex& numerator, const NormalForm& form);
 
 /// The whole fraction as one line.

@@ -18,7 +18,8 @@ Contributions each(const Contributions& parts, const std::function<ex(const ex&)
   Contributions result;
   for (const Contribution& part : parts) {
     ex value = operation(part.value);
-    if (!value.is_zero()) result.push_back({part.origin, part.scale, part.is_weight, std::move(value)});
+    if (!value.is_zero())
+      result.push_back({part.origin, part.scale, part.is_weight, std::move(value)});
   }
   return result;
 }
@@ -46,13 +47,15 @@ FlatDerivation::FlatDerivation(const ChainSymbols& symbols) : symbols_(symbols) 
     const ex& theta = symbols.angle[k];
     const ex& l = symbols.length[k];
     const ex& m = symbols.mass[k];
-    const ex down = joint_down + l / 2 * GiNaC::cos(theta);          // (2.24)
-    const ex side = joint_side + l / 2 * GiNaC::sin(theta);          // (2.24)
+    const ex down = joint_down + l / 2 * GiNaC::cos(theta);            // (2.24)
+    const ex side = joint_side + l / 2 * GiNaC::sin(theta);            // (2.24)
     const ex height = joint_height + l / 2 * (1 - GiNaC::cos(theta));  // (2.7)
-    kinetic_.push_back({"kinetic energy of link " + index, m, false, kinetic_energy(m, down, side)});
+    kinetic_.push_back(
+        {"kinetic energy of link " + index, m, false, kinetic_energy(m, down, side)});
     kinetic_.push_back({"rotational energy of link " + index, symbols.inertia[k], false,
                         half * symbols.inertia[k] * GiNaC::pow(symbols.rate[k], 2)});
-    gravity_potential_.push_back({"gravity of link " + index, m, true, m * symbols.gravity * height});
+    gravity_potential_.push_back(
+        {"gravity of link " + index, m, true, m * symbols.gravity * height});
     elastic_potential_.push_back(
         {"spring of joint " + index, symbols.stiffness[k], false,
          half * symbols.stiffness[k] * GiNaC::pow(theta - symbols.angle[k - 1], 2)});
@@ -64,9 +67,10 @@ FlatDerivation::FlatDerivation(const ChainSymbols& symbols) : symbols_(symbols) 
     joint_height += l * (1 - GiNaC::cos(theta));
   }
   kinetic_.push_back(  // (2.25): the load sits at the end of the last link
-      {"kinetic energy of the load", symbols.load_mass, false, kinetic_energy(symbols.load_mass, joint_down, joint_side)});
-  gravity_potential_.push_back(
-      {"gravity of the load", symbols.load_mass, true, symbols.load_mass * symbols.gravity * joint_height});
+      {"kinetic energy of the load", symbols.load_mass, false,
+       kinetic_energy(symbols.load_mass, joint_down, joint_side)});
+  gravity_potential_.push_back({"gravity of the load", symbols.load_mass, true,
+                                symbols.load_mass * symbols.gravity * joint_height});
 }
 
 Contributions FlatDerivation::kinetic() const { return kinetic_; }
@@ -91,10 +95,17 @@ Contributions FlatDerivation::inertial(int i) const {
 
 Contributions FlatDerivation::mass(int i, int j) const {
   // d/dthetaddot_j of d/dt dT/dthetadot_i, by the chain rule of d/dt.
-  return each(kinetic_, [&](const ex& part) {
-    const ex momentum = derivative(part, symbols_.rate[static_cast<std::size_t>(i)]);
-    return derivative(momentum, symbols_.rate[static_cast<std::size_t>(j)]);
+  return each(momentum(i), [&](const ex& part) {
+    return derivative(part, symbols_.rate[static_cast<std::size_t>(j)]);
   });
+}
+
+const Contributions& FlatDerivation::momentum(int i) const {
+  const auto known = momenta_.find(i);
+  if (known != momenta_.end()) return known->second;
+  return momenta_[i] = each(kinetic_, [&](const ex& part) {
+           return derivative(part, symbols_.rate[static_cast<std::size_t>(i)]);
+         });
 }
 
 Contributions FlatDerivation::damping(int i, int j) const {
@@ -115,9 +126,8 @@ Contributions FlatDerivation::coriolis(int i) const {
   GiNaC::exmap at_rest;
   for (std::size_t j = 1; j < symbols_.acceleration.size(); ++j)
     at_rest[symbols_.acceleration[j]] = 0;
-  return each(inertial(i), [&](const ex& part) {
-    return part.subs(at_rest, GiNaC::subs_options::no_pattern);
-  });
+  return each(inertial(i),
+              [&](const ex& part) { return part.subs(at_rest, GiNaC::subs_options::no_pattern); });
 }
 
 Contributions FlatDerivation::gravity(int i) const {
@@ -136,7 +146,8 @@ Contributions FlatDerivation::equation(int i) const {
   result = joined(std::move(result), each(dissipation_, [&](const ex& part) {
                     return derivative(part, symbols_.rate[index]);
                   }));
-  result.push_back({"torque T_" + std::to_string(i), symbols_.torque[index], false, -symbols_.torque[index]});
+  result.push_back(
+      {"torque T_" + std::to_string(i), symbols_.torque[index], false, -symbols_.torque[index]});
   return result;
 }
 

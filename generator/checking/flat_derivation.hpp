@@ -3,6 +3,7 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace catena {
 /// A part of a quantity and the piece of the chain it comes from, e.g. "kinetic energy of link 3".
 struct Contribution {
   std::string origin;
-  GiNaC::ex scale;   ///< the mass, inertia, stiffness, damping or torque in which the part is linear
-  bool is_weight;    ///< whether it is proportional to g as well
+  GiNaC::ex scale;  ///< the mass, inertia, stiffness, damping or torque in which the part is linear
+  bool is_weight;   ///< whether it is proportional to g as well
   GiNaC::ex value;
 };
 using Contributions = std::vector<Contribution>;
@@ -25,9 +26,10 @@ GiNaC::ex total(const Contributions& parts);
 /// The chain's equations straight from its energies: kinematics (2.24)-(2.27), energies (2.3)-(2.9)
 /// with the load's potential m_c g h_c that (2.9) leaves out, Rayleigh dissipation, and
 ///   d/dt(dL/dthetadot_i) - dL/dtheta_i + dD/dthetadot_i - T_i = 0.
-/// Nothing is simplified and nothing is known in advance about the result; every part keeps the body,
-/// joint or torque it comes from. Indices run from 1 to n. Heights are above the hanging rest: (2.7).
-/// Each call costs about n^2 terms, so single entries of chains of many links are cheap.
+/// Nothing is simplified and nothing is known in advance about the result; every part keeps the
+/// body, joint or torque it comes from. Indices run from 1 to n. Heights are above the hanging
+/// rest: (2.7). Each call costs about n^2 terms, so single entries of chains of many links are
+/// cheap.
 class FlatDerivation {
  public:
   explicit FlatDerivation(const ChainSymbols& symbols);
@@ -48,7 +50,10 @@ class FlatDerivation {
  private:
   [[nodiscard]] Contributions inertial(int i) const;  ///< d/dt dT/dthetadot_i - dT/dtheta_i
 
+  [[nodiscard]] const Contributions& momentum(int i) const;  ///< dT/dthetadot_i
+
   const ChainSymbols& symbols_;
+  mutable std::map<int, Contributions> momenta_;  // as far as asked for; M takes a row of each
   Contributions kinetic_, gravity_potential_, elastic_potential_, dissipation_;
 };
 

@@ -23,9 +23,9 @@ struct Token {
 /// How a message names a token: 'x', end of line, end of file.
 std::string described(const Token& token);
 
-/// Cuts a derivation into tokens; the last one is kEndOfFile. A statement ends at the end of its line
-/// or at a semicolon, except inside brackets, after an operator or comma, and before a line that
-/// starts with one. Throws InputError at a character that belongs to no token.
+/// Cuts a derivation into tokens; the last one is kEndOfFile. A statement ends at the end of its
+/// line or at a semicolon, except inside brackets, after an operator or comma, and before a line
+/// that starts with one. Throws InputError at a character that belongs to no token.
 std::vector<Token> tokenize(std::string_view text, const std::string& file);
 
 }  // namespace catena

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Notation: an argument a = sum_b (k_b / d_b) b is cut into basic terms b with integers k_b; d_b is the
-// common divisor with which b occurs anywhere. With s = sin(b/d), c = cos(b/d) or E = exp(b/d):
+// Notation: an argument a = sum_b (k_b / d_b) b is cut into basic terms b with integers k_b; d_b is
+// the common divisor with which b occurs anywhere. With s = sin(b/d), c = cos(b/d) or E = exp(b/d):
 //   cos(a) + i sin(a) = prod_b (c_b + i s_b)^k_b,   exp(a) = prod_b E_b^k_b.
 // sin and exp of arguments that are linearly independent over the rationals are algebraically
-// independent (Ax 1971); distinct Laurent monomials b are. That is why a non-zero numerator disproves.
+// independent (Ax 1971); distinct Laurent monomials b are. That is why a non-zero numerator
+// disproves.
 #include "generator/checking/normal_form.hpp"
 
 #include <numeric>
@@ -103,9 +104,7 @@ void NormalForm::scan_argument(const ex& argument, bool exponential) {
   }
 }
 
-Fraction NormalForm::operator()(const ex& expression) {
-  return convert(expression);
-}
+Fraction NormalForm::operator()(const ex& expression) { return convert(expression); }
 
 NormalForm::Generator NormalForm::generator(const ex& symbol) const {
   const auto found = generators_.find(symbol);
@@ -160,7 +159,8 @@ Fraction NormalForm::convert_power(const ex& e) {
 }
 
 Fraction NormalForm::convert_function(const ex& e) {
-  if (!GiNaC::is_a<GiNaC::function>(e)) throw std::domain_error("not an expression of real numbers");
+  if (!GiNaC::is_a<GiNaC::function>(e))
+    throw std::domain_error("not an expression of real numbers");
   const std::string name = function_name(e);
   const ex argument = e.op(0);
   if (name == "sin" || name == "cos") return sine_or_cosine(argument, name == "sin", e);
@@ -171,13 +171,16 @@ Fraction NormalForm::convert_function(const ex& e) {
     const Fraction up = exponential(argument, GiNaC::exp(argument));
     const Fraction down = inverse(up);
     const auto combined = [&](const ex& sign) {
-      return reduced(Fraction{
-          (up.numerator * down.denominator + sign * down.numerator * up.denominator) / 2,
-          up.denominator * down.denominator});
+      return reduced(
+          Fraction{(up.numerator * down.denominator + sign * down.numerator * up.denominator) / 2,
+                   up.denominator * down.denominator});
     };
     if (name == "sinh") return combined(-1);
     if (name == "cosh") return combined(1);
     return product(combined(-1), inverse(combined(1)));
+  }
+  if (name == "log") {
+    if (const std::optional<ex> inverse = logarithm(convert(argument))) return convert(*inverse);
   }
   std::vector<ex> arguments(e.begin(), e.end());
   return opaque(name, arguments);
@@ -222,8 +225,29 @@ Fraction NormalForm::exponential(const ex& argument, const ex& whole) {
   return {result, 1};
 }
 
+/// log(prod_b exp(b/d)^k) = sum_b k b/d.
+std::optional<ex> NormalForm::logarithm(const Fraction& argument) const {
+  if (argument.denominator != 1) return std::nullopt;
+  ex result = 0;
+  const auto add_factor = [&](const ex& factor) {
+    const bool is_power = is_integer_power_of_symbol(factor) && GiNaC::is_a<GiNaC::power>(factor);
+    const Generator known = generator(is_power ? factor.op(0) : factor);
+    if (known.role != Role::kExponential) return false;
+    result += known.base * (is_power ? factor.op(1) : ex(1)) / known.divisor;
+    return true;
+  };
+  if (!GiNaC::is_a<GiNaC::mul>(argument.numerator)) {
+    if (!add_factor(argument.numerator)) return std::nullopt;
+  } else {
+    for (const ex& factor : argument.numerator)
+      if (!add_factor(factor)) return std::nullopt;
+  }
+  return result;
+}
+
 Fraction NormalForm::root(const Fraction& radicand, int degree) {
-  // Draw what is manifestly positive: (f^m rest)^(1/q) = f^(m div q) (f^(m mod q) rest)^(1/q), f > 0.
+  // Draw what is manifestly positive: (f^m rest)^(1/q) = f^(m div q) (f^(m mod q) rest)^(1/q), f >
+  // 0.
   const ex both = (radicand.numerator / radicand.denominator).normal().numer_denom();
   Fraction drawn{1, 1};
   Fraction rest{1, 1};
@@ -238,11 +262,8 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
       const int exponent = is_power ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
       if (GiNaC::is_a<numeric>(base) && base.info(GiNaC::info_flags::positive)) {
         const ex power = GiNaC::pow(factor, numeric(1, degree));  // GiNaC draws perfect powers
-        if (GiNaC::is_a<numeric>(power)) {
-          outside *= power;
-        } else {
-          inside *= factor;
-        }
+        (GiNaC::is_a<numeric>(power) ? outside : inside) *=
+            GiNaC::is_a<numeric>(power) ? power : factor;
       } else if (is_positive(base)) {
         outside *= GiNaC::pow(base, exponent / degree);
         inside *= GiNaC::pow(base, exponent % degree);
@@ -319,7 +340,7 @@ ex NormalForm::reduced(const ex& polynomial) const {
     } else {
       reduce_factor(term);
     }
-    terms.push_back(squares ? GiNaC::mul(factors).expand() : term);
+    terms.push_back(squares ? ex(GiNaC::mul(factors)).expand() : term);
     changed = changed || squares;
   };
   if (GiNaC::is_a<GiNaC::add>(expanded)) {
@@ -353,6 +374,8 @@ Fraction NormalForm::reduced(const Fraction& fraction) const {
       other = reduced(other * cleared);
     }
   }
+  if (result.denominator != 1 && is_plain_monomial(result.denominator))
+    result = {(result.numerator / result.denominator).expand(), 1};
   return result;
 }
 
@@ -363,8 +386,8 @@ Fraction NormalForm::product(const Fraction& a, const Fraction& b) const {
 Fraction NormalForm::raised(const Fraction& base, int exponent) const {
   const Fraction positive = exponent < 0 ? inverse(base) : base;
   const int count = std::abs(exponent);
-  return reduced(Fraction{GiNaC::pow(positive.numerator, count),
-                          GiNaC::pow(positive.denominator, count)});
+  return reduced(
+      Fraction{GiNaC::pow(positive.numerator, count), GiNaC::pow(positive.denominator, count)});
 }
 
 Fraction NormalForm::inverse(const Fraction& fraction) const {

@@ -4,26 +4,27 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace catena {
 
-/// numerator / denominator, both expanded polynomials in symbols and the generators of a NormalForm;
-/// plain symbols and exponentials may also have negative exponents in the numerator.
+/// numerator / denominator, both expanded polynomials in symbols and the generators of a
+/// NormalForm; plain symbols and exponentials may also have negative exponents in the numerator.
 struct Fraction {
   GiNaC::ex numerator = 0;
   GiNaC::ex denominator = 1;
 };
 
-/// Rewrites expressions as fractions of polynomials in independent generators, so that an expression
-/// is zero if its numerator is.
+/// Rewrites expressions as fractions of polynomials in independent generators, so that an
+/// expression is zero if its numerator is.
 ///
-/// Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic angles
-/// b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1 with s_b at most to the first power;
-/// exp, sinh, cosh and tanh become powers of exp(b); roots become generators r with r^q = radicand,
-/// perfect powers of manifestly positive radicands are drawn. Everything else (log, abs, ...) is a
-/// generator of its own.
+/// Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic
+/// angles b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1 with s_b at most to the
+/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots become generators r with
+/// r^q = radicand, perfect powers of manifestly positive radicands are drawn. Everything else (log,
+/// abs, ...) is a generator of its own.
 ///
 /// A zero numerator always proves equality. A non-zero one disproves it as long as `decides()`: the
 /// generators met are then algebraically independent but for the relations above.
@@ -32,9 +33,9 @@ class NormalForm {
   enum class Role { kPlain, kSine, kCosine, kExponential, kOther };
   struct Generator {
     Role role = Role::kPlain;
-    GiNaC::ex base;         ///< sine, cosine, exponential: of base / divisor
+    GiNaC::ex base;  ///< sine, cosine, exponential: of base / divisor
     int divisor = 1;
-    std::string text;       ///< kOther: how it reads
+    std::string text;  ///< kOther: how it reads
   };
 
   /// All expressions that will be compared, so that half and third angles are known from the start.
@@ -77,6 +78,7 @@ class NormalForm {
   Fraction convert_function(const GiNaC::ex& expression);
   Fraction sine_or_cosine(const GiNaC::ex& argument, bool sine, const GiNaC::ex& whole);
   Fraction exponential(const GiNaC::ex& argument, const GiNaC::ex& whole);
+  [[nodiscard]] std::optional<GiNaC::ex> logarithm(const Fraction& argument) const;
   Fraction root(const Fraction& radicand, int degree);
   Fraction opaque(const std::string& function, const std::vector<GiNaC::ex>& arguments);
 

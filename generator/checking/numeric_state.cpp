@@ -51,8 +51,7 @@ NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t s
 std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state) {
   GiNaC::Digits = kStateDigits;
   try {
-    const GiNaC::ex value =
-        expression.subs(state.values, GiNaC::subs_options::no_pattern).evalf();
+    const GiNaC::ex value = expression.subs(state.values, GiNaC::subs_options::no_pattern).evalf();
     if (!GiNaC::is_a<GiNaC::numeric>(value)) return std::nullopt;
     const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
     if (!number.is_real()) return std::nullopt;

@@ -22,8 +22,8 @@ struct NumericState {
 /// Symbols in the expressions, in reading order.
 std::vector<GiNaC::ex> symbols_in(const std::vector<GiNaC::ex>& expressions);
 
-/// Seeded values with two decimals: positive symbols within 0.1..3, others within -3..3. The same seed
-/// and symbols give the same state.
+/// Seeded values with two decimals: positive symbols within 0.1..3, others within -3..3. The same
+/// seed and symbols give the same state.
 NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t seed);
 
 /// The value to kStateDigits, or nothing where it is not a real number.

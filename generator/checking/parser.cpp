@@ -51,9 +51,7 @@ class Parser {
   };
 
   const Token& next() const { return tokens_[position_]; }
-  const Token& after_next() const {
-    return tokens_[std::min(position_ + 1, tokens_.size() - 1)];
-  }
+  const Token& after_next() const { return tokens_[std::min(position_ + 1, tokens_.size() - 1)]; }
   Token take() { return tokens_[position_ + 1 < tokens_.size() ? position_++ : position_]; }
 
   [[noreturn]] void fail(const std::string& expected) const {
@@ -122,8 +120,9 @@ class Parser {
     if (accept("equation")) return with_ranges(equation(at));
     if (accept("identity")) return identity(at);
     if (next().kind != Token::Kind::kName || is_reserved(next().text))
-      fail("a statement: an assignment such as M[1,2] = ..., links, symbols, positive, given, "
-           "symmetric, equation, identity, for or if");
+      fail(
+          "a statement: an assignment such as M[1,2] = ..., links, symbols, positive, given, "
+          "symmetric, equation, identity, for or if");
     return with_ranges(assignment(Statement::Kind::kAssign, at));
   }
 
@@ -296,19 +295,23 @@ class Parser {
   }
 
   Expression additive() {
-    Expression result = multiplicative();
+    Expression first = multiplicative();
+    if (!sees("+") && !sees("-")) return first;
+    Expression result{Expression::Kind::kTerms, first.at, "+", one(std::move(first))};
     while (sees("+") || sees("-")) {
-      const Token sign = take();
-      result = binary(sign, std::move(result), multiplicative());
+      result.text += take().text;
+      result.children.push_back(multiplicative());
     }
     return result;
   }
 
   Expression multiplicative() {
-    Expression result = unary();
+    Expression first = unary();
+    if (!sees("*") && !sees("/")) return first;
+    Expression result{Expression::Kind::kFactors, first.at, "*", one(std::move(first))};
     while (sees("*") || sees("/")) {
-      const Token sign = take();
-      result = binary(sign, std::move(result), unary());
+      result.text += take().text;
+      result.children.push_back(unary());
     }
     return result;
   }

@@ -17,7 +17,8 @@ std::string lines_text(const Entry& entry) {
   std::string text = "line " + std::to_string(entry.at.line);
   std::vector<int> earlier;
   for (const Location& at : entry.overwritten)
-    if (at.line != entry.at.line && std::find(earlier.begin(), earlier.end(), at.line) == earlier.end())
+    if (at.line != entry.at.line &&
+        std::find(earlier.begin(), earlier.end(), at.line) == earlier.end())
       earlier.push_back(at.line);
   if (earlier.empty()) return text;
   text += ", overwriting line";
@@ -28,8 +29,8 @@ std::string lines_text(const Entry& entry) {
 
 std::string paragraph(const Entry& entry, const Finding& finding, std::size_t width) {
   const bool sides = entry.quantity == Quantity::kIdentity;
-  std::string text = entry.label + std::string(width - entry.label.size() + 2, ' ') +
-                     verdict_text(finding);
+  std::string text =
+      entry.label + std::string(width - entry.label.size() + 2, ' ') + verdict_text(finding);
   if (!finding.remark.empty()) text += ", " + finding.remark;
   text += "  (" + lines_text(entry) + ")\n";
   if (finding.verdict == Verdict::kEqual) return text;
@@ -37,8 +38,8 @@ std::string paragraph(const Entry& entry, const Finding& finding, std::size_t wi
   if (!finding.difference.empty()) {
     if (!finding.simplest.empty())
       text += indent + "simplest term of the difference: " + finding.simplest + "\n";
-    text += indent + (sides ? "left - right" : "yours - the chain's") + " = " +
-            finding.difference + "\n";
+    text += indent + (sides ? "left - right" : "yours - the chain's") + " = " + finding.difference +
+            "\n";
   }
   for (const std::string& origin : finding.origins) text += indent + "from: " + origin + "\n";
   if (finding.value.empty()) return text;
@@ -108,8 +109,8 @@ std::string report(const std::string& file, const Derivation& derivation,
       remarks += matrix_remarks(derivation, findings, quantity);
   for (const std::string& note : derivation.notes) remarks += note + "\n";
   if (!remarks.empty()) text += "\n" + remarks;
-  return text + "\n" + std::to_string(findings.size()) + " checked: " +
-         std::to_string(count[Verdict::kEqual]) + " equal (proved), " +
+  return text + "\n" + std::to_string(findings.size()) +
+         " checked: " + std::to_string(count[Verdict::kEqual]) + " equal (proved), " +
          std::to_string(count[Verdict::kDifferent]) + " different, " +
          std::to_string(count[Verdict::kUndecided]) + " undecided\n";
 }

@@ -9,8 +9,8 @@
 
 namespace catena {
 
-/// The answer of `catena check` for a reader: one paragraph an entry, then remarks on whole matrices,
-/// notes, and the count.
+/// The answer of `catena check` for a reader: one paragraph an entry, then remarks on whole
+/// matrices, notes, and the count.
 std::string report(const std::string& file, const Derivation& derivation,
                    const std::vector<Finding>& findings);
 

@@ -20,7 +20,9 @@ struct Expression {
     kCall,         ///< text: the function; children: its arguments
     kNegate,       ///< children: operand
     kNot,          ///< children: operand
-    kBinary,       ///< text: + - * / ^ < <= > >= == != and or; children: left, right
+    kTerms,        ///< text: + or - for each child; children: terms
+    kFactors,      ///< text: * or / for each child; children: factors and divisors
+    kBinary,       ///< text: ^ < <= > >= == != and or; children: left, right
     kSum,          ///< text: the index; children: from, to, body and, if there is one, condition
     kConditional,  ///< children: condition, value if it holds, value if not
     kMatrix,       ///< children: rows

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "generator/checking/comparison.hpp"
+#include "generator/checking/evaluator.hpp"
+#include "generator/checking/parser.hpp"
+#include "generator/checking/report.hpp"
+#include "generator/description/input_error.hpp"
+#include "generator/program/commands.hpp"
+
+namespace catena {
+namespace {
+
+struct CheckOptions {
+  std::string file;
+  std::optional<int> links;
+  std::uint64_t seed = 1;
+};
+
+std::string contents_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad())
+    throw InputError(file + ": error: cannot be read: " + std::strerror(errno));
+  return text;
+}
+
+/// 0 if every entry is proved equal, 1 if one is different or undecided.
+int check(const CheckOptions& options) {
+  const Derivation derivation = evaluate(parse_derivation(contents_of(options.file), options.file),
+                                         options.file, options.links);
+  const std::vector<Finding> findings = compare(derivation, options.seed);
+  std::cout << report(options.file, derivation, findings) << std::flush;
+  if (!std::cout) throw std::runtime_error("the report cannot be written to standard output");
+  return std::all_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.verdict == Verdict::kEqual; })
+             ? 0
+             : 1;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Check a hand derivation of the chain's equations, or scalar identities, exactly");
+  command->add_option("DERIVATION", options->file, "text file, see docs/checking.md")->required();
+  command->add_option("--links", options->links, "number of links, instead of the file's");
+  command->add_option("--seed", options->seed, "selects the numeric states shown")
+      ->capture_default_str();
+  command->footer(
+      "Exit status: 0 all proved equal, 1 something different or undecided, 2 wrong input.\n"
+      "Example: catena check examples/derivations/chapter_3_two_links.txt");
+  command->callback([options, &status] { status = check(*options); });
+}
+
+}  // namespace catena

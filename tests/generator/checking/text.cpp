@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/generator/checking/text.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "generator/checking/evaluator.hpp"
+#include "generator/checking/parser.hpp"
+
+namespace catena::tests {
+
+std::string example(const std::string& name) {
+  const std::string path = std::string(CATENA_SOURCE_DIR) + "/examples/derivations/" + name;
+  std::ifstream stream(path);
+  if (!stream) throw std::runtime_error("cannot read " + path);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+int Checked::count(Verdict verdict) const {
+  return static_cast<int>(
+      std::count_if(findings.begin(), findings.end(),
+                    [&](const Finding& finding) { return finding.verdict == verdict; }));
+}
+
+const Finding& Checked::of(const std::string& label) const {
+  for (std::size_t i = 0; i < findings.size(); ++i)
+    if (derivation.entries[i].label == label) return findings[i];
+  throw std::runtime_error("no entry is called " + label);
+}
+
+Checked checked(const std::string& text, std::optional<int> links) {
+  Checked result{evaluate(parse_derivation(text, "test"), "test", links), {}};
+  result.findings = compare(result.derivation, 1);
+  return result;
+}
+
+}  // namespace catena::tests
