@@ -8,7 +8,7 @@
 
 #include "generator/checking/expression_text.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -169,4 +169,4 @@ std::vector<std::string> origins_of(const Fraction& difference, const Contributi
   return Attribution(chain, form).run(difference, parts);
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 #include "generator/checking/flat_derivation.hpp"
 #include "generator/checking/normal_form.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// Says where a difference (by hand minus model) comes from, one sentence a source: which parts of
 /// the model's `parts` are missing, carry the wrong sign or factor, or differ otherwise. Every term
@@ -17,4 +17,4 @@ namespace catena {
 std::vector<std::string> origins_of(const Fraction& difference, const Contributions& parts,
                                     const ChainSymbols& chain, NormalForm& form);
 
-}  // namespace catena
+}  // namespace catena::checking

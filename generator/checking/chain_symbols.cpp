@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 std::vector<GiNaC::ex> family(const std::string& name, int links) {
@@ -114,4 +114,4 @@ bool ChainSymbols::is_constant(const GiNaC::ex& expression) const {
   return true;
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace catena {
+namespace catena::checking {
 
 /// The symbols in which a chain of n links is written. Vectors are indexed 1..n; entry 0 stands for
 /// the fixed support: angle[0], rate[0] and acceleration[0] are 0, the others unused.
@@ -37,4 +37,4 @@ struct ChainSymbols {
   GiNaC::exset accelerations_;
 };
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -14,7 +14,7 @@
 #include "generator/checking/normal_form.hpp"
 #include "generator/checking/numeric_state.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -271,4 +271,4 @@ std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed) {
   return result;
 }
 
-}  // namespace catena
+}  // namespace catena::checking

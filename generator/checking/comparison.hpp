@@ -7,7 +7,7 @@
 
 #include "generator/checking/derivation.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 enum class Verdict {
   kEqual,      ///< proved
@@ -32,4 +32,4 @@ struct Finding {
 /// from its energies (FlatDerivation). `seed` selects the numeric states.
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
 
-}  // namespace catena
+}  // namespace catena::checking

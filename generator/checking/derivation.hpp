@@ -10,7 +10,7 @@
 #include "generator/checking/chain_symbols.hpp"
 #include "generator/checking/syntax_tree.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// What a hand derivation can state about the chain; kIdentity stands alone.
 enum class Quantity {
@@ -50,4 +50,4 @@ struct Derivation {
   std::vector<std::string> notes;       ///< worth knowing, no errors
 };
 
-}  // namespace catena
+}  // namespace catena::checking

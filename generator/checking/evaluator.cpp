@@ -8,7 +8,7 @@
 #include "generator/checking/expression_evaluator.hpp"
 #include "generator/checking/scope.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -281,4 +281,4 @@ Derivation evaluate(const Program& program, const std::string& file, std::option
   return Evaluator(file, links).run(program);
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -6,7 +6,7 @@
 
 #include "generator/checking/derivation.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// Runs a derivation. `links` replaces the number the derivation states. Throws InputError with
 /// file, line and column for unknown names, indices out of range, divisions by zero and the like,
@@ -14,4 +14,4 @@ namespace catena {
 Derivation evaluate(const Program& program, const std::string& file,
                     std::optional<int> links = std::nullopt);
 
-}  // namespace catena
+}  // namespace catena::checking

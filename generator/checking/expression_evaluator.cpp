@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -317,4 +317,4 @@ void ExpressionEvaluator::over_range(const std::string& index, const Expression&
   }
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -9,7 +9,7 @@
 #include "generator/checking/scope.hpp"
 #include "generator/checking/syntax_tree.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// Gives expressions their values in a scope. Sums bind their index in the scope while they run;
 /// reading an entry that is not set yet leaves a note there. Throws InputError with file, line,
@@ -59,4 +59,4 @@ class ExpressionEvaluator {
   Scope& scope_;
 };
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -350,4 +350,4 @@ std::string joined_by_signs(const std::vector<std::string>& parts) {
   return result;
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 
 #include "generator/checking/normal_form.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// Where a name stands in text: parameters before angles before rates, then by index, then by name.
 /// GiNaC's own order changes from run to run and never decides a text.
@@ -36,4 +36,4 @@ std::string text_of(const GiNaC::numeric& number);
 /// Parts joined by their signs.
 std::string joined_by_signs(const std::vector<std::string>& parts);
 
-}  // namespace catena
+}  // namespace catena::checking

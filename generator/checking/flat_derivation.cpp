@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -151,4 +151,4 @@ Contributions FlatDerivation::equation(int i) const {
   return result;
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -9,7 +9,7 @@
 
 #include "generator/checking/chain_symbols.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// A part of a quantity and the piece of the chain it comes from, e.g. "kinetic energy of link 3".
 struct Contribution {
@@ -57,4 +57,4 @@ class FlatDerivation {
   Contributions kinetic_, gravity_potential_, elastic_potential_, dissipation_;
 };
 
-}  // namespace catena
+}  // namespace catena::checking

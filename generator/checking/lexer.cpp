@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
@@ -188,4 +188,4 @@ std::vector<Token> tokenize(std::string_view text, const std::string& file) {
   return Lexer(text, file).run();
 }
 
-}  // namespace catena
+}  // namespace catena::checking

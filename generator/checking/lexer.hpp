@@ -8,7 +8,7 @@
 #include "generator/checking/syntax_tree.hpp"
 #include "generator/description/input_error.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 struct Token {
   enum class Kind { kNumber, kName, kText, kSign, kEndOfStatement, kEndOfFile };
@@ -28,4 +28,4 @@ std::string described(const Token& token);
 /// that starts with one. Throws InputError at a character that belongs to no token.
 std::vector<Token> tokenize(std::string_view text, const std::string& file);
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/checking/names.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 using GiNaC::ex;
 
@@ -60,4 +60,4 @@ std::string name_of(Quantity quantity) {
   return quantity == Quantity::kEquation ? "equation" : "identity";
 }
 
-}  // namespace catena
+}  // namespace catena::checking

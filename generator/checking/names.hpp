@@ -13,7 +13,7 @@
 #include "generator/checking/chain_symbols.hpp"
 #include "generator/checking/derivation.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// A quantity of the chain that a derivation may state by assigning it.
 struct Target {
@@ -51,4 +51,4 @@ struct Reference {
   [[nodiscard]] std::string text() const;  ///< M[1,2]
 };
 
-}  // namespace catena
+}  // namespace catena::checking

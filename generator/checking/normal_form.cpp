@@ -14,7 +14,7 @@
 
 #include "generator/checking/expression_text.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
@@ -436,4 +436,4 @@ bool NormalForm::is_positive(const ex& polynomial) const {
   return true;
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace catena {
+namespace catena::checking {
 
 /// numerator / denominator, both expanded polynomials in symbols and the generators of a
 /// NormalForm; plain symbols and exponentials may also have negative exponents in the numerator.
@@ -101,4 +101,4 @@ class NormalForm {
   bool decides_ = true;
 };
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -10,7 +10,7 @@
 
 #include "generator/checking/expression_text.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 std::string name_of_symbol(const GiNaC::ex& symbol) {
@@ -61,4 +61,4 @@ std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const Num
   }
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace catena {
+namespace catena::checking {
 
 /// Working precision of evaluate_at, decimal digits.
 inline constexpr int kStateDigits = 60;
@@ -29,4 +29,4 @@ NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t s
 /// The value to kStateDigits, or nothing where it is not a real number.
 std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state);
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -8,7 +8,7 @@
 
 #include "generator/checking/lexer.hpp"
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 // Brackets, conditionals and blocks deeper than this are a mistake, and would exhaust the stack.
@@ -417,4 +417,4 @@ Program parse_derivation(std::string_view text, const std::string& file) {
   return Parser(text, file).run();
 }
 
-}  // namespace catena
+}  // namespace catena::checking

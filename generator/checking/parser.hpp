@@ -6,10 +6,10 @@
 
 #include "generator/checking/syntax_tree.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// Reads a derivation; the grammar stands in docs/checking.md. `file` is what messages call it.
 /// Throws InputError with file, line, column and what was expected.
 Program parse_derivation(std::string_view text, const std::string& file);
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace catena {
+namespace catena::checking {
 namespace {
 
 std::string verdict_text(const Finding& finding) {
@@ -115,4 +115,4 @@ std::string report(const std::string& file, const Derivation& derivation,
          std::to_string(count[Verdict::kUndecided]) + " undecided\n";
 }
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -13,7 +13,7 @@
 #include "generator/checking/lexer.hpp"
 #include "generator/checking/names.hpp"
 
-namespace catena {
+namespace catena::checking {
 
 /// What names mean at a point of a derivation.
 struct Scope {
@@ -37,4 +37,4 @@ struct Scope {
   }
 };
 
-}  // namespace catena
+}  // namespace catena::checking

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace catena {
+namespace catena::checking {
 
 /// A place in the text of a derivation; both count from 1.
 struct Location {
@@ -58,4 +58,4 @@ struct Statement {
 
 using Program = std::vector<Statement>;
 
-}  // namespace catena
+}  // namespace catena::checking

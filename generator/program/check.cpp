@@ -37,6 +37,7 @@ std::string contents_of(const std::string& file) {
 
 /// 0 if every entry is proved equal, 1 if one is different or undecided.
 int check(const CheckOptions& options) {
+  using namespace checking;
   const Derivation derivation = evaluate(parse_derivation(contents_of(options.file), options.file),
                                          options.file, options.links);
   const std::vector<Finding> findings = compare(derivation, options.seed);

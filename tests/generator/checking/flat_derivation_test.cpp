@@ -12,6 +12,7 @@
 #include "runtime/reference/mass_matrix.hpp"
 
 using namespace catena;
+using namespace catena::checking;
 using GiNaC::ex;
 
 namespace {

@@ -10,6 +10,7 @@
 #include "tests/generator/checking/text.hpp"
 
 using namespace catena;
+using namespace catena::checking;
 using namespace catena::tests;
 
 TEST_CASE("wrong derivations are refused with line, column and what was expected") {

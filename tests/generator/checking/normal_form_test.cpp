@@ -11,6 +11,7 @@
 #include "tests/generator/checking/text.hpp"
 
 using namespace catena;
+using namespace catena::checking;
 using namespace catena::tests;
 
 namespace {

@@ -9,6 +9,7 @@
 #include "tests/generator/checking/text.hpp"
 
 using namespace catena;
+using namespace catena::checking;
 using namespace catena::tests;
 
 TEST_CASE("rearranged correct entries are proved equal") {

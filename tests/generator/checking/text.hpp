@@ -10,6 +10,8 @@
 
 namespace catena::tests {
 
+using namespace catena::checking;
+
 /// The text of examples/derivations/NAME.
 std::string example(const std::string& name);
 
