@@ -76,6 +76,20 @@ TEST_CASE("the general forms hold for other numbers of links") {
   }
 }
 
+TEST_CASE("single entries of a chain of 60 links are decided") {
+  const Checked result = checked(R"(links 60
+mu[i] = m_i/2 + m_c + sum(k = i+1..n, m_k) for i = 1..n
+M[7,41] = l_7*l_41*mu[41]*cos(theta_7 - theta_41)
+M[30,30] = l_30^2*(mu[30] - m_30/4) + I_30
+F[30] = l_30*sum(j = 1..n if j != 30, l_j*mu[max(30,j)]*sin(theta_30 - theta_j)*thetadot_j^2)
+G[1] = l_1*mu[1]*g*sin(theta_1)
+G[2] = l_2*mu[1]*g*sin(theta_2)
+K[59,60] = -k_60)");
+  CHECK(result.count(Verdict::kEqual) == 5);
+  CHECK(result.of("G[2]").verdict == Verdict::kDifferent);
+  CHECK(result.of("G[2]").difference == "g*l_2*(m_1 + m_2)*sin(theta_2)/2");
+}
+
 TEST_CASE("(2.9) lacks the load's potential, and that is said") {
   const Finding found = checked(example("lagrangian_2_9.txt")).of("L");
   CHECK(found.origins == std::vector<std::string>{"gravity of the load: missing"});
