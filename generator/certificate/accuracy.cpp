@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/certificate/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "generator/certificate/random_point.hpp"
+#include "generator/derivation/chain.hpp"
+
+namespace catena {
+namespace {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+using Values = std::vector<double>;
+
+constexpr int kDigits = 50;
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// value - exact, rounded once
+double difference(double value, const numeric& exact) {
+  return (exact - numeric(value)).to_double();
+}
+
+double largest(const Values& values) {
+  double size = 0;
+  for (const double value : values)
+    size = std::isnan(value) ? value : std::max(size, std::abs(value));
+  return size;
+}
+
+class Measurement {
+ public:
+  Measurement(const Description& description, int links, const catena_model& table)
+      : table_(table), chain_(description, links) {
+    inertial_ = std::make_unique<Differential>(
+        chain_.definitions(), [](const std::string& family) { return family + "_exact_inertial"; });
+    for (const ex& a : chain_.accelerations()) {
+      inertial_->set(a, chain_.definitions().input("exact_unit_" + full_name_of(a)));
+    }
+    for (const ex& r : chain_.residual()) mass_.push_back(inertial_->of(r));
+    for (const EnergyItem& item : chain_.energies()) {
+      if (item.kind != EnergyItem::kStored) continue;
+      for (const ex& part : item.parts) stored_rate_.push_back(chain_.rate(part));
+    }
+    for (const ex& side : chain_.side()) velocity_.push_back(chain_.rate(side));
+    for (const ex& down : chain_.down()) velocity_.push_back(chain_.rate(down));
+  }
+
+  void add_point(std::mt19937_64& generator) {
+    point_ = random_point(table_, generator);
+    direction_ = random_direction(table_, generator);
+    const numeric step = GiNaC::pow(numeric(10), numeric(-18));
+    here_ = std::make_unique<ExactEvaluation>(chain_.definitions(), exact_inputs(table_, point_));
+    step_ = step;
+    ahead_ = std::make_unique<ExactEvaluation>(chain_.definitions(),
+                                               exact_inputs(table_, point_, direction_, step));
+    behind_ = std::make_unique<ExactEvaluation>(chain_.definitions(),
+                                                exact_inputs(table_, point_, direction_, -step));
+    residual();
+    mass_and_acceleration();
+    newton(generator);
+    states();
+    positions();
+    energy();
+    internal_forces();
+    if (table_.observes) sensor();
+  }
+
+  const std::vector<FunctionAccuracy>& result() const { return result_; }
+
+ private:
+  std::string full_name_of(const ex& symbol) {
+    return GiNaC::ex_to<GiNaC::symbol>(symbol).get_name();
+  }
+
+  void note(const std::string& function, double error, double size) {
+    const double units = error == 0 ? 0 : std::abs(error) / (kRounding * size);
+    for (FunctionAccuracy& known : result_) {
+      if (known.function != function) continue;
+      known.worst = std::isnan(known.worst) || std::isnan(units) ? std::nan("")
+                                                                 : std::max(known.worst, units);
+      return;
+    }
+    result_.push_back({function, units});
+  }
+
+  numeric slope(const ex& expression) {
+    return (ahead_->of(expression) - behind_->of(expression)) / (2 * step_);
+  }
+
+  // The largest sum of the sizes of r's terms, over its rows
+  double size_of_terms(const catena_point& point) const {
+    Values sum(at(table_.coordinates)), term(at(table_.coordinates));
+    for (int k = 0; k < table_.terms; ++k) {
+      table_.residual_term(&point, k, term.data());
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::abs(term[i]);
+    }
+    return largest(sum);
+  }
+
+  void residual() {
+    const catena_point here = point_.at(), along = direction_.at();
+    const double size = size_of_terms(here);
+    Values r(at(table_.coordinates)), total(r), term(r), tangent(r);
+    table_.residual(&here, r.data());
+    for (int k = 0; k < table_.terms; ++k) {
+      table_.residual_term(&here, k, term.data());
+      for (std::size_t i = 0; i < r.size(); ++i) total[i] += term[i];
+    }
+    table_.residual_tangent(&here, &along, tangent.data());
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      const numeric exact = here_->of(chain_.residual()[i]);
+      note("residual", difference(r[i], exact), size);
+      note("residual_term", difference(total[i], exact), size);
+      const numeric change = slope(chain_.residual()[i]);
+      note("residual_tangent", difference(tangent[i], change), size + std::abs(change.to_double()));
+    }
+  }
+
+  void mass_and_acceleration() {
+    const int n = table_.coordinates;
+    const catena_point here = point_.at();
+    Values mass(at(n * n));
+    table_.mass_matrix(&here, mass.data());
+    const double size = largest(mass);
+    for (int j = 0; j < n; ++j) {
+      const std::string unit = "exact_unit_" + full_name_of(chain_.accelerations()[at(j)]);
+      const auto inputs = exact_inputs(table_, point_);
+      ExactEvaluation column(chain_.definitions(), [&](const std::string& name) -> ex {
+        if (name.starts_with("exact_unit_")) return name == unit ? 1 : 0;
+        return inputs(name);
+      });
+      for (int i = 0; i < n; ++i) {
+        note("mass_matrix", difference(mass[at(i * n + j)], column.of(mass_[at(i)])), size);
+      }
+    }
+    RandomPoint still = point_;
+    std::fill(still.a.begin(), still.a.end(), 0.0);
+    const catena_point at_rest = still.at();
+    Values h(at(n));
+    table_.bias(&here, h.data());
+    ExactEvaluation exact_bias(chain_.definitions(), exact_inputs(table_, still));
+    const double bias_size = size_of_terms(at_rest);
+    for (int i = 0; i < n; ++i) {
+      note("bias", difference(h[at(i)], exact_bias.of(chain_.residual()[at(i)])), bias_size);
+    }
+    RandomPoint moving = point_;
+    if (table_.acceleration(&here, moving.a.data()) != 0) {
+      note("acceleration", std::nan(""), 1);
+      return;
+    }
+    const catena_point solved = moving.at();
+    ExactEvaluation back(chain_.definitions(), exact_inputs(table_, moving));
+    const double solved_size = size_of_terms(solved) + size * largest(moving.a);
+    for (int i = 0; i < n; ++i) {
+      note("acceleration", back.of(chain_.residual()[at(i)]).to_double(), solved_size);
+    }
+  }
+
+  void newton(std::mt19937_64& generator) {
+    if (!table_.structured) return;
+    const int n = table_.coordinates;
+    const double ca = 1.0, cv = 0.5 + static_cast<double>(generator() % 64), cq = cv * cv;
+    Values work(at(table_.newton_work)), x(at(n));
+    const catena_point here = point_.at();
+    if (table_.newton_factor(&here, ca, cv, cq, work.data()) != 0) {
+      note("newton_solve", std::nan(""), 1);
+      return;
+    }
+    const Values right = direction_.q;
+    x = right;
+    table_.newton_solve(work.data(), x.data());
+    // N x from the derivation: the slope of r along (q, v, a) = (cq, cv, ca) x
+    RandomPoint along = direction_;
+    along.t = 0;
+    for (auto* list : {&along.z, &along.u, &along.p}) std::fill(list->begin(), list->end(), 0.0);
+    double size_of_x = largest(x);
+    const auto scaled = [&](Values& list, double factor) {
+      for (int i = 0; i < n; ++i) list[at(i)] = factor * x[at(i)] / size_of_x;
+    };
+    scaled(along.q, cq), scaled(along.v, cv), scaled(along.a, ca);
+    ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, along, step_));
+    ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, along, -step_));
+    // |N|: its largest entry, column by column
+    double size_of_matrix = 0;
+    Values column(at(n));
+    for (int j = 0; j < n; ++j) {
+      RandomPoint unit = along;
+      for (auto* list : {&unit.q, &unit.v, &unit.a}) std::fill(list->begin(), list->end(), 0.0);
+      unit.q[at(j)] = cq, unit.v[at(j)] = cv, unit.a[at(j)] = ca;
+      const catena_point along_unit = unit.at();
+      table_.residual_tangent(&here, &along_unit, column.data());
+      size_of_matrix = std::max(size_of_matrix, largest(column));
+    }
+    for (int i = 0; i < n; ++i) {
+      const ex& r = chain_.residual()[at(i)];
+      const numeric product = (ahead.of(r) - behind.of(r)) / (2 * step_) * numeric(size_of_x);
+      note("newton_solve", difference(right[at(i)], product), size_of_matrix * size_of_x);
+    }
+  }
+
+  void states() {
+    if (table_.states == 0) return;
+    const catena_point here = point_.at(), along = direction_.at();
+    Values rate(at(table_.states)), tangent(rate);
+    table_.state_rate(&here, rate.data());
+    table_.state_rate_tangent(&here, &along, tangent.data());
+    const double size = largest(rate) + 1, tangent_size = largest(tangent) + size;
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      note("state_rate", difference(rate[i], here_->of(chain_.state_rates()[i])), size);
+      note("state_rate_tangent", difference(tangent[i], slope(chain_.state_rates()[i])),
+           tangent_size);
+    }
+  }
+
+  void positions() {
+    const catena_point here = point_.at(), along = direction_.at();
+    const std::size_t points = at(table_.links + 2);
+    Values side(points), down(points), dside(points), ddown(points), vside(points), vdown(points);
+    table_.positions(&here, side.data(), down.data());
+    table_.positions_tangent(&here, &along, dside.data(), ddown.data());
+    table_.velocities(&here, vside.data(), vdown.data());
+    double size = 0, speed = 0, change = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+      const std::size_t above = i == 0 ? 0 : i - 1;
+      const auto jump = [&](const Values& list) {
+        return i == 0 ? std::abs(list[0]) : std::abs(list[i] - list[above]);
+      };
+      size += jump(side) + jump(down);
+      speed += jump(vside) + jump(vdown);
+      change += jump(dside) + jump(ddown);
+    }
+    for (std::size_t i = 0; i < points; ++i) {
+      note("positions", difference(side[i], here_->of(chain_.side()[i])), size);
+      note("positions", difference(down[i], here_->of(chain_.down()[i])), size);
+      note("positions_tangent", difference(dside[i], slope(chain_.side()[i])), change + size);
+      note("positions_tangent", difference(ddown[i], slope(chain_.down()[i])), change + size);
+      note("velocities", difference(vside[i], here_->of(velocity_[i])), speed);
+      note("velocities", difference(vdown[i], here_->of(velocity_[points + i])), speed);
+    }
+  }
+
+  void energy() {
+    const catena_point here = point_.at();
+    Values energy(at(table_.energies));
+    table_.energy(&here, energy.data());
+    numeric balance = 0;
+    double powers = 0;
+    for (std::size_t k = 0; k < energy.size(); ++k) {
+      const EnergyItem& item = chain_.energies()[k];
+      numeric exact = 0;
+      double size = 0;
+      for (const ex& part : item.parts) {
+        const numeric value = here_->of(part);
+        exact = exact + value;
+        size += std::abs(value.to_double());
+      }
+      note("energy", difference(energy[k], exact), size);
+      if (item.kind == EnergyItem::kStored) continue;
+      balance = item.kind == EnergyItem::kDissipated ? balance + exact : balance - exact;
+      powers += size;
+    }
+    for (const ex& part : stored_rate_) {
+      const numeric value = here_->of(part);
+      balance = balance + value;
+      powers += std::abs(value.to_double());
+    }
+    for (std::size_t i = 0; i < chain_.residual().size(); ++i) {
+      const numeric value = here_->of(chain_.rates()[i]) * here_->of(chain_.residual()[i]);
+      balance = balance - value;
+      powers += std::abs(value.to_double());
+    }
+    note("power_balance", balance.to_double(), powers);
+  }
+
+  void internal_forces() {
+    const catena_point here = point_.at();
+    const std::size_t n = at(table_.links);
+    Values moment(n), tension(n), curvature(n);
+    table_.internal_forces(&here, moment.data(), tension.data(), curvature.data());
+    const auto compare = [&](const Values& values, const std::vector<ex>& exact, double size) {
+      for (std::size_t i = 0; i < n; ++i) {
+        note("internal_forces", difference(values[i], here_->of(exact[i])), size);
+      }
+    };
+    compare(moment, chain_.moments(), largest(moment));
+    compare(tension, chain_.tensions(), largest(tension) + size_of_terms(here));
+    compare(curvature, chain_.curvatures(), largest(curvature));
+  }
+
+  void sensor() {
+    const catena_point here = point_.at(), along = direction_.at();
+    const double in[3] = {0.3, 0.7, 0.4}, din[3] = {0.5, -0.6, 0.8};
+    double out[3], dout[3];
+    table_.observe(here.t, here.p, in, out);
+    table_.observe_tangent(here.t, here.p, along.p, in, din, dout);
+    const auto inputs = [&](const numeric& step) {
+      auto others = exact_inputs(table_, point_, without_time(direction_), step);
+      return [=](const std::string& name) -> ex {
+        const char* names[] = {"side", "down", "angle"};
+        for (int k = 0; k < 3; ++k) {
+          if (name == names[k]) return numeric(in[k]) + step * numeric(din[k]);
+        }
+        return others(name);
+      };
+    };
+    ExactEvaluation now(chain_.definitions(), inputs(0));
+    ExactEvaluation ahead(chain_.definitions(), inputs(step_));
+    ExactEvaluation behind(chain_.definitions(), inputs(-step_));
+    const Chain::Sensor& sensor = chain_.sensor();
+    const ex reported[] = {sensor.side, sensor.down, sensor.angle};
+    for (int k = 0; k < 3; ++k) {
+      note("observe", difference(out[k], now.of(reported[k])), 1);
+      const numeric change = (ahead.of(reported[k]) - behind.of(reported[k])) / (2 * step_);
+      note("observe_tangent", difference(dout[k], change), 1);
+    }
+    const double clock = table_.clock(here.t, here.p);
+    const double clock_change = table_.clock_tangent(here.t, here.p, along.p);
+    note("clock", difference(clock, now.of(sensor.clock)), 1 + std::abs(clock));
+    note("clock_tangent",
+         difference(clock_change, (ahead.of(sensor.clock) - behind.of(sensor.clock)) / (2 * step_)),
+         1 + std::abs(clock_change));
+  }
+
+  static RandomPoint without_time(RandomPoint direction) {
+    direction.t = 0;
+    return direction;
+  }
+
+  const catena_model& table_;
+  Chain chain_;
+  std::unique_ptr<Differential> inertial_;
+  std::vector<ex> mass_, stored_rate_, velocity_;
+  RandomPoint point_, direction_;
+  numeric step_;
+  std::unique_ptr<ExactEvaluation> here_, ahead_, behind_;
+  std::vector<FunctionAccuracy> result_;
+};
+
+}  // namespace
+
+std::vector<FunctionAccuracy> measure_accuracy(const Description& description, int links,
+                                               const catena_model& table, int points,
+                                               unsigned seed) {
+  const long digits_before = GiNaC::Digits;
+  GiNaC::Digits = kDigits + 20;  // the differences' step of 1e-18 costs digits
+  Measurement measurement(description, links, table);
+  std::mt19937_64 generator(seed);
+  for (int k = 0; k < points; ++k) measurement.add_point(generator);
+  GiNaC::Digits = digits_before;
+  return measurement.result();
+}
+
+}  // namespace catena

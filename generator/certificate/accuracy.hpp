@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How exactly an emitted model computes: every function of its table, at seeded random points in
+// double precision, against the derivation evaluated at the same points in 50 digits.
+//
+// Errors are in units of rounding, 2.2e-16 times the size of what is added up in the result:
+//   residual, bias, residual_tangent   the largest sum of the sizes of r's terms over its rows
+//   mass_matrix                        its largest entry
+//   acceleration                       backward: |r(a)| over the same size, a the one returned
+//   newton_solve                       backward: |N x - b| over |N| |x|
+//   energy                             for each item the sum of the sizes of its parts
+//   positions, velocities              the length (speed) summed along the chain
+//   internal_forces                    the largest force, moment and curvature
+//   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers
+// Derivatives are held against central differences of the 50-digit values, step 1e-18.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generated/catena_model.h"
+#include "generator/description/description.hpp"
+
+namespace catena {
+
+struct FunctionAccuracy {
+  std::string function;  ///< as the table names it
+  double worst = 0;      ///< units of rounding; NaN if a value is not finite
+};
+
+/// `table` is the compiled model of the description with so many links. The same seed gives the
+/// same points on every machine.
+std::vector<FunctionAccuracy> measure_accuracy(const Description& description, int links,
+                                               const catena_model& table, int points,
+                                               unsigned seed);
+
+}  // namespace catena

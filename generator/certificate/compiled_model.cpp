@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/certificate/compiled_model.hpp"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace catena {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// Runs a program, its error output into a file. Returns its exit status, -1 if it did not exit.
+int run(const std::vector<std::string>& command, const std::filesystem::path& errors) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot start " + command[0]);
+  if (child == 0) {
+    const int file = open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (file >= 0) dup2(file, STDERR_FILENO);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+CompiledModel::CompiledModel(const EmittedFiles& files, const std::string& name) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "catena_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw std::runtime_error("cannot make a folder in " +
+                             std::filesystem::temp_directory_path().string());
+  }
+  folder_ = pattern;
+  try {
+    for (const auto& [file, text] : files) std::ofstream(folder_ / file, std::ios::binary) << text;
+    const char* wanted = std::getenv("CXX");
+    const std::string compiler = wanted != nullptr && *wanted != '\0' ? wanted : "c++";
+    const auto library = folder_ / "model.so", errors = folder_ / "errors";
+    const int status = run({compiler, "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC",
+                            "-DCATENA_SHARED_LIBRARY", "-I" + folder_.string(),
+                            (folder_ / (name + ".cpp")).string(), "-o", library.string()},
+                           errors);
+    if (status == 127) {
+      throw std::runtime_error(compiler +
+                               " cannot be run; a C++ compiler is needed (set CXX to it)");
+    }
+    if (status != 0)
+      throw std::runtime_error(compiler + " failed on " + name + ":\n" + text_of(errors));
+    library_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library_ == nullptr) throw std::runtime_error(std::string("cannot load it: ") + dlerror());
+    const auto entry = reinterpret_cast<catena_model_entry>(dlsym(library_, CATENA_MODEL_ENTRY));
+    if (entry == nullptr) throw std::runtime_error(name + " has no " CATENA_MODEL_ENTRY);
+    table_ = entry();
+  } catch (...) {
+    if (library_ != nullptr) dlclose(library_);
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+    throw;
+  }
+}
+
+CompiledModel::~CompiledModel() {
+  dlclose(library_);
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+}  // namespace catena

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "generator/derivation/definitions.hpp"
+#include "generator/description/description.hpp"
+
+namespace catena {
+
+/// Values of a derivation's definitions at one point, to GiNaC::Digits digits. It computes from the
+/// definitions, not from emitted text.
+class ExactEvaluation {
+ public:
+  /// Gives the value of an input, "theta[2]", "load_mass"; never asked for "pi".
+  using Inputs = std::function<GiNaC::ex(const std::string& name)>;
+
+  ExactEvaluation(const Definitions& definitions, Inputs inputs);
+
+  GiNaC::numeric of(const GiNaC::ex& expression);
+
+ private:
+  const GiNaC::ex& of_symbol(int number);
+
+  const Definitions& definitions_;
+  Inputs inputs_;
+  std::map<int, GiNaC::ex> known_;
+};
+
+/// "theta[2]", "load_mass": the name of a symbol.
+std::string full_name(const Symbol& symbol);
+
+}  // namespace catena
