@@ -271,7 +271,13 @@ class Builder {
         "int32_t c_acceleration(const catena_point* at, double* a) {\n"
         "  return acceleration(point(at), a);\n}\n";
     if (!mass.found) {
-      add("mass_matrix", "M, row by row: its columns are the inertia terms of unit accelerations.",
+      Differential along_a(definitions_,
+                           [](const std::string& family) { return family + "_inertial"; });
+      for (const ex& a : chain_.accelerations()) along_a.set(a, a);
+      const auto inertial = each(chain_.residual(), [&](const ex& e) { return along_a.of(e); });
+      add("inertial", "M a, of the chain and of every effect.",
+          "void inertial(const Point<T>& at, T* r)", body(from_one("r", inertial), at_), "");
+      add("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
           "void mass_matrix(const Point<T>& at, T* M)", {}, mass_wrapper,
           "  T unit[kCoordinates], column[kCoordinates];\n"
           "  for (int j = 0; j < kCoordinates; ++j) unit[j] = T(0);\n"
@@ -279,7 +285,7 @@ class Builder {
           "  moving.a = unit;\n"
           "  for (int j = 0; j < kCoordinates; ++j) {\n"
           "    unit[j] = T(1);\n"
-          "    term_inertia(moving, column);\n"
+          "    inertial(moving, column);\n"
           "    unit[j] = T(0);\n"
           "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
           "  }\n");
