@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::runtime: the cable of chapter 6 as 12 links falls from a catenary; then, how the load's
+// catena::runtime: a cable of 12 links falls from a catenary; then, how the load's
 // place after one second changes with the stiffness of the joints.
 #include <cstdio>
 
@@ -22,8 +22,8 @@ int main() {
   set("length", length);
   set("mass", mass);
   set("inertia", mass * length * length / 12);
-  set("stiffness", 47.448);  // N m/rad
-  set("damping", 1e-3);      // N m s/rad
+  set("stiffness", 0.5);  // N m/rad
+  set("damping", 1e-3);  // N m s/rad
   parameters[model.parameter_index("load_mass")] = 1.47;
 
   // One seed: all joint stiffnesses together.
@@ -47,6 +47,4 @@ int main() {
   std::printf("load after 1 s: side %.4f m, down %.4f m\n", at.side[links + 1], at.down[links + 1]);
   std::printf("per N m/rad:    side %+.2e m, down %+.2e m\n", change.side[links + 1],
               change.down[links + 1]);
-  std::printf("energy balance kept to %.1e J in %ld steps\n", simulation.energy_imbalance,
-              simulation.statistics.steps);
 }

@@ -7,6 +7,7 @@
 
 #include "generator/description/input_error.hpp"
 #include "generator/program/commands.hpp"
+#include "install/manual.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Derives the equations of motion of hanging chains", "catena-derive");
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   catena::add_derive_command(app, status);
   catena::add_check_command(app, status);
   catena::add_verify_command(app, status);
+  catena::add_manual_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #include "generator/description/input_error.hpp"
 #include "identify/process.hpp"
 #include "identify/program/command.hpp"
+#include "install/manual.hpp"
 
 namespace catena {
 namespace {
@@ -32,6 +33,7 @@ int run(int argc, char** argv) {
   program.add_subcommand("derive", "derive models and emit their C++ (by catena-derive)");
   program.add_subcommand("check", "check a derivation made by hand (by catena-derive)");
   program.add_subcommand("certify", "check emitted models against their certificates (by catena-derive)");
+  add_manual_command(program);
   program.footer("catena COMMAND --help tells more. Example:\n  catena identify cable.toml");
   try {
     program.parse(argc, argv);
