@@ -145,7 +145,7 @@ enum class FitMethod { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };
 struct OptimiserSpec {
   FitMethod method = FitMethod::kNelderMead;
   int max_evaluations = 2000;
-  double tolerance = 1e-4;     ///< relative, of unknowns and error
+  double tolerance = 1e-6;     ///< relative, of unknowns and error
   double initial_step = 0.25;  ///< of the simplex: relative (of a scale for logarithmic unknowns)
   int starts = 1;              ///< of a multi-start: the given one, then a Latin hypercube
   unsigned seed = 1;

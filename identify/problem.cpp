@@ -94,6 +94,7 @@ void Problem::prepare() {
         experiment.spec.signals.empty() ? study_.signals : experiment.spec.signals, model_,
         experiment.spec.where);
   }
+  for (int e = -1; e < static_cast<int>(experiments_.size()); ++e) check_start(e);
   const auto add = [&](Unknown unknown) { unknowns_.push_back(std::move(unknown)); };
   for (std::size_t j = 0; j < study_.parameters.size(); ++j) {
     const ParameterSpec& spec = study_.parameters[j];
@@ -135,6 +136,35 @@ void Problem::prepare() {
     if (!initial.at_rest && initial.velocity_free)
       add_coefficients(initial.velocity_coefficients, "rate", "rad/s", initial.coefficients.size());
   }
+}
+
+void Problem::check_start(int experiment) const {
+  const bool known = experiment >= 0;
+  const InitialSpec& initial =
+      known ? experiments_[static_cast<std::size_t>(experiment)].initial : study_.initial;
+  const bool linear = initial.shape != Shape::kCatenary && initial.shape != Shape::kHanging;
+  if (!known && (!experiments_.empty() || (linear && initial.coefficients.empty()))) return;
+  const std::string where =
+      known ? experiments_[static_cast<std::size_t>(experiment)].spec.where : study_.file.string();
+  const Eigen::VectorXd parameters = map_(map_.values());
+  State state;
+  try {
+    state = state_of(experiment, initial, parameters);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(where + ": initial: " + error.what());
+  }
+  const Signals& signals =
+      known ? experiments_[static_cast<std::size_t>(experiment)].signals : Signals();
+  if (signals.count() < model_.signals()) return;
+  Eigen::VectorXd acceleration(model_.coordinates()), signal_values(3 * model_.signals());
+  const double time = known ? experiments_[static_cast<std::size_t>(experiment)].spec.start : 0;
+  signals.evaluate(time, signal_values.data());
+  const catena_point at{time,           state.q.data(),       state.v.data(),   acceleration.data(),
+                        state.z.data(), signal_values.data(), parameters.data()};
+  if (const int pivot = model_.table().acceleration(&at, acceleration.data()))
+    throw InputError(where + ": cable: the mass matrix is not positive definite (at " +
+                     model_.table().coordinate[pivot - 1].name +
+                     "); links without mass need a load or neighbours that have some");
 }
 
 Eigen::VectorXd Problem::start() const {

@@ -94,6 +94,8 @@ class Problem {
 
  private:
   void prepare();
+  /// Throws InputError where an experiment (-1: the case alone) cannot begin.
+  void check_start(int experiment) const;
   /// Of the case's parameters, in their order.
   Eigen::VectorXd parameter_values(const Eigen::VectorXd& x, int experiment) const;
   InitialSpec initial_of(const Eigen::VectorXd& x, int experiment) const;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "identify/problem.hpp"
+
+namespace catena::testing {
+
+/// A case from its [model], [cable], ... sections, without data.
+inline Case sections(const std::string& text) {
+  return parse_case("format = 1\nkind = \"case\"\n" + text, "case.toml", "");
+}
+
+/// Markers at the given arc lengths (m), `frames` of them `step` s apart from time 0; not measured yet.
+inline Recording empty_markers(const std::vector<double>& arc_lengths, int frames, double step) {
+  Recording recording;
+  for (int k = 0; k < frames; ++k) recording.time.push_back(step * k);
+  for (std::size_t p = 0; p < arc_lengths.size(); ++p) {
+    PointSpec point;
+    point.name = "marker " + std::to_string(p + 1);
+    point.arc_length = arc_lengths[p];
+    recording.points.push_back(point);
+    recording.channels.push_back({static_cast<int>(p), Component::kSide, point.name + " side"});
+    recording.channels.push_back({static_cast<int>(p), Component::kDown, point.name + " down"});
+  }
+  recording.measured.setZero(static_cast<Eigen::Index>(2 * arc_lengths.size()), frames);
+  recording.fit_frames = frames;
+  return recording;
+}
+
+/// Adds an experiment of that name for a recording that is handed in.
+inline void add_experiment(Case& study, const std::string& name, DataKind kind = DataKind::kMarkers) {
+  ExperimentSpec spec;
+  spec.name = name;
+  spec.kind = kind;
+  spec.where = "case.toml";
+  study.experiments.push_back(spec);
+}
+
+/// The recording filled with what the case itself predicts, plus normal noise.
+inline Recording with_truth(const Case& truth, const Model& model, Recording recording,
+                            double noise = 0, unsigned seed = 1) {
+  const Problem problem(truth, model, {recording});
+  recording.measured = problem.predict(problem.start(), 0, true).simulated;
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal(0, noise);
+  if (noise > 0)
+    for (double& value : recording.measured.reshaped()) value += normal(generator);
+  return recording;
+}
+
+}  // namespace catena::testing
