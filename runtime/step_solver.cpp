@@ -15,7 +15,7 @@ constexpr int kMaxIterations = 4;
 constexpr double kRateMemory = 0.3;   // how much of the old rate of convergence is kept
 constexpr double kDivergence = 2.0;   // growth of a correction that means divergence
 constexpr double kGammaChange = 0.2;  // change of gamma that calls for new factors
-constexpr long kStepsPerFactors = 20;
+constexpr long kStepsPerFactors = 8;
 
 }  // namespace
 
