@@ -29,8 +29,15 @@ struct Quasiseparable {
   T upper_row[n][ru], upper_column[n][ru], lower_row[n][rl], lower_column[n][rl];
   T diagonal[n], below[n], above[n];
 
-  /// Factors in place: upper_column, lower_row and diagonal are overwritten (diagonal holds the
-  /// reciprocal pivots). Returns 0, or the 1-based row whose pivot vanished.
+  /// Factors in place; afterwards the members hold what solve() needs:
+  ///   diagonal      reciprocal pivots d
+  ///   upper_column, lower_row      those of the triangular factors
+  ///   upper_row, lower_row         each row times its d
+  ///   above_i, below_i             the neighbour's whole entry (semiseparable part included) times d_i
+  /// Returns 0, or the 1-based row whose pivot vanished.
+  ///
+  /// The steps depend on each other through W, so that the time of a sweep is the latency of its longest
+  /// chain of operations: products that do not need W are formed apart from it.
   int factor() {
     T w[ru][rl], w_column[ru], w_row[rl], w_corner = T(0);
     for (int r = 0; r < ru; ++r) {
@@ -41,16 +48,22 @@ struct Quasiseparable {
     for (int j = n - 1; j >= 0; --j) {
       T* column = upper_column[j];
       T* row = lower_row[j];
-      T pivot = diagonal[j] - w_corner;
+      T known = w_corner;
       for (int r = 0; r < upper_rank; ++r) {
-        T w_q = T(0);
+        T terms = upper_row[j][r] * w_column[r];
+        for (int s = 0; s < lower_rank; ++s)
+          terms += upper_row[j][r] * lower_column[j][s] * w[r][s];
+        known += terms;
+      }
+      for (int s = 0; s < lower_rank; ++s) known += lower_column[j][s] * w_row[s];
+      const T pivot = diagonal[j] - known;
+      for (int r = 0; r < upper_rank; ++r) {
+        T w_q = w_column[r];
         for (int s = 0; s < lower_rank; ++s) w_q += w[r][s] * lower_column[j][s];
-        pivot -= upper_row[j][r] * (w_q + w_column[r]);
-        column[r] -= w_q + w_column[r];
+        column[r] -= w_q;
       }
       for (int s = 0; s < lower_rank; ++s) {
         T w_p = w_row[s];
-        pivot -= w_row[s] * lower_column[j][s];
         for (int r = 0; r < upper_rank; ++r) w_p += w[r][s] * upper_row[j][r];
         row[s] -= w_p;
       }
@@ -60,36 +73,54 @@ struct Quasiseparable {
       if (j == 0) break;
       const T before = above[j - 1] * reciprocal;
       for (int r = 0; r < upper_rank; ++r) {
-        const T scaled = column[r] * reciprocal;
-        for (int s = 0; s < lower_rank; ++s) w[r][s] += scaled * row[s];
-        w_column[r] = scaled * below[j];
+        for (int s = 0; s < lower_rank; ++s) w[r][s] += column[r] * row[s] * reciprocal;
+        w_column[r] = column[r] * below[j] * reciprocal;
       }
       for (int s = 0; s < lower_rank; ++s) w_row[s] = before * row[s];
       w_corner = before * below[j];
     }
+    for (int j = 0; j < n; ++j) {
+      if (j + 1 < n) {
+        for (int r = 0; r < upper_rank; ++r) above[j] += upper_row[j][r] * upper_column[j + 1][r];
+        above[j] *= diagonal[j];
+      }
+      if (j > 0) {
+        for (int s = 0; s < lower_rank; ++s) below[j] += lower_row[j][s] * lower_column[j - 1][s];
+        below[j] *= diagonal[j];
+      }
+      for (int r = 0; r < upper_rank; ++r) upper_row[j][r] *= diagonal[j];
+      for (int s = 0; s < lower_rank; ++s) lower_row[j][s] *= diagonal[j];
+    }
     return 0;
   }
 
-  /// Overwrites x, the right-hand side, with the solution.
+  /// Overwrites x, the right-hand side, with the solution. The neighbour's value enters by above and
+  /// below; the sums `carried` hold what lies beyond it, so that a step waits for one product and one
+  /// difference.
   void solve(T* x) const {
     T carried[ru], sum[rl];
     for (int r = 0; r < ru; ++r) carried[r] = T(0);
     for (int s = 0; s < rl; ++s) sum[s] = T(0);
-    T last = T(0);
+    T last = T(0), last_but_one = T(0);
     for (int j = n - 1; j >= 0; --j) {
-      T rest = x[j];
-      if (j + 1 < n) rest -= above[j] * last;
+      if (j + 2 < n) {
+        for (int r = 0; r < upper_rank; ++r) carried[r] += upper_column[j + 2][r] * last_but_one;
+      }
+      T rest = x[j] * diagonal[j];
       for (int r = 0; r < upper_rank; ++r) rest -= upper_row[j][r] * carried[r];
-      last = rest * diagonal[j];
+      last_but_one = last;
+      last = j + 1 < n ? rest - above[j] * last : rest;
       x[j] = last;
-      for (int r = 0; r < upper_rank; ++r) carried[r] += upper_column[j][r] * last;
     }
-    for (int j = 0; j < n; ++j) {
-      T known = T(0);
-      if (j > 0) known = below[j] * x[j - 1];
-      for (int s = 0; s < lower_rank; ++s) known += lower_row[j][s] * sum[s];
-      x[j] -= known * diagonal[j];
-      for (int s = 0; s < lower_rank; ++s) sum[s] += lower_column[j][s] * x[j];
+    for (int j = 1; j < n; ++j) {  // last is x[0]
+      if (j > 1) {
+        for (int s = 0; s < lower_rank; ++s) sum[s] += lower_column[j - 2][s] * last_but_one;
+      }
+      T rest = x[j];
+      for (int s = 0; s < lower_rank; ++s) rest -= lower_row[j][s] * sum[s];
+      last_but_one = last;
+      last = rest - below[j] * last;
+      x[j] = last;
     }
   }
 
@@ -119,27 +150,35 @@ struct SymmetricSemiseparable {
   static constexpr int rr = rank > 0 ? rank : 1;
   T row[n][rr], column[n][rr], diagonal[n];
 
-  /// Factors in place (row and diagonal are overwritten; diagonal holds the reciprocal pivots).
-  /// Returns 0, or the 1-based row whose pivot is not positive.
+  /// Factors in place: row is that of the triangular factor, diagonal holds the reciprocal pivots.
+  /// Returns 0, or the 1-based row whose pivot is not positive. Products that do not need W are formed
+  /// apart from it, as above.
   int factor() {
     T w[rr][rr];
     for (int r = 0; r < rr; ++r) {
       for (int s = 0; s < rr; ++s) w[r][s] = T(0);
     }
     for (int j = n - 1; j >= 0; --j) {
-      T pivot = diagonal[j];
+      T known = T(0);
+      for (int r = 0; r < rank; ++r) {
+        T terms = column[j][r] * column[j][r] * w[r][r];
+        for (int s = 0; s < r; ++s) {
+          const T product = column[j][r] * column[j][s];
+          terms += (product + product) * w[r][s];
+        }
+        known += terms;
+      }
+      const T pivot = diagonal[j] - known;
       for (int r = 0; r < rank; ++r) {
         T w_q = T(0);
         for (int s = 0; s < rank; ++s) w_q += (s <= r ? w[r][s] : w[s][r]) * column[j][s];
-        pivot -= column[j][r] * w_q;
         row[j][r] -= w_q;
       }
       if (!positive_pivot(pivot)) return j + 1;
       const T reciprocal = T(1) / pivot;
       diagonal[j] = reciprocal;
       for (int r = 0; r < rank; ++r) {
-        const T scaled = row[j][r] * reciprocal;
-        for (int s = 0; s <= r; ++s) w[r][s] += scaled * row[j][s];
+        for (int s = 0; s <= r; ++s) w[r][s] += row[j][r] * row[j][s] * reciprocal;
       }
     }
     return 0;
@@ -149,17 +188,32 @@ struct SymmetricSemiseparable {
   void solve(T* x) const {
     T carried[rr], sum[rr];
     for (int r = 0; r < rr; ++r) carried[r] = sum[r] = T(0);
+    T last = T(0), last_but_one = T(0);
     for (int j = n - 1; j >= 0; --j) {
+      T near = T(0);  // what lies beyond the neighbour is in `carried`
+      if (j + 1 < n) {
+        for (int r = 0; r < rank; ++r) near += column[j][r] * row[j + 1][r];
+      }
+      if (j + 2 < n) {
+        for (int r = 0; r < rank; ++r) carried[r] += row[j + 2][r] * last_but_one;
+      }
       T rest = x[j];
       for (int r = 0; r < rank; ++r) rest -= column[j][r] * carried[r];
-      x[j] = rest * diagonal[j];
-      for (int r = 0; r < rank; ++r) carried[r] += row[j][r] * x[j];
+      last_but_one = last;
+      last = rest * diagonal[j] - near * diagonal[j] * last;
+      x[j] = last;
     }
-    for (int j = 0; j < n; ++j) {
-      T known = T(0);
-      for (int r = 0; r < rank; ++r) known += row[j][r] * sum[r];
-      x[j] -= known * diagonal[j];
-      for (int r = 0; r < rank; ++r) sum[r] += column[j][r] * x[j];
+    for (int j = 1; j < n; ++j) {  // last is x[0]
+      T near = T(0);
+      for (int r = 0; r < rank; ++r) near += row[j][r] * column[j - 1][r];
+      if (j > 1) {
+        for (int r = 0; r < rank; ++r) sum[r] += column[j - 2][r] * last_but_one;
+      }
+      T rest = T(0);
+      for (int r = 0; r < rank; ++r) rest += row[j][r] * sum[r];
+      last_but_one = last;
+      last = (x[j] - rest * diagonal[j]) - near * diagonal[j] * last;
+      x[j] = last;
     }
   }
 

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "sine_cosine.hpp"
+
 namespace catena {
 
 using std::acos;
