@@ -7,6 +7,7 @@
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
 #include "generator/emission/emitted_files.hpp"
+#include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"
 
 namespace catena {
@@ -18,6 +19,7 @@ struct Options {
   std::vector<int> links;
   std::vector<std::string> effects;
   bool library = false;
+  bool latex = false;
 };
 
 Description description_of(const Options& options) {
@@ -40,8 +42,26 @@ Description description_of(const Options& options) {
   return description;
 }
 
+void write_latex(const Options& options, const Description& description) {
+  for (const int n : description.links) {
+    if (n > kMostLatexLinks) {
+      throw InputError("--latex with " + std::to_string(n) + " links: nobody reads more than " +
+                       std::to_string(kMostLatexLinks) + "; give fewer (--links)");
+    }
+  }
+  const auto path = std::filesystem::path(options.output) / (description.id + ".tex");
+  const std::string text = latex_document(description, description.links);
+  std::filesystem::create_directories(options.output);
+  write_whole_file(path, text);
+  std::printf("written to %s\n", path.c_str());
+}
+
 void derive(const Options& options) {
   const Description description = description_of(options);
+  if (options.latex) {
+    write_latex(options, description);
+    return;
+  }
   const auto progress = [](const ModelSummary& s, double seconds) {
     std::printf("%-24s %4d links  %s  %7.2f s\n", s.name.c_str(), s.links,
                 s.structured ? "O(n)   " : "general", seconds);
@@ -70,6 +90,8 @@ void add_derive_command(CLI::App& app, int& status) {
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   command->add_flag("--library", options->library,
                     "write the look-up of the models and the list for CMake too");
+  command->add_flag("--latex", options->latex,
+                    "write the equations as a LaTeX document instead, for reading");
   command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");
   command->callback([options, &status] {
     derive(*options);

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/latex_document.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+
+#include "generator/derivation/chain.hpp"
+#include "generator/description/formula.hpp"
+#include "generator/emission/latex_polynomial.hpp"
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr std::size_t kLineWidth = 80;  // letters that fit into a line of mathematics, about
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '_':
+      case '&':
+      case '%':
+      case '#':
+      case '$':
+      case '{':
+      case '}':
+        result += std::string("\\") + c;
+        break;
+      case '^':
+        result += "\\^{}";
+        break;
+      case '~':
+        result += "\\~{}";
+        break;
+      case '\\':
+        result += "\\textbackslash{}";
+        break;
+      case '|':
+        result += "\\textbar{}";
+        break;
+      case '<':
+        result += "\\textless{}";
+        break;
+      case '>':
+        result += "\\textgreater{}";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+// "left ={}& a + b \\ & + c": as many terms on a line as fit
+std::string equation(const std::string& left, const std::vector<std::string>& terms) {
+  std::string text = left + " ={}& ";
+  std::string line;
+  for (const std::string& term : terms) {
+    if (!line.empty() && latex_width(line) + latex_width(term) > kLineWidth) {
+      text += line + " \\\\\n  & ";
+      line.clear();
+    }
+    const bool first = text.ends_with("={}& ") && line.empty();
+    line += (line.empty() ? "" : " ") + (first ? joined_terms({term}) : term);
+  }
+  return text + (terms.empty() ? "0" : line);
+}
+
+std::string display(const std::vector<std::string>& equations) {
+  std::string text = "\\begin{align*}\n";
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    text += "  " + equations[i] + (i + 1 < equations.size() ? " \\\\\n" : "\n");
+  }
+  return text + "\\end{align*}\n";
+}
+
+std::string matrix(const std::string& left, std::size_t rows, std::size_t columns,
+                   const std::function<std::string(std::size_t, std::size_t)>& entry) {
+  std::string text = "\\[\n  " + left + " = \\begin{bmatrix}\n";
+  for (std::size_t i = 0; i < rows; ++i) {
+    text += "    ";
+    for (std::size_t j = 0; j < columns; ++j) text += (j > 0 ? " & " : "") + entry(i, j);
+    text += i + 1 < rows ? " \\\\\n" : "\n";
+  }
+  return text + "  \\end{bmatrix}\n\\]\n";
+}
+
+std::string number(std::size_t i) { return std::to_string(i + 1); }
+
+class Document {
+ public:
+  Document(const Description& description, int links) : description_(description), links_(links) {
+    for (const Effect& effect : description.effects) {
+      const auto name = [&](const std::string& own, const std::string& ending) {
+        names_[effect.id + "_" + own + ending] = (ending == "_dot"    ? "\\dot"
+                                                  : ending == "_ddot" ? "\\ddot"
+                                                                      : "") +
+                                                 ("{" + shown(effect, own) + "}");
+      };
+      for (const EffectParameter& parameter : effect.parameters) name(parameter.name, "");
+      for (const ExtraState& state : effect.states) name(state.name, "");
+      for (const Coordinate& coordinate : effect.coordinates) {
+        for (const char* ending : {"", "_dot", "_ddot"}) name(coordinate.name, ending);
+      }
+      for (const SignalChannel& signal : effect.signals) {
+        for (const char* ending : {"", "_rate", "_acceleration"}) name(signal.name, ending);
+      }
+    }
+  }
+
+  std::string text() {
+    std::string text =
+        "\\section{" + std::to_string(links_) + (links_ == 1 ? " link" : " links") + "}\n\n";
+    text += lagrangian();
+    text += euler_lagrange();
+    text += inertia();
+    text += joint_matrices();
+    text += vectors();
+    for (const Effect& effect : description_.effects) text += effect_text(effect);
+    return text;
+  }
+
+ private:
+  std::string shown(const Effect& effect, const std::string& own) const {
+    const std::string name = description_.effects.size() > 1 ? effect.id + "." + own : own;
+    return "\\mathrm{" + escaped(name) + "}";
+  }
+
+  std::string coordinate(std::size_t i, const std::string& dot = "") const {
+    const auto n = static_cast<std::size_t>(links_);
+    if (i < n) return dot + "{\\theta}_{" + number(i) + "}";
+    std::size_t k = i - n;
+    for (const Effect& effect : description_.effects) {
+      for (const Coordinate& own : effect.coordinates) {
+        if (k < n) return dot + "{" + shown(effect, own.name) + "}_{" + number(k) + "}";
+        k -= n;
+      }
+    }
+    return "";
+  }
+
+  bool has_generalised_force(const Effect& effect) const {
+    return !effect.forces.empty() || !effect.scalars.empty();
+  }
+
+  // The energies of the chain itself; those of effects follow with them.
+  std::string lagrangian() {
+    Chain chain(description_, links_);
+    const LatexPolynomial latex(chain.definitions(), names_);
+    std::vector<std::string> terms;
+    const auto add = [&](const ex& energy) {
+      for (const std::string& term : latex.terms(energy)) terms.push_back(term);
+    };
+    ex kinetic = 0, gravity = 0;
+    std::vector<std::string> elastic;
+    for (const EnergyItem& item : chain.energies()) {
+      for (const ex& part : item.parts) {
+        if (item.name == "kinetic") kinetic += part;
+        if (item.name == "gravity") gravity += part;
+        if (item.name == "joint_elastic") elastic.push_back(spring(chain, latex, part));
+      }
+    }
+    add(kinetic);
+    terms.insert(terms.end(), elastic.begin(), elastic.end());
+    add(-gravity);
+    return "The Lagrangian is\n" + display({equation("L", terms)}) + "\n";
+  }
+
+  // - 1/2 k_i (theta_i - theta_{i-1})^2: the square stays one
+  static std::string spring(Chain& chain, const LatexPolynomial& latex, const ex& energy) {
+    for (const int k : chain.definitions().symbols_of(energy)) {
+      const Symbol& angle = chain.definitions()[k];
+      if (angle.family != "joint_angle") continue;
+      LatexStyle style;
+      style.leading_link = angle.index;
+      std::vector<std::string> terms = latex.terms(angle.value, style);
+      std::stable_partition(terms.begin(), terms.end(),
+                            [](const std::string& term) { return term.starts_with("+"); });
+      const std::string inside = joined_terms(terms);
+      const std::string stiffness = "k_{" + std::to_string(angle.index) + "}";
+      return "- \\frac{1}{2} " + stiffness +
+             (angle.index == 1 && inside == "\\theta_{1}" ? " \\theta_{1}^{2}"
+                                                          : " \\left(" + inside + "\\right)^{2}");
+    }
+    return "- \\frac{1}{2} " + latex.of(2 * energy);
+  }
+
+  std::string euler_lagrange() {
+    Chain friction(description_, links_, "friction");
+    const LatexPolynomial latex(friction.definitions(), names_);
+    std::vector<std::string> equations;
+    for (std::size_t i = 0; i < friction.coordinates().size(); ++i) {
+      const std::string q = coordinate(i), own = torque(i);
+      const ex force = -friction.residual()[i];
+      LatexStyle by_coefficient;
+      by_coefficient.by_coefficient = true;
+      by_coefficient.leading_link = static_cast<int>(i) + 1;
+      std::vector<std::string> first, second;
+      if (!own.empty()) first.push_back("+ " + own);
+      second = first;
+      for (const std::string& term : latex.terms(force, by_coefficient)) first.push_back(term);
+      for (const std::string& term : latex.terms(force)) second.push_back(term);
+      for (const Effect& effect : description_.effects) {
+        if (has_generalised_force(effect)) first.push_back("+ " + generalised_force(effect, i));
+      }
+      std::string text = "\\frac{d}{dt} \\left(\\frac{\\partial L}{\\partial " +
+                         coordinate(i, "\\dot") + "}\\right) - \\frac{\\partial L}{\\partial " + q +
+                         "}";
+      text = equation(text, first);
+      if (description_.effects.empty() && second != first) {
+        text += " \\\\\n  ={}& " + joined_terms(second);
+      }
+      equations.push_back(text);
+    }
+    return "and its equations of motion are\n" + display(equations) + "\n";
+  }
+
+  std::string torque(std::size_t i) const {
+    return i < static_cast<std::size_t>(links_) ? "T_{\\theta_" + number(i) + "}" : "";
+  }
+
+  std::string generalised_force(const Effect& effect, std::size_t i) const {
+    return "Q^{\\mathrm{" + escaped(effect.id) + "}}_{" + number(i) + "}";
+  }
+
+  std::string inertia() {
+    std::string text =
+        "Worked out, they read\n\\[\n  I(\\vec{\\theta}) \\ddot{\\vec{\\theta}} + C "
+        "\\dot{\\vec{\\theta}} + K \\vec{\\theta} + \\vec{F}(\\vec{\\theta}, "
+        "\\dot{\\vec{\\theta}}) + \\vec{G}(\\vec{\\theta}) = \\vec{T}";
+    for (const Effect& effect : description_.effects) {
+      if (has_generalised_force(effect))
+        text += " + \\vec{Q}^{\\mathrm{" + escaped(effect.id) + "}}";
+    }
+    text += ",\n\\]\nwith the symmetric inertia matrix\n";
+    Chain chain(description_, links_, "kinetic");
+    const LatexPolynomial latex(chain.definitions(), names_);
+    const std::size_t n = chain.coordinates().size();
+    text += matrix("I", n, n, [](std::size_t i, std::size_t j) {
+      return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
+    });
+    std::vector<std::string> equations;
+    for (std::size_t i = 0; i < n; ++i) {
+      const ex row = latex.written_out(chain.residual()[i]);
+      for (std::size_t j = 0; j < n; ++j) {
+        const std::string comma = i > 8 || j > 8 ? "," : "";
+        const std::string left = "I_{" + number(i) + comma + number(j) + "}";
+        if (j < i) {
+          equations.push_back(left + " ={}& I_{" + number(j) + comma + number(i) + "}");
+          continue;
+        }
+        const ex entry = row.coeff(chain.accelerations()[j]).expand();
+        LatexStyle style;
+        style.order = i == j ? LatexStyle::kMassesFirst : LatexStyle::kLengthsFirst;
+        style.inertia_last = i == j;
+        equations.push_back(equation(left, latex.terms(entry, style)));
+      }
+      moving_.push_back(row.subs(no_accelerations(chain), GiNaC::subs_options::no_pattern));
+    }
+    text += display(equations);
+    LatexStyle lengths_first;
+    lengths_first.order = LatexStyle::kLengthsFirst;
+    coriolis_ = column(chain, moving_, latex, "f", lengths_first);
+    return text + "\n";
+  }
+
+  static GiNaC::exmap no_accelerations(const Chain& chain) {
+    GiNaC::exmap still;
+    for (const ex& a : chain.accelerations()) still[a] = 0;
+    return still;
+  }
+
+  std::string column(const Chain& chain, const std::vector<ex>& rows, const LatexPolynomial& latex,
+                     const std::string& letter, const LatexStyle& style) const {
+    std::vector<std::string> equations;
+    for (std::size_t i = 0; i < chain.coordinates().size(); ++i) {
+      equations.push_back(equation(letter + "_{" + number(i) + "}", latex.terms(rows[i], style)));
+    }
+    return display(equations);
+  }
+
+  // C and K, read off the friction and elastic terms
+  std::string joint_matrices() {
+    const auto read = [&](const char* letter, const char* term) {
+      Chain chain(description_, links_, term);
+      const LatexPolynomial latex(chain.definitions(), names_);
+      const auto& variables = term == std::string("elastic") ? chain.coordinates() : chain.rates();
+      return matrix(letter, variables.size(), variables.size(), [&](std::size_t i, std::size_t j) {
+        return latex.of(latex.written_out(chain.residual()[i]).coeff(variables[j]));
+      });
+    };
+    return "The damping and stiffness matrices are\n" + read("C", "friction") +
+           read("K", "elastic") + "\n";
+  }
+
+  std::string vectors() {
+    Chain chain(description_, links_, "gravity");
+    const LatexPolynomial latex(chain.definitions(), names_);
+    std::string text = "The components of the Coriolis and centrifugal vector are\n" + coriolis_ +
+                       "\nthose of the vector of gravity\n" +
+                       column(chain, chain.residual(), latex, "g", {});
+    const std::size_t n = chain.coordinates().size();
+    return text + "\nand the external torques\n" +
+           matrix("\\vec{T}", n, 1,
+                  [&](std::size_t i, std::size_t) { return torque(i).empty() ? "0" : torque(i); }) +
+           "\n";
+  }
+
+  std::string effect_text(const Effect& effect) {
+    std::string text = "\\subsection*{" + escaped(effect.title) + " (\\texttt{" +
+                       escaped(effect.id) + "})}\n\n" + escaped(effect.description) + "\n\n";
+    for (const Formula& formula : formulas(effect)) {
+      text += "\\noindent " + formula.what + ":\n\\[\n  " + formula.latex + "\n\\]\n";
+    }
+    if (!has_generalised_force(effect)) return text + "\n";
+    Chain chain(description_, links_, effect.id);
+    const LatexPolynomial latex(chain.definitions(), names_);
+    std::vector<std::string> equations;
+    for (std::size_t i = 0; i < chain.residual().size(); ++i) {
+      equations.push_back(
+          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i])));
+    }
+    text += "Its generalised forces are\n" + display(equations);
+    std::vector<std::string> abbreviations;
+    for (const auto& [left, terms] : latex.abbreviations()) {
+      abbreviations.push_back(equation(left, terms));
+    }
+    if (!abbreviations.empty()) text += "with\n" + display(abbreviations);
+    return text + "\n";
+  }
+
+  const Description& description_;
+  int links_;
+  LatexNames names_;
+  std::vector<ex> moving_;
+  std::string coriolis_;
+};
+
+}  // namespace
+
+std::string latex_document(const Description& description, const std::vector<int>& links) {
+  std::string text =
+      "% Written by catena-derive. Do not edit: change the model description and derive again.\n"
+      "\\documentclass[a4paper]{article}\n"
+      "\\usepackage{amsmath}\n"
+      "\\allowdisplaybreaks\n"
+      "\\setcounter{MaxMatrixCols}{" +
+      std::to_string(3 * kMostLatexLinks) +
+      "}\n"
+      "\\setlength{\\textwidth}{17cm}\n"
+      "\\setlength{\\oddsidemargin}{-0.5cm}\n"
+      "\\title{Equations of motion: " +
+      escaped(description.id) +
+      "}\n"
+      "\\author{}\n\\date{}\n\n"
+      "\\begin{document}\n\\maketitle\n\n"
+      "$\\theta_i$ is the angle of link $i$ from the downward vertical; $l_i$, $m_i$, $I_{R_i}$ "
+      "its\n"
+      "length, mass and rotational inertia about its own centre; $k_i$, $c_i$ stiffness and "
+      "damping\n"
+      "of joint $i$; $T_{\\theta_i}$ the external torque on $\\theta_i$; $m_c$ the load; $g$ "
+      "gravity.\n\n";
+  for (const int n : links) text += Document(description, n).text();
+  return text + "\\end{document}\n";
+}
+
+}  // namespace catena

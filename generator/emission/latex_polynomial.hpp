@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Derived expressions as LaTeX, in the notation of chapter 3 and in an order that is ours: masses
+// collected before what they multiply, sines and cosines of differences put together again.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/derivation/definitions.hpp"
+
+namespace catena {
+
+struct LatexStyle {
+  enum Order { kMassesFirst, kLengthsFirst };
+  Order order = kMassesFirst;  ///< (m_2/2 + m_c) l_1 l_2 ..., or l_1 l_2 (m_2/2 + m_c) ...
+  bool inertia_last = false;   ///< ... + I_R, as on the diagonal of the inertia matrix
+  bool by_coefficient =
+      false;              ///< c_1 (w_1 - w_2): collected by c and k, not by what they multiply
+  int leading_link = -1;  ///< within a sum, what belongs to this link stands first
+};
+
+/// Names of the symbols of effects: family -> LaTeX ("\mathrm{coefficient}").
+using LatexNames = std::map<std::string, std::string>;
+
+class LatexPolynomial {
+ public:
+  LatexPolynomial(const Definitions& definitions, LatexNames effect_names);
+
+  /// The terms of an expression, each with its sign: "- (m_1/2 + m_c) g l_1 \sin\theta_1". Empty
+  /// for zero. All definitions are written out but functions, roots and divisors, which are shown
+  /// with their arguments written out.
+  std::vector<std::string> terms(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
+
+  /// What R_1, R_2, ... of the terms so far stand for: pairs of left side ("R_{1}^{2}") and terms.
+  std::vector<std::pair<std::string, std::vector<std::string>>> abbreviations() const;
+
+  /// The terms one after the other, without a leading plus; "0" if there are none.
+  std::string of(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
+
+  /// The expression with its definitions written out as for terms(), expanded.
+  GiNaC::ex written_out(const GiNaC::ex& expression) const;
+
+ private:
+  std::string symbol(int number, int power) const;
+  std::string abbreviation(int number) const;
+
+  friend class LatexTerms;
+  const Definitions& definitions_;
+  LatexNames effect_names_;
+  mutable std::map<int, GiNaC::ex> known_;
+  mutable std::vector<int> abbreviated_;  // numbers of R_1, R_2, ...
+};
+
+/// Terms with signs, joined: no leading plus.
+std::string joined_terms(const std::vector<std::string>& terms);
+
+/// How many letters wide LaTeX is in print, about.
+std::size_t latex_width(const std::string& latex);
+
+}  // namespace catena
