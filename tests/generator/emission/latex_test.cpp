@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the LaTeX says, held against chapter 3's printed equations, typed in by hand.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "generator/emission/latex_document.hpp"
+#include "generator/emission/latex_monomials.hpp"
+
+using namespace catena;
+
+namespace {
+
+// Without spaces, line breaks, alignment and needless braces: "\theta_{1}" is "\theta_1".
+std::string plain(const std::string& latex) {
+  std::string text;
+  for (std::size_t i = 0; i < latex.size(); ++i) {
+    const bool index = latex[i] == '{' && i + 2 < latex.size() && latex[i + 2] == '}';
+    if (index) {
+      text += latex[i + 1];
+      i += 2;
+    } else if (latex.compare(i, 2, "\\\\") == 0) {
+      ++i;
+    } else if (latex[i] != ' ' && latex[i] != '\n' && latex[i] != '&') {
+      text += latex[i];
+    }
+  }
+  for (const char* word : {"\\left", "\\right", "{}"}) {
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word)) {
+      text.erase(at, std::string(word).size());
+    }
+  }
+  return text;
+}
+
+struct Row {
+  int links;
+  const char* equation;
+};
+
+const Row kChapter3[] = {
+    // (3.1)
+    {2, R"(L = \frac{1}{2} I_{R_1} \dot{\theta}_1^2 + \frac{1}{2} I_{R_2} \dot{\theta}_2^2
+        + \frac{1}{2} (\frac{m_1}{4} + m_2 + m_c) l_1^2 \dot{\theta}_1^2
+        + \frac{1}{2} (\frac{m_2}{4} + m_c) l_2^2 \dot{\theta}_2^2
+        + (\frac{m_2}{2} + m_c) l_1 l_2 \cos(\theta_1 - \theta_2) \dot{\theta}_1 \dot{\theta}_2
+        - \frac{1}{2} k_1 \theta_1^2 - \frac{1}{2} k_2 (\theta_2 - \theta_1)^2
+        - (\frac{m_1}{2} + m_2 + m_c) g l_1 (1 - \cos \theta_1)
+        - (\frac{m_2}{2} + m_c) g l_2 (1 - \cos \theta_2))"},
+    // (3.2), (3.3)
+    {2, R"(= T_{\theta_1} - c_1 \dot{\theta}_1 - c_2 (\dot{\theta}_1 - \dot{\theta}_2)
+        = T_{\theta_1} - (c_1 + c_2) \dot{\theta}_1 + c_2 \dot{\theta}_2)"},
+    {2, R"(= T_{\theta_2} - c_2 (\dot{\theta}_2 - \dot{\theta}_1)
+        = T_{\theta_2} + c_2 \dot{\theta}_1 - c_2 \dot{\theta}_2)"},
+    // after (3.5)
+    {2, R"(I_{11} = (\frac{m_1}{4} + m_2 + m_c) l_1^2 + I_{R_1})"},
+    {2, R"(I_{12} = l_1 l_2 (\frac{m_2}{2} + m_c) \cos(\theta_1 - \theta_2))"},
+    {2, R"(C = \begin{bmatrix} c_1 + c_2 & -c_2 \\ -c_2 & c_2 \end{bmatrix})"},
+    {2, R"(K = \begin{bmatrix} k_1 + k_2 & -k_2 \\ -k_2 & k_2 \end{bmatrix})"},
+    {2, R"(f_1 = l_1 l_2 (\frac{m_2}{2} + m_c) \sin(\theta_1 - \theta_2) \dot{\theta}_2^2)"},
+    {2, R"(f_2 = -l_1 l_2 (\frac{m_2}{2} + m_c) \sin(\theta_1 - \theta_2) \dot{\theta}_1^2)"},
+    {2, R"(g_1 = (\frac{m_1}{2} + m_2 + m_c) g l_1 \sin \theta_1)"},
+    // (3.8)
+    {3,
+     R"(= T_{\theta_2} - c_2 (\dot{\theta}_2 - \dot{\theta}_1) - c_3 (\dot{\theta}_2 - \dot{\theta}_3)
+        = T_{\theta_2} + c_2 \dot{\theta}_1 - (c_2 + c_3) \dot{\theta}_2 + c_3 \dot{\theta}_3)"},
+    {3, R"(f_2 = -l_1 l_2 (\frac{m_2}{2} + m_3 + m_c) \sin(\theta_1 - \theta_2) \dot{\theta}_1^2
+        + l_2 l_3 (\frac{m_3}{2} + m_c) \sin(\theta_2 - \theta_3) \dot{\theta}_3^2)"},
+    {3, R"(K = \begin{bmatrix} k_1 + k_2 & -k_2 & 0 \\ -k_2 & k_2 + k_3 & -k_3 \\ 0 & -k_3 & k_3
+        \end{bmatrix})"},
+    // (3.10), its products and springs
+    {4,
+     R"(+ (\frac{m_2}{2} + m_3 + m_4 + m_c) l_1 l_2 \cos(\theta_1 - \theta_2) \dot{\theta}_1 \dot{\theta}_2
+        + (\frac{m_3}{2} + m_4 + m_c) l_1 l_3 \cos(\theta_1 - \theta_3) \dot{\theta}_1 \dot{\theta}_3
+        + (\frac{m_4}{2} + m_c) l_1 l_4 \cos(\theta_1 - \theta_4) \dot{\theta}_1 \dot{\theta}_4
+        + (\frac{m_3}{2} + m_4 + m_c) l_2 l_3 \cos(\theta_2 - \theta_3) \dot{\theta}_2 \dot{\theta}_3
+        + (\frac{m_4}{2} + m_c) l_2 l_4 \cos(\theta_2 - \theta_4) \dot{\theta}_2 \dot{\theta}_4
+        + (\frac{m_4}{2} + m_c) l_3 l_4 \cos(\theta_3 - \theta_4) \dot{\theta}_3 \dot{\theta}_4
+        - \frac{1}{2} k_1 \theta_1^2 - \frac{1}{2} k_2 (\theta_2 - \theta_1)^2
+        - \frac{1}{2} k_3 (\theta_3 - \theta_2)^2 - \frac{1}{2} k_4 (\theta_4 - \theta_3)^2)"},
+    {4, R"(I_{23} = l_2 l_3 (\frac{m_3}{2} + m_4 + m_c) \cos(\theta_2 - \theta_3))"},
+};
+
+}  // namespace
+
+TEST_CASE("the equations stand as chapter 3 prints them") {
+  for (const Row& row : kChapter3) {
+    CAPTURE(row.equation);
+    const std::string text = plain(latex_document(plain_chain(), {row.links}));
+    CHECK(text.find(plain(row.equation)) != std::string::npos);
+  }
+}
+
+TEST_CASE("an effect stands with its formula and its generalised forces") {
+  Description description = plain_chain();
+  description.effects.push_back(built_in_effect("pivot_stiffness"));
+  const std::string text = plain(latex_document(description, {2}));
+  CHECK(text.find(plain(R"(V = \frac{\mathrm{change} \, \varphi^2}{2})")) != std::string::npos);
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 {\mathrm{change}})")) ==
+        std::string::npos);
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - {\mathrm{change}} \theta_1)")) !=
+        std::string::npos);
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) != std::string::npos);
+}
+
+TEST_CASE("sines and cosines are put together without changing the value") {
+  const auto c = [](int i) { return Factor{Role::kCosine, i, 0}; };
+  const auto s = [](int i) { return Factor{Role::kSine, i, 0}; };
+  struct Case {
+    MonomialSum before, after;
+  };
+  const Case cases[] = {
+      // (sin^2 + cos^2)^2 = 1
+      {{{{{s(1), 4}}, 1}, {{{s(1), 2}, {c(1), 2}}, 2}, {{{c(1), 4}}, 1}}, {{{}, 1}}},
+      // (c1 c2 + s1 s2)^2 = cos^2(1 - 2)
+      {{{{{c(1), 2}, {c(2), 2}}, 1},
+        {{{c(1), 1}, {c(2), 1}, {s(1), 1}, {s(2), 1}}, 2},
+        {{{s(1), 2}, {s(2), 2}}, 1}},
+       {{{{Factor{Role::kCosine, 1, 2}, 2}}, 1}}},
+      // s1 c2 - c1 s2 = sin(1 - 2); the other way round it is its negative
+      {{{{{c(1), 1}, {s(2), 1}}, 3}, {{{s(1), 1}, {c(2), 1}}, -3}},
+       {{{{Factor{Role::kSine, 1, 2}, 1}}, -3}}},
+      // s1 c2 + c1 s2 stays
+      {{{{{c(1), 1}, {s(2), 1}}, 1}, {{{s(1), 1}, {c(2), 1}}, 1}},
+       {{{{c(1), 1}, {s(2), 1}}, 1}, {{{s(1), 1}, {c(2), 1}}, 1}}},
+      // 2 - 2 c1
+      {{{{}, 2}, {{{c(1), 1}}, -2}}, {{{{Factor{Role::kVersine, 1, 0}, 1}}, 2}}},
+      // 3 s1^2 + c1^2 = 2 s1^2 + 1
+      {{{{{s(1), 2}}, 3}, {{{c(1), 2}}, 1}}, {{{{s(1), 2}}, 2}, {{}, 1}}},
+  };
+  for (const Case& one : cases) {
+    MonomialSum sum = one.before;
+    combine_trigonometry(sum);
+    REQUIRE(sum.size() == one.after.size());
+    auto expected = one.after.begin();
+    for (const auto& [powers, value] : sum) {
+      CHECK(!(powers < expected->first));
+      CHECK(!(expected->first < powers));
+      CHECK(value.is_equal(expected->second));
+      ++expected;
+    }
+  }
+}
