@@ -24,14 +24,16 @@ int find(const Model& model, const std::string& name) {
   return -1;
 }
 
-/// Names a case may use: families as well as single parameters, and the physical quantities.
+/// Names a case may use, families for their members, and the physical quantities.
 std::vector<std::string> known_names(const Model& model) {
   std::vector<std::string> names = {"bending_stiffness", "damping_length", "cable.length",
                                     "cable.density"};
   for (int i = 0; i < model.table().parameters; ++i) {
     const std::string name = model.table().parameter[i].name;
-    names.push_back(name);
-    if (name.ends_with("_1")) names.push_back(name.substr(0, name.size() - 2));
+    const auto digits = name.find_last_not_of("0123456789");
+    const bool numbered = digits + 1 < name.size() && name[digits] == '_';
+    if (!numbered) names.push_back(name);
+    if (name.ends_with("_1")) names.push_back(name.substr(0, digits));
   }
   return names;
 }
@@ -59,24 +61,44 @@ bool parse_range(const std::string& text, std::string& stem, int& first, int& la
   return number(line + 1, dots, first) && number(dots + 2, text.size(), last);
 }
 
-std::vector<int> find_targets(const ParameterSpec& parameter, const Model& model) {
-  const int links = model.links();
-  if (const int index = find(model, parameter.sets); index >= 0) return {index};
+/// EI and damping per length act on joints: the family they set, and their own unit.
+struct PerLength {
+  const char* name;
+  const char* family;
+  const char* unit;
+};
+constexpr PerLength kPerLength[] = {{"bending_stiffness", "stiffness", "N m^2"},
+                                    {"damping_length", "damping", "N m^2 s/rad"}};
+
+/// What a parameter sets: links or joints first..last of a family, or one parameter (last = 0).
+struct Target {
   std::string stem;
-  int first = 1, last = links;
-  std::vector<int> targets;
-  if (parse_range(parameter.sets, stem, first, last)) {
-    if (first < 1 || last > links || first > last)
-      fail(parameter, "sets = \"" + parameter.sets + "\": a range must lie within 1.." +
-                          std::to_string(links));
-    targets = family(model, stem, first, last);
-  } else {
-    targets = family(model, parameter.sets, 1, links);
+  int first = 1, last = 0;
+  const PerLength* per_length = nullptr;
+  std::vector<int> indices;
+};
+
+Target find_target(const ParameterSpec& parameter, const Model& model) {
+  Target target;
+  if (const int index = find(model, parameter.sets); index >= 0) {
+    target.indices = {index};
+    return target;
   }
-  if (targets.empty())
+  const int links = model.links();
+  target.stem = parameter.sets;
+  target.last = links;
+  if (parse_range(parameter.sets, target.stem, target.first, target.last) &&
+      (target.first < 1 || target.last > links || target.first > target.last))
+    fail(parameter, "sets = \"" + parameter.sets + "\": a range must lie within 1.." +
+                        std::to_string(links));
+  for (const PerLength& entry : kPerLength)
+    if (target.stem == entry.name) target.per_length = &entry;
+  target.indices = family(model, target.per_length ? target.per_length->family : target.stem,
+                          target.first, target.last);
+  if (target.indices.empty())
     fail(parameter, "sets = \"" + parameter.sets + "\": the model has no such parameter" +
                         suggestion(parameter.sets, known_names(model)));
-  return targets;
+  return target;
 }
 
 void check_unit(const ParameterSpec& parameter, const std::string& wanted) {
@@ -134,19 +156,16 @@ ParameterMap::ParameterMap(const Case& study, const Model& model) : links_(model
       if (!(parameter.factor * parameter.value > 0))
         fail(parameter, "value = " + shortest_number(parameter.value) + ": must be positive");
     } else {
-      const bool stiffness = parameter.sets == "bending_stiffness";
-      if (stiffness || parameter.sets == "damping_length") {
-        check_unit(parameter, stiffness ? "N m^2" : "N m^2 s/rad");
-        assignment.kind = Kind::kPerSpacing;
-        assignment.targets = family(model, stiffness ? "stiffness" : "damping", 1, links_);
-        for (int i = 0; i < links_; ++i) assignment.joints.push_back(i);
-      } else {
-        assignment.targets = find_targets(parameter, model);
-        check_unit(parameter, model.table().parameter[assignment.targets.front()].unit);
-      }
+      Target target = find_target(parameter, model);
+      check_unit(parameter, target.per_length
+                                ? target.per_length->unit
+                                : model.table().parameter[target.indices.front()].unit);
+      if (target.per_length) assignment.kind = Kind::kPerSpacing;
+      assignment.first = target.first - 1;
+      assignment.targets = std::move(target.indices);
       for (const int target : assignment.targets) {
         const catena_parameter& entry = model.table().parameter[target];
-        const double value = parameter.factor * parameter.value;
+        const double value = parameter.factor * parameter.value;  // per spacing: its sign counts
         if (value < entry.lower || value > entry.upper)
           fail(parameter, "sets " + std::string(entry.name) + " to " + shortest_number(value) +
                               "; it must lie within " + shortest_number(entry.lower) + " and " +
@@ -195,9 +214,9 @@ Eigen::Vector<T, Eigen::Dynamic> ParameterMap::map(
       if (assignment.kind == Kind::kModel) {
         p[assignment.targets[k]] = value;
       } else {
-        const Eigen::Index i = assignment.joints[k];
+        const Eigen::Index i = assignment.first + static_cast<Eigen::Index>(k);
         p[assignment.targets[k]] =
-            value / (i == 0 ? lengths[0] : (lengths[i - 1] + lengths[i]) * T(0.5));
+            value / ((i == 0 ? lengths[0] : lengths[i - 1] + lengths[i]) * T(0.5));
       }
     }
   }

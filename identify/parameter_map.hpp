@@ -16,10 +16,13 @@ namespace catena {
 ///   "name", "name_3", "name_2..12", "name" for name_1..n    factor * value
 ///   "bending_stiffness" (EI, N m^2)        stiffness_i = factor * value / spacing_i
 ///   "damping_length" (N m^2 s/rad)         damping_i   = factor * value / spacing_i
+///                                          (both also for a range: "bending_stiffness_2..12")
 ///   "cable.length" (m)                     all lengths in proportion; masses, inertias follow
 ///   "cable.density" (kg/m)                 masses, and inertias in proportion
 ///
-/// spacing_i is the distance of the middles of links i-1 and i; for joint 1, the length of link 1.
+/// spacing_i is the length of cable whose bending joint i stands for: from the middle of link i-1 to
+/// that of link i, for joint 1 from the clamp to the middle of link 1. (A cable on a hinge has no
+/// bending stiffness at joint 1: use a range from 2 on.)
 class ParameterMap {
  public:
   /// Throws InputError naming line and key for an unknown name, a wrong unit, a value outside the
@@ -41,7 +44,7 @@ class ParameterMap {
     Kind kind = Kind::kModel;
     double factor = 1;
     std::vector<int> targets;  // indices of model parameters
-    std::vector<int> joints;   // kPerSpacing: 0-based joint of each target
+    int first = 0;             // kPerSpacing: 0-based joint of the first target
   };
 
   template <class T>

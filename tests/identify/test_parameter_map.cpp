@@ -45,7 +45,7 @@ TEST_CASE("names, families, ranges, factors and physical quantities set what the
   const Row rows[] = {{"length_2", 0.4},
                       {"mass_3", 0.12},
                       {"inertia_3", 0.12 * 0.36 / 12},
-                      {"stiffness_1", 0.9 / 0.5},   // link 1 alone
+                      {"stiffness_1", 0.9 / 0.25},  // from the clamp to the middle of link 1
                       {"stiffness_2", 0.9 / 0.45},  // between the middles of links 1 and 2
                       {"stiffness_3", 0.9 / 0.5},
                       {"damping_1", 0.01},
@@ -57,6 +57,17 @@ TEST_CASE("names, families, ranges, factors and physical quantities set what the
     CAPTURE(row.name);
     CHECK(value(row.name) == doctest::Approx(row.expected).epsilon(1e-14));
   }
+}
+
+TEST_CASE("a cable on a hinge bends from joint 2 on") {
+  const Case study = case_of(kUniform, parameter("EI", "bending_stiffness_2..3", "value = 0.9") +
+                                           parameter("k1", "stiffness_1", "value = 0.0") +
+                                           parameter("b", "damping_length", "value = 0.02"));
+  const ParameterMap map(study, model());
+  const Eigen::VectorXd p = map(map.values());
+  CHECK(p[model().parameter_index("stiffness_1")] == 0);
+  CHECK(p[model().parameter_index("stiffness_2")] == doctest::Approx(0.9 / 0.5));
+  CHECK(p[model().parameter_index("damping_1")] == doctest::Approx(0.02 / 0.25));
 }
 
 TEST_CASE("the Jacobian is the derivative of the map") {
