@@ -20,6 +20,7 @@ enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted
 /// throws is printed by main: InputError and std::invalid_argument end with 2, others with 1.
 void add_simulate_command(CLI::App& program, int& exit_status);
 void add_identify_command(CLI::App& program, int& exit_status);
+void add_report_command(CLI::App& program, int& exit_status);
 
 /// What every command that works on a case takes.
 struct CommonOptions {

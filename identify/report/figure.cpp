@@ -11,16 +11,6 @@
 namespace catena::plot {
 namespace {
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + "\"";
-}
-
 std::string csv_heading(const Axis& axis, const std::string& otherwise) {
   const std::string title = axis_title(axis);
   return csv_field(title.empty() ? otherwise : title);
@@ -34,6 +24,16 @@ std::string csv_value(const Axis& axis, double value) {
 }
 
 }  // namespace
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
 
 std::string axis_title(const Axis& axis) {
   if (axis.unit.empty() || axis.unit == "1") return axis.label;

@@ -9,11 +9,17 @@
 /// (svg_plot.hpp) and drawn by the HTML report (report.hpp), so that all three show the same.
 namespace catena::plot {
 
+struct Tick {
+  double at;
+  std::string label;  ///< empty: a mark without a number
+};
+
 struct Axis {
   std::string label;                         ///< "time", "residual"
   std::string unit;                          ///< "s", "mm"; "1" or empty: no unit is written
   bool logarithmic = false;                  ///< values that are not positive are left out
   std::vector<std::string> categories = {};  ///< if given, the value k + 1 stands for categories[k]
+  std::vector<Tick> ticks = {};  ///< if given, in place of round numbers; all are in sight
 };
 
 enum class Mark { kLine, kDashes, kPoints, kLineWithPoints };
@@ -66,6 +72,9 @@ std::string axis_title(const Axis& axis);
 /// Throws std::invalid_argument, naming figure and series, where x and y differ in length, a heat
 /// map is not rows by x, or the id is no file name.
 void check(const Figure& figure);
+
+/// A field of comma-separated values: quoted where it has commas, quotes or line ends.
+std::string csv_field(const std::string& text);
 
 /// The figure's numbers as comma-separated values (RFC 4180, 17 digits, empty where NaN): columns
 /// series, x, y, or, with intervals, series, x, y, low, high; a heat map: row, x, value. The

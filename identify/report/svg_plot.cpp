@@ -78,6 +78,7 @@ std::vector<Tick> ticks_of(const Axis& axis, const Range& range, int about) {
     }
     return ticks;
   }
+  if (!axis.ticks.empty()) return axis.ticks;
   return axis.logarithmic ? logarithmic_ticks(range.low, range.high, about)
                           : linear_ticks(range.low, range.high, about);
 }
@@ -163,6 +164,8 @@ class Drawing {
       heat_map_ranges();
     } else {
       for (const Series& series : figure_.series) include(series);
+      for (const Tick& tick : figure_.x.ticks) x_.range.include(tick.at);
+      for (const Tick& tick : figure_.y.ticks) y_.range.include(tick.at);
       for (const Rule& rule : figure_.rules) {
         Scale& scale = rule.vertical ? x_ : y_;
         if (scale.shows(rule.at)) scale.range.include(rule.at);

@@ -4,12 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace catena::plot {
+#include "identify/report/figure.hpp"
 
-struct Tick {
-  double at;
-  std::string label;  ///< empty: a mark without a number
-};
+namespace catena::plot {
 
 /// Ends of a linear axis that shows low..high, and steps of 1, 2 or 5 times a power of ten inside
 /// it. Needs low <= high, finite. Equal ends are widened.

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The gap closing: its size round by round, how the candidates scored, before and after each
+// effect, and the force that would close what is left.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/report/report_figures.hpp"
+#include "identify/report/residuals.hpp"
+#include "identify/report/spectrum.hpp"
+
+namespace catena::report {
+namespace {
+
+using plot::Figure;
+using plot::Mark;
+
+void add(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
+         const std::string& kind = "", const std::string& variant = "",
+         const std::string& experiment = "") {
+  figures.push_back({std::move(figure), "diagnosis", family, experiment, kind, variant});
+}
+
+std::string milli(const std::string& unit) { return unit == "rad" ? "mrad" : "mm"; }
+
+std::string name_of(const Diagnosis& diagnosis, std::size_t round) {
+  const Round& at = diagnosis.rounds[round];
+  if (!at.added.empty()) return fmt::format("with {}", at.added);
+  if (!at.removed.empty()) return fmt::format("without {}", at.removed);
+  return round == 0 ? "baseline" : at.model;
+}
+
+void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  if (diagnosis.rounds.empty()) return;
+  Figure figure;
+  figure.title = "Gap, round by round";
+  figure.caption =
+      "Root mean square of the residuals, on the part that was fitted and on the part held out.";
+  figure.x.label = "model";
+  figure.y = {"gap", milli(diagnosis.unit)};
+  plot::Series fit{"fitted part", {}, {}, Mark::kLineWithPoints, 1};
+  plot::Series validate{"held out", {}, {}, Mark::kLineWithPoints, 2};
+  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
+    figure.x.categories.push_back(name_of(diagnosis, k));
+    fit.x.push_back(static_cast<double>(k + 1));
+    fit.y.push_back(1e3 * diagnosis.rounds[k].gap.fit);
+    validate.x.push_back(static_cast<double>(k + 1));
+    validate.y.push_back(1e3 * diagnosis.rounds[k].gap.validate);
+  }
+  figure.series.push_back(std::move(fit));
+  const bool held_out = std::any_of(validate.y.begin(), validate.y.end(),
+                                    [](double value) { return !std::isnan(value); });
+  if (held_out) figure.series.push_back(std::move(validate));
+  figure.rules.push_back({false, 0, ""});
+  if (!std::isnan(diagnosis.floor)) figure.rules.push_back({false, 1e3 * diagnosis.floor, "noise"});
+  add(figures, "gap", std::move(figure));
+}
+
+void add_scores(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  constexpr std::size_t kShown = 12;
+  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
+    std::vector<Candidate> best;
+    for (const Candidate& candidate : diagnosis.rounds[k].candidates) {
+      if (!std::isnan(candidate.score)) best.push_back(candidate);
+    }
+    if (best.empty()) continue;
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    if (best.size() > kShown) best.resize(kShown);
+    Figure figure;
+    figure.title = fmt::format("Candidates: {}", name_of(diagnosis, k));
+    figure.caption = "Share of the squared residual that each would remove, by the score test.";
+    figure.x = {"score", "%"};
+    figure.y.label = "";
+    figure.y_downwards = true;
+    plot::Series admissible{"admissible", {}, {}, Mark::kPoints, 3};
+    plot::Series refused{"estimate on the wrong side of a bound", {}, {}, Mark::kPoints, 2};
+    for (std::size_t c = 0; c < best.size(); ++c) {
+      figure.y.categories.push_back(best[c].id);
+      plot::Series& series = best[c].admissible ? admissible : refused;
+      series.x.push_back(100 * best[c].score);
+      series.y.push_back(static_cast<double>(c + 1));
+    }
+    figure.rules.push_back({true, 0, ""});
+    figure.rules.push_back({true, 100, ""});
+    if (!admissible.x.empty()) figure.series.push_back(std::move(admissible));
+    if (!refused.x.empty()) figure.series.push_back(std::move(refused));
+    add(figures, "scores", std::move(figure), "Round", name_of(diagnosis, k));
+  }
+}
+
+double largest(const Rows& rows) {
+  double most = 0;
+  for (const Row& row : rows) {
+    for (const double value : row) {
+      if (std::isfinite(value)) most = std::max(most, value);
+    }
+  }
+  return most;
+}
+
+/// Root mean square over the points of the residuals' spectra.
+Spectrum mean_spectrum(const Residuals& residuals) {
+  Spectrum mean;
+  int count = 0;
+  for (const Rows* rows : {&residuals.side, &residuals.down, &residuals.angle}) {
+    for (const Row& row : *rows) {
+      const Spectrum one = amplitude_spectrum(residuals.time, row);
+      if (mean.frequency.empty()) mean = {one.frequency, Row(one.frequency.size(), 0.0)};
+      if (one.frequency.size() != mean.frequency.size()) continue;  // seen for a shorter time
+      for (std::size_t k = 0; k < one.amplitude.size(); ++k) {
+        mean.amplitude[k] += one.amplitude[k] * one.amplitude[k];
+      }
+      ++count;
+    }
+  }
+  for (double& value : mean.amplitude) value = std::sqrt(value / std::max(1, count));
+  return mean;
+}
+
+/// Before and after one change, for one experiment.
+class BeforeAfter {
+ public:
+  BeforeAfter(std::string change, const Experiment& before, const Experiment& after,
+              std::vector<ReportFigure>& figures)
+      : change_(std::move(change)),
+        experiment_(after),
+        before_(residuals_of(before)),
+        after_(residuals_of(after)),
+        predicted_before_(before.measured->predicted),
+        figures_(figures) {}
+
+  void add_all() {
+    if (before_.points.empty() || before_.points.size() != after_.points.size()) return;
+    add_error();
+    add_position();
+    add_map("before", before_);
+    add_map("after", after_);
+    add_spectrum();
+  }
+
+ private:
+  void put(const std::string& family, Figure figure) {
+    add(figures_, family, std::move(figure), "Effect", change_, experiment_.name);
+  }
+
+  std::string quantity() const { return after_.angles ? "size of residual" : "distance"; }
+
+  void add_error() {
+    Figure figure;
+    figure.title = fmt::format("Error over time, before and after: {}", change_);
+    figure.caption = "Mean over the points.";
+    figure.x = {"time", "s"};
+    figure.y = {quantity(), after_.unit};
+    figure.series.push_back({"before", before_.time,
+                             mean_over_points(before_.size, before_.time.size()), Mark::kLine, 2});
+    figure.series.push_back(
+        {"after", after_.time, mean_over_points(after_.size, after_.time.size()), Mark::kLine, 1});
+    if (!std::isnan(experiment_.fit_until)) {
+      figure.rules.push_back({true, experiment_.fit_until, "held out"});
+    }
+    put("before_after_error", std::move(figure));
+  }
+
+  /// The point that was worst before.
+  void add_position() {
+    std::size_t worst = 0;
+    double most = -1;
+    for (std::size_t p = 0; p < before_.size.size(); ++p) {
+      const double size = root_mean_square(before_.size[p]);
+      if (size > most) {
+        most = size;
+        worst = p;
+      }
+    }
+    const Measured& measured = *experiment_.measured;
+    const bool angles = after_.angles;
+    const auto rows = [&](const Channels& channels) -> const Row& {
+      return (angles ? channels.angle : channels.side)[worst];
+    };
+    Figure figure;
+    figure.title = fmt::format("{} of {}, before and after: {}", angles ? "angle" : "side",
+                               measured.points[worst].name, change_);
+    figure.caption = "The point that was worst before.";
+    figure.x = {"time", "s"};
+    figure.y = {angles ? "angle" : "side", angles ? "rad" : "m"};
+    figure.series.push_back(
+        {"measured", measured.values.time, rows(measured.values), Mark::kPoints, 0});
+    figure.series.push_back(
+        {"before", predicted_before_.time, rows(predicted_before_), Mark::kLine, 2});
+    figure.series.push_back(
+        {"after", measured.predicted.time, rows(measured.predicted), Mark::kLine, 1});
+    put("before_after_position", std::move(figure));
+  }
+
+  void add_map(const std::string& when, const Residuals& residuals) {
+    if (residuals.points.size() < 2) return;
+    Figure figure;
+    figure.title = fmt::format("Residual by point and time, {}: {}", when, change_);
+    figure.caption = "Before and after share one scale of colours.";
+    figure.x = {"time", "s"};
+    plot::HeatMap map;
+    map.x = residuals.time;
+    for (const Point& point : residuals.points) map.rows.push_back(point.name);
+    map.value = residuals.size;
+    map.scale = {quantity(), residuals.unit};
+    map.maximum = std::max(largest(before_.size), largest(after_.size));
+    figure.heat_map = std::move(map);
+    put("residual_map_" + when, std::move(figure));
+  }
+
+  void add_spectrum() {
+    const Spectrum before = mean_spectrum(before_);
+    const Spectrum after = mean_spectrum(after_);
+    if (before.frequency.empty()) return;
+    Figure figure;
+    figure.title = fmt::format("Spectrum of the residuals, before and after: {}", change_);
+    figure.caption = "Root mean square over the channels of the amplitudes, through a Hann window.";
+    figure.x = {"frequency", "Hz"};
+    figure.y = {"amplitude", after_.unit, true};
+    figure.series.push_back({"before", before.frequency, before.amplitude, Mark::kLine, 2});
+    figure.series.push_back({"after", after.frequency, after.amplitude, Mark::kLine, 1});
+    put("before_after_spectrum", std::move(figure));
+  }
+
+  std::string change_;
+  const Experiment& experiment_;
+  Residuals before_, after_;
+  const Channels& predicted_before_;
+  std::vector<ReportFigure>& figures_;
+};
+
+void add_before_after(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  const Round* before = nullptr;
+  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
+    const Round& after = diagnosis.rounds[k];
+    if (!after.result) continue;
+    if (before != nullptr) {
+      for (const Experiment& experiment : after.result->experiments) {
+        const auto& earlier = before->result->experiments;
+        const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const Experiment& e) {
+          return e.name == experiment.name;
+        });
+        if (same == earlier.end() || !same->measured || !experiment.measured) continue;
+        BeforeAfter(name_of(diagnosis, k), *same, experiment, figures).add_all();
+      }
+    }
+    before = &after;
+  }
+}
+
+void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  if (!diagnosis.missing_force) return;
+  const MissingForce& force = *diagnosis.missing_force;
+  Figure figure;
+  figure.title = "Force that would close the gap";
+  figure.x = {"time", "s"};
+  plot::HeatMap map;
+  map.x = force.time;
+  map.rows = force.rows;
+  map.value = force.value;
+  map.scale = {"missing force", force.unit};
+  map.is_signed = true;
+  figure.heat_map = std::move(map);
+  add(figures, "missing_force", std::move(figure));
+}
+
+}  // namespace
+
+void add_diagnosis_figures(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  add_gap(diagnosis, figures);
+  add_before_after(diagnosis, figures);
+  add_scores(diagnosis, figures);
+  add_missing_force(diagnosis, figures);
+}
+
+}  // namespace catena::report

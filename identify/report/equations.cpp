@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/report/equations.hpp"
+
+#include <algorithm>
+
+#include "generator/description/effect.hpp"
+#include "generator/description/effect_reader.hpp"
+#include "generator/description/formula.hpp"
+#include "generator/description/toml_reader.hpp"
+
+namespace catena::report {
+namespace {
+
+bool is_built_in(const std::string& id) {
+  const auto ids = built_in_effect_ids();
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+}  // namespace
+
+EquationGroup formulas_of(const EffectEntry& entry) {
+  EquationGroup group{entry.title.empty() ? entry.id : entry.title, {}};
+  if (!entry.formula.mathml.empty() || !entry.formula.latex.empty()) {
+    group.equations.push_back(entry.formula);
+    return group;
+  }
+  if (entry.text.empty() && !is_built_in(entry.id)) return group;
+  const Effect effect =
+      entry.text.empty() ? built_in_effect(entry.id)
+                         : read_effect(TomlTable::parse(entry.text, entry.id + ".toml", "effect"));
+  group.heading = effect.title;
+  for (const Formula& formula : formulas(effect)) {
+    group.equations.push_back({formula.what, formula.mathml, formula.latex});
+  }
+  return group;
+}
+
+}  // namespace catena::report

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include "generator/description/input_error.hpp"
+#include "generator/description/whole_file.hpp"
+#include "identify/report/figure.hpp"
+#include "identify/report/html.hpp"
+#include "identify/report/payload.hpp"
+#include "identify/report/report_figures.hpp"
+#include "identify/report/svg_plot.hpp"
+#include "identify/report/ticks.hpp"
+
+namespace catena::report {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(
+        fmt::format("{}: cannot be made as a folder: {}", folder.string(), error.message()));
+  }
+}
+
+std::string parameters_csv(const Result& result) {
+  std::string text =
+      "name,value,unit,free,standard_error,low_95,high_95,start,lower,upper,verdict,sets\n";
+  for (const Parameter& p : result.parameters) {
+    const auto end = [&](double value) { return p.has_interval ? plot::exact(value) : ""; };
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", plot::csv_field(p.name),
+                        plot::exact(p.value), plot::csv_field(p.unit), p.free,
+                        plot::exact(p.standard_error), end(p.low), end(p.high),
+                        plot::exact(p.start), plot::exact(p.lower), plot::exact(p.upper),
+                        plot::csv_field(p.verdict), plot::csv_field(p.sets));
+  }
+  return text;
+}
+
+}  // namespace
+
+Written write_report(const Document& document, const ReportFiles& files) {
+  const std::vector<ReportFigure> figures = report_figures(document);
+  Written written;
+  written.figures = figures.size();
+  if (!files.csv.empty()) {
+    make_folder(files.csv);
+    for (const ReportFigure& entry : figures) {
+      write_whole_file(files.csv / (entry.figure.id + ".csv"), plot::to_csv(entry.figure));
+    }
+    if (!document.result.parameters.empty()) {
+      write_whole_file(files.csv / "parameters.csv", parameters_csv(document.result));
+    }
+  }
+  if (!files.svg.empty()) {
+    make_folder(files.svg);
+    for (const ReportFigure& entry : figures) {
+      write_whole_file(files.svg / (entry.figure.id + ".svg"), plot::to_svg(entry.figure));
+    }
+  }
+  if (!files.html.empty()) {
+    const std::string html = to_html(document, figures);
+    written.html_bytes = html.size();
+    if (files.html.has_parent_path()) make_folder(files.html.parent_path());
+    write_whole_file(files.html, html);
+  }
+  return written;
+}
+
+std::string report_json(const Document& document) {
+  return payload(document, report_figures(document), 0);
+}
+
+}  // namespace catena::report

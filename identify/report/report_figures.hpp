@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identify/report/figure.hpp"
+#include "identify/report/result_file.hpp"
+
+namespace catena::report {
+
+/// A figure and its place in the report. Figures of one family are shown in one frame, a reader
+/// choosing experiment and variant; the figures of a family follow one another.
+struct ReportFigure {
+  plot::Figure figure;
+  std::string section;       ///< "motion", "residuals", "fit", "energy" or "diagnosis"
+  std::string family;        ///< "positions_side"
+  std::string experiment;    ///< name, or empty: of the whole result
+  std::string variant_kind;  ///< what a reader chooses: "Point", "Parameter", "Effect", "Round";
+                             ///< may be empty
+  std::string variant;       ///< "marker 3"
+};
+
+/// All figures that the document has data for. Ids are distinct.
+std::vector<ReportFigure> report_figures(const Document& document);
+
+/// The parts, each appending to `figures`; ids are given by report_figures.
+void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
+void add_residual_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
+void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
+void add_fit_figures(const Result& result, std::vector<ReportFigure>& figures);
+void add_diagnosis_figures(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures);
+
+}  // namespace catena::report

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the model leaves unexplained: residuals and their size over time (figure 7.6), by point and
+// time, and spectra of measured and simulated positions (figure 7.7).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/report/report_figures.hpp"
+#include "identify/report/residuals.hpp"
+#include "identify/report/spectrum.hpp"
+
+namespace catena::report {
+namespace {
+
+using plot::Figure;
+using plot::Mark;
+
+void add(std::vector<ReportFigure>& figures, const Experiment& experiment,
+         const std::string& family, const std::string& point, Figure figure) {
+  if (!std::isnan(experiment.fit_until) && figure.x.label == "time") {
+    figure.rules.push_back({true, experiment.fit_until, "held out"});
+  }
+  const std::string kind = point.empty() ? "" : "Point";
+  figures.push_back({std::move(figure), "residuals", family, experiment.name, kind, point});
+}
+
+/// The residuals of each point.
+void add_by_point(const Experiment& experiment, const Residuals& residuals,
+                  std::vector<ReportFigure>& figures) {
+  for (std::size_t p = 0; p < residuals.points.size(); ++p) {
+    Figure figure;
+    figure.title = fmt::format("Residuals of {}", residuals.points[p].name);
+    figure.caption = "Measured minus simulated.";
+    figure.x = {"time", "s"};
+    figure.y = {"residual", residuals.unit};
+    if (residuals.angles) {
+      figure.series.push_back({"angle", residuals.time, residuals.angle[p], Mark::kLine, 1});
+    } else {
+      figure.series.push_back({"side", residuals.time, residuals.side[p], Mark::kLine, 1});
+      figure.series.push_back({"down", residuals.time, residuals.down[p], Mark::kLine, 2});
+    }
+    add(figures, experiment, "residuals", residuals.points[p].name, std::move(figure));
+  }
+}
+
+/// The middle point, the last and the mean of all over time.
+void add_error_over_time(const Experiment& experiment, const Residuals& residuals,
+                         std::vector<ReportFigure>& figures) {
+  const std::size_t last = residuals.points.size() - 1;
+  const std::size_t middle = last / 2;
+  Figure figure;
+  figure.title = "Error over time";
+  figure.caption = residuals.angles ? "Size of the difference between measured and simulated angle."
+                                    : "Distance between measured and simulated position.";
+  figure.x = {"time", "s"};
+  figure.y = {residuals.angles ? "size of residual" : "distance", residuals.unit};
+  if (last > 1) {
+    figure.series.push_back(
+        {residuals.points[middle].name, residuals.time, residuals.size[middle], Mark::kLine, 1});
+  }
+  if (last > 0) {
+    figure.series.push_back(
+        {residuals.points[last].name, residuals.time, residuals.size[last], Mark::kLine, 2});
+  }
+  figure.series.push_back({last > 0 ? "mean of all points" : residuals.points[0].name,
+                           residuals.time, mean_over_points(residuals.size, residuals.time.size()),
+                           Mark::kLine, 0});
+  add(figures, experiment, "error_over_time", "", std::move(figure));
+}
+
+void add_map(const Experiment& experiment, const Residuals& residuals,
+             std::vector<ReportFigure>& figures) {
+  if (residuals.points.size() < 2) return;
+  Figure figure;
+  figure.title = "Size of the residual by point and time";
+  figure.x = {"time", "s"};
+  plot::HeatMap map;
+  map.x = residuals.time;
+  for (const Point& point : residuals.points) map.rows.push_back(point.name);
+  map.value = residuals.size;
+  map.scale = {residuals.angles ? "size of residual" : "distance", residuals.unit};
+  figure.heat_map = std::move(map);
+  add(figures, experiment, "residual_map", "", std::move(figure));
+}
+
+void add_spectra(const Experiment& experiment, const std::string& quantity, const std::string& unit,
+                 const Rows& measured, const Rows& predicted, std::vector<ReportFigure>& figures) {
+  const Row& time = experiment.measured->values.time;
+  for (std::size_t p = 0; p < measured.size(); ++p) {
+    const std::string& name = experiment.measured->points[p].name;
+    const auto scaled = [](Row row) {
+      for (double& value : row) value *= 1e3;
+      return row;
+    };
+    const Spectrum of_measured = amplitude_spectrum(time, scaled(measured[p]));
+    if (of_measured.frequency.empty()) continue;
+    Figure figure;
+    figure.title = fmt::format("Spectrum of {} of {}", quantity, name);
+    figure.caption = "Amplitude, through a Hann window.";
+    figure.x = {"frequency", "Hz"};
+    figure.y = {"amplitude", unit, true};
+    figure.series.push_back(
+        {"measured", of_measured.frequency, of_measured.amplitude, Mark::kLineWithPoints, 0});
+    if (!predicted.empty()) {
+      // Only where a measurement is, so that both have the same gaps.
+      Row seen = predicted[p];
+      for (std::size_t t = 0; t < seen.size(); ++t) {
+        if (std::isnan(measured[p][t])) seen[t] = kAbsent;
+      }
+      const Spectrum simulated = amplitude_spectrum(time, scaled(seen));
+      figure.series.push_back(
+          {"simulated", simulated.frequency, simulated.amplitude, Mark::kLine, 1});
+    }
+    add(figures, experiment, "spectrum_" + quantity, name, std::move(figure));
+  }
+}
+
+}  // namespace
+
+void add_residual_figures(const Experiment& experiment, std::vector<ReportFigure>& figures) {
+  if (!experiment.measured) return;
+  const Measured& measured = *experiment.measured;
+  const Residuals residuals = residuals_of(experiment);
+  if (!residuals.points.empty()) {
+    add_by_point(experiment, residuals, figures);
+    add_error_over_time(experiment, residuals, figures);
+    add_map(experiment, residuals, figures);
+  }
+  add_spectra(experiment, "side", "mm", measured.values.side, measured.predicted.side, figures);
+  add_spectra(experiment, "down", "mm", measured.values.down, measured.predicted.down, figures);
+  add_spectra(experiment, "angle", "mrad", measured.values.angle, measured.predicted.angle,
+              figures);
+}
+
+}  // namespace catena::report

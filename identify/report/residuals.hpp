@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "identify/report/result_file.hpp"
+
+namespace catena::report {
+
+/// Measured minus predicted at the measured times, in mm, or mrad for angles; NaN where a point was
+/// not seen.
+struct Residuals {
+  bool angles = false;
+  std::string unit;  ///< "mm" or "mrad"
+  Row time;          ///< s
+  std::vector<Point> points;
+  Rows side, down;  ///< markers
+  Rows angle;       ///< angles
+  Rows size;        ///< distance (6.5), or size of the angle's residual: [point][time]
+};
+
+/// Empty (no points) where nothing was measured or predicted.
+Residuals residuals_of(const Experiment& experiment);
+
+/// Mean over the points, NaN left out, at each time.
+Row mean_over_points(const Rows& rows, std::size_t times);
+
+/// Root mean square over all entries that are not NaN; NaN if there is none.
+double root_mean_square(const Row& row);
+
+}  // namespace catena::report
