@@ -39,7 +39,7 @@ template <class T>
 using NewtonMatrix = Quasiseparable<T, kLinks, 2, 2>;
 
 /// r(t, q, v, a, z, u, p), the inverse dynamics.
-/// 220 additions, 242 multiplications, 0 divisions, 24 functions
+/// 220 additions, 242 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
@@ -53,11 +53,8 @@ void residual(const Point<T>& at, T* r) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side_acceleration[13];
   T joint_down_acceleration[13];
   T joint_moment[13];
@@ -126,7 +123,7 @@ void residual(const Point<T>& at, T* r) {
 }
 
 /// Derivative of r along `along`.
-/// 588 additions, 750 multiplications, 0 divisions, 24 functions
+/// 588 additions, 750 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> length(at.p);
@@ -139,6 +136,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_mass(along.p + 12);
   const FromOne<T> d_inertia(along.p + 24);
@@ -150,11 +149,6 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
   T joint_side_acceleration[13];
   T joint_down_acceleration[13];
   T d_joint_moment[13];
@@ -328,20 +322,16 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
 }
 
 /// The term inertia of r alone.
-/// 114 additions, 170 multiplications, 0 divisions, 24 functions
+/// 114 additions, 170 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_inertia(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 12);
   const FromOne<T> inertia(at.p + 24);
   const T load_mass = at.p[72];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_ddot(at.a);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T span_down_acceleration_inertial[13];
   T joint_down_acceleration_inertial[13];
   T centre_down_force_inertial[13];
@@ -411,19 +401,15 @@ void term_inertia(const Point<T>& at, T* r) {
 }
 
 /// The term coriolis of r alone.
-/// 102 additions, 182 multiplications, 0 divisions, 24 functions
+/// 102 additions, 182 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_coriolis(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 12);
   const T load_mass = at.p[72];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T span_down_acceleration_bias[13];
   T joint_down_acceleration_bias[13];
   T centre_down_force_bias[13];
@@ -491,18 +477,15 @@ void term_coriolis(const Point<T>& at, T* r) {
 }
 
 /// The term gravity of r alone.
-/// 23 additions, 49 multiplications, 0 divisions, 12 functions
+/// 23 additions, 49 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_gravity(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 12);
   const T load_mass = at.p[72];
   const T gravity = at.p[73];
-  const FromOne<T> theta(at.q);
-  T sine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine[i] = sin(theta[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T cut_force_down[14];
   {
     cut_force_down[13] = -load_mass * gravity;
@@ -598,7 +581,7 @@ void residual_term(const Point<T>& at, int term, T* r) {
 }
 
 /// r with a = 0.
-/// 184 additions, 206 multiplications, 0 divisions, 24 functions
+/// 184 additions, 206 multiplications, 0 divisions, 0 functions
 template <class T>
 void bias(const Point<T>& at, T* h) {
   const FromOne<T> length(at.p);
@@ -610,11 +593,8 @@ void bias(const Point<T>& at, T* h) {
   const T gravity = at.p[73];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_moment[13];
   T span_down_acceleration_bias[13];
   T joint_down_acceleration_bias[13];
@@ -704,7 +684,7 @@ void bias(const Point<T>& at, T* h) {
 }
 
 /// M, row by row.
-/// 57 additions, 130 multiplications, 0 divisions, 24 functions
+/// 57 additions, 130 multiplications, 0 divisions, 0 functions
 template <class T>
 void mass_matrix(const Point<T>& at, T* M) {
   MassMatrix<T> matrix;
@@ -712,12 +692,8 @@ void mass_matrix(const Point<T>& at, T* M) {
   const FromOne<T> mass(at.p + 12);
   const FromOne<T> inertia(at.p + 24);
   const T load_mass = at.p[72];
-  const FromOne<T> theta(at.q);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T mass_cut_force_down_per_joint_down_acceleration[13];
   {
     const T mass_joint_down_acceleration_gain = -length[12] * sine[12];
@@ -758,7 +734,7 @@ void mass_matrix(const Point<T>& at, T* M) {
 }
 
 /// a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.
-/// 241 additions, 336 multiplications, 0 divisions, 24 functions
+/// 241 additions, 336 multiplications, 0 divisions, 0 functions
 template <class T>
 int acceleration(const Point<T>& at, T* a) {
   MassMatrix<T> matrix;
@@ -772,11 +748,8 @@ int acceleration(const Point<T>& at, T* a) {
   const T gravity = at.p[73];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_moment[13];
   T span_down_acceleration_bias[13];
   T joint_down_acceleration_bias[13];
@@ -893,13 +866,11 @@ int acceleration(const Point<T>& at, T* a) {
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
         + length[1] * (sine[1] * span_down_force_bias - cosine[1] * span_side_force_bias);
   }
-  const int failed = matrix.factor();
-  if (failed == 0) matrix.solve(a);
-  return failed;
+  return matrix.solve_in_place(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).
-/// 466 additions, 984 multiplications, 0 divisions, 24 functions
+/// 466 additions, 984 multiplications, 0 divisions, 0 functions
 template <class T>
 void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
                    NewtonMatrix<T>& matrix) {
@@ -910,17 +881,10 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const FromOne<T> damping(at.p + 48);
   const T load_mass = at.p[72];
   const T gravity = at.p[73];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  
-  
-  
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side_acceleration[13];
   T joint_down_acceleration[13];
   T newton_joint_down_acceleration_gain[13];
@@ -1078,7 +1042,7 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
 }
 
 /// Energies (J) and powers (W), in the order of the table.
-/// 207 additions, 293 multiplications, 0 divisions, 24 functions
+/// 207 additions, 293 multiplications, 0 divisions, 0 functions
 template <class T>
 void energy(const Point<T>& at, T* e) {
   const FromOne<T> length(at.p);
@@ -1091,11 +1055,8 @@ void energy(const Point<T>& at, T* e) {
   const T gravity = at.p[73];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side_velocity[13];
   T joint_down_velocity[13];
   T arc[13];
@@ -1190,16 +1151,12 @@ void energy(const Point<T>& at, T* e) {
 }
 
 /// Support (0), far end of each link (1..), load (last): side and down, m.
-/// 24 additions, 24 multiplications, 0 divisions, 24 functions
+/// 24 additions, 24 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions(const Point<T>& at, T* side, T* down) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side[13];
   T joint_down[13];
   {
@@ -1223,18 +1180,14 @@ void positions(const Point<T>& at, T* side, T* down) {
 }
 
 /// Derivative of the positions along `along`.
-/// 46 additions, 72 multiplications, 0 divisions, 24 functions
+/// 46 additions, 72 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
   T d_span_side[13];
   T d_span_down[13];
   T d_joint_side[13];
@@ -1264,17 +1217,13 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
 }
 
 /// Velocities of the same points, m/s.
-/// 22 additions, 48 multiplications, 0 divisions, 24 functions
+/// 22 additions, 48 multiplications, 0 divisions, 0 functions
 template <class T>
 void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side_velocity[13];
   T joint_down_velocity[13];
   {
@@ -1304,7 +1253,7 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 173 additions, 205 multiplications, 12 divisions, 24 functions
+/// 173 additions, 205 multiplications, 12 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1316,11 +1265,8 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine[13];
-  T cosine[13];
-  for (int i = 1; i <= 12; ++i) {
-    sine_cosine(theta[i], sine[i], cosine[i]);
-  }
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_side_acceleration[13];
   T joint_down_acceleration[13];
   T centre_down_force[13];

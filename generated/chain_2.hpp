@@ -39,7 +39,7 @@ template <class T>
 using NewtonMatrix = Quasiseparable<T, kLinks, 2, 2>;
 
 /// r(t, q, v, a, z, u, p), the inverse dynamics.
-/// 30 additions, 42 multiplications, 0 divisions, 4 functions
+/// 30 additions, 42 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
@@ -53,24 +53,22 @@ void residual(const Point<T>& at, T* r) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -94,13 +92,13 @@ void residual(const Point<T>& at, T* r) {
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
   r[0] = inertia[1] * theta_ddot[1] - torque[1] + joint_moment_1 - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_1 - sine_1 * span_down_force_1);
+      + length[1] * (cosine[1] * span_side_force_1 - sine[1] * span_down_force_1);
   r[1] = inertia[2] * theta_ddot[2] - torque[2] + joint_moment_2
-      + length[2] * (cosine_2 * span_side_force_2 - sine_2 * span_down_force_2);
+      + length[2] * (cosine[2] * span_side_force_2 - sine[2] * span_down_force_2);
 }
 
 /// Derivative of r along `along`.
-/// 88 additions, 130 multiplications, 0 divisions, 4 functions
+/// 88 additions, 130 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> length(at.p);
@@ -113,6 +111,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_mass(along.p + 2);
   const FromOne<T> d_inertia(along.p + 4);
@@ -124,24 +124,20 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -168,14 +164,14 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
   const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine_1
-      * d_theta[1] - T(2) * cosine_1 * d_theta_dot[1]) - (theta_ddot[1] * cosine_1 * d_theta[1]
-      + sine_1 * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine_2
-      * d_theta[2] - T(2) * cosine_2 * d_theta_dot[2]) - (theta_ddot[2] * cosine_2 * d_theta[2]
-      + sine_2 * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+      * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
+      + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+      * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
+      + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
   const T d_cut_force_down_3 = d_load_mass * (joint_down_acceleration_2 - gravity)
       + load_mass * (d_joint_down_acceleration_2 - d_gravity);
@@ -188,14 +184,14 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
   const T d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1) + length[1] * (cosine_1 * d_theta_ddot[1]
-      - theta_ddot[1] * sine_1 * d_theta[1] - theta_dot[1] * (T(2) * sine_1 * d_theta_dot[1]
-      + theta_dot[1] * cosine_1 * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2) + length[2] * (cosine_2 * d_theta_ddot[2]
-      - theta_ddot[2] * sine_2 * d_theta[2] - theta_dot[2] * (T(2) * sine_2 * d_theta_dot[2]
-      + theta_dot[2] * cosine_2 * d_theta[2]));
+  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
+      - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
+      + theta_dot[1] * cosine[1] * d_theta[1]));
+  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
+      - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
+      + theta_dot[2] * cosine[2] * d_theta[2]));
   const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
   const T d_cut_force_side_3 = load_mass * d_joint_side_acceleration_2
       + joint_side_acceleration_2 * d_load_mass;
@@ -211,33 +207,30 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_span_down_force_2 = d_cut_force_down_3 + ratio<T>(1, 2) * d_centre_down_force_2;
   const T d_span_side_force_2 = d_cut_force_side_3 + ratio<T>(1, 2) * d_centre_side_force_2;
   dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
-      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine_1 * span_side_force_1
-      - sine_1 * span_down_force_1) + length[1] * (cosine_1 * (d_span_side_force_1
-      - span_down_force_1 * d_theta[1]) - sine_1 * (span_side_force_1 * d_theta[1]
+      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine[1] * span_side_force_1
+      - sine[1] * span_down_force_1) + length[1] * (cosine[1] * (d_span_side_force_1
+      - span_down_force_1 * d_theta[1]) - sine[1] * (span_side_force_1 * d_theta[1]
       + d_span_down_force_1));
   dr[1] = inertia[2] * d_theta_ddot[2] + theta_ddot[2] * d_inertia[2] - d_torque[2]
-      + d_joint_moment_2 + d_length[2] * (cosine_2 * span_side_force_2
-      - sine_2 * span_down_force_2) + length[2] * (cosine_2 * (d_span_side_force_2
-      - span_down_force_2 * d_theta[2]) - sine_2 * (span_side_force_2 * d_theta[2]
+      + d_joint_moment_2 + d_length[2] * (cosine[2] * span_side_force_2
+      - sine[2] * span_down_force_2) + length[2] * (cosine[2] * (d_span_side_force_2
+      - span_down_force_2 * d_theta[2]) - sine[2] * (span_side_force_2 * d_theta[2]
       + d_span_down_force_2));
 }
 
 /// The term inertia of r alone.
-/// 14 additions, 30 multiplications, 0 divisions, 4 functions
+/// 14 additions, 30 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_inertia(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 2);
   const FromOne<T> inertia(at.p + 4);
   const T load_mass = at.p[12];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine_1;
-  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine_2;
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine[1];
+  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine[2];
   const T joint_down_acceleration_inertial_2 = span_down_acceleration_inertial_1
       + span_down_acceleration_inertial_2;
   const T cut_force_down_inertial_3 = load_mass * joint_down_acceleration_inertial_2;
@@ -249,8 +242,8 @@ void term_inertia(const Point<T>& at, T* r) {
   const T centre_down_force_inertial_1 = mass[1] * centre_down_acceleration_inertial_1;
   const T span_down_force_inertial_1 = cut_force_down_inertial_2
       + ratio<T>(1, 2) * centre_down_force_inertial_1;
-  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine_1;
-  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine_2;
+  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine[1];
+  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine[2];
   const T joint_side_acceleration_inertial_2 = span_side_acceleration_inertial_1
       + span_side_acceleration_inertial_2;
   const T cut_force_side_inertial_3 = load_mass * joint_side_acceleration_inertial_2;
@@ -266,27 +259,24 @@ void term_inertia(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_inertial_2;
   const T span_side_force_inertial_2 = cut_force_side_inertial_3
       + ratio<T>(1, 2) * centre_side_force_inertial_2;
-  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine_1 * span_side_force_inertial_1
-      - sine_1 * span_down_force_inertial_1);
-  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine_2 * span_side_force_inertial_2
-      - sine_2 * span_down_force_inertial_2);
+  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine[1] * span_side_force_inertial_1
+      - sine[1] * span_down_force_inertial_1);
+  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine[2] * span_side_force_inertial_2
+      - sine[2] * span_down_force_inertial_2);
 }
 
 /// The term coriolis of r alone.
-/// 12 additions, 32 multiplications, 0 divisions, 4 functions
+/// 12 additions, 32 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_coriolis(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 2);
   const T load_mass = at.p[12];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
   const T cut_force_down_bias_3 = load_mass * joint_down_acceleration_bias_2;
@@ -298,8 +288,8 @@ void term_coriolis(const Point<T>& at, T* r) {
   const T centre_down_force_bias_1 = mass[1] * centre_down_acceleration_bias_1;
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
   const T cut_force_side_bias_3 = load_mass * joint_side_acceleration_bias_2;
@@ -315,29 +305,28 @@ void term_coriolis(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_bias_2;
   const T span_side_force_bias_2 = cut_force_side_bias_3
       + ratio<T>(1, 2) * centre_side_force_bias_2;
-  r[0] = length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
-  r[1] = length[2] * (cosine_2 * span_side_force_bias_2 - sine_2 * span_down_force_bias_2);
+  r[0] = length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
+  r[1] = length[2] * (cosine[2] * span_side_force_bias_2 - sine[2] * span_down_force_bias_2);
 }
 
 /// The term gravity of r alone.
-/// 3 additions, 9 multiplications, 0 divisions, 2 functions
+/// 3 additions, 9 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_gravity(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 2);
   const T load_mass = at.p[12];
   const T gravity = at.p[13];
-  const FromOne<T> theta(at.q);
-  const T sine_1 = sin(theta[1]);
-  const T sine_2 = sin(theta[2]);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const T cut_force_down_3 = -load_mass * gravity;
   const T centre_down_force_2 = -mass[2] * gravity;
   const T span_down_force_2 = cut_force_down_3 + ratio<T>(1, 2) * centre_down_force_2;
   const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
   const T centre_down_force_1 = -mass[1] * gravity;
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
-  r[0] = -length[1] * sine_1 * span_down_force_1;
-  r[1] = -length[2] * sine_2 * span_down_force_2;
+  r[0] = -length[1] * sine[1] * span_down_force_1;
+  r[1] = -length[2] * sine[2] * span_down_force_2;
 }
 
 /// The term elastic of r alone.
@@ -397,7 +386,7 @@ void residual_term(const Point<T>& at, int term, T* r) {
 }
 
 /// r with a = 0.
-/// 24 additions, 36 multiplications, 0 divisions, 4 functions
+/// 24 additions, 36 multiplications, 0 divisions, 0 functions
 template <class T>
 void bias(const Point<T>& at, T* h) {
   const FromOne<T> length(at.p);
@@ -409,18 +398,16 @@ void bias(const Point<T>& at, T* h) {
   const T gravity = at.p[13];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
   const T cut_force_down_bias_3 = load_mass * (joint_down_acceleration_bias_2 - gravity);
@@ -432,8 +419,8 @@ void bias(const Point<T>& at, T* h) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
   const T cut_force_side_bias_3 = load_mass * joint_side_acceleration_bias_2;
@@ -450,13 +437,13 @@ void bias(const Point<T>& at, T* h) {
   const T span_side_force_bias_2 = cut_force_side_bias_3
       + ratio<T>(1, 2) * centre_side_force_bias_2;
   h[0] = joint_moment_1 - torque[1] - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
-  h[1] = joint_moment_2 - torque[2] + length[2] * (cosine_2 * span_side_force_bias_2
-      - sine_2 * span_down_force_bias_2);
+      + length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
+  h[1] = joint_moment_2 - torque[2] + length[2] * (cosine[2] * span_side_force_bias_2
+      - sine[2] * span_down_force_bias_2);
 }
 
 /// M, row by row.
-/// 7 additions, 20 multiplications, 0 divisions, 4 functions
+/// 7 additions, 20 multiplications, 0 divisions, 0 functions
 template <class T>
 void mass_matrix(const Point<T>& at, T* M) {
   MassMatrix<T> matrix;
@@ -464,20 +451,17 @@ void mass_matrix(const Point<T>& at, T* M) {
   const FromOne<T> mass(at.p + 2);
   const FromOne<T> inertia(at.p + 4);
   const T load_mass = at.p[12];
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2] + load_mass;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -489,7 +473,7 @@ void mass_matrix(const Point<T>& at, T* M) {
 }
 
 /// a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.
-/// 31 additions, 56 multiplications, 0 divisions, 4 functions
+/// 31 additions, 56 multiplications, 0 divisions, 0 functions
 template <class T>
 int acceleration(const Point<T>& at, T* a) {
   MassMatrix<T> matrix;
@@ -503,18 +487,16 @@ int acceleration(const Point<T>& at, T* a) {
   const T gravity = at.p[13];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
   const T cut_force_down_bias_3 = load_mass * (joint_down_acceleration_bias_2 - gravity);
@@ -526,8 +508,8 @@ int acceleration(const Point<T>& at, T* a) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
   const T cut_force_side_bias_3 = load_mass * joint_side_acceleration_bias_2;
@@ -543,15 +525,15 @@ int acceleration(const Point<T>& at, T* a) {
       + ratio<T>(1, 2) * centre_down_force_bias_2;
   const T span_side_force_bias_2 = cut_force_side_bias_3
       + ratio<T>(1, 2) * centre_side_force_bias_2;
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2] + load_mass;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -560,16 +542,14 @@ int acceleration(const Point<T>& at, T* a) {
       + mass_cut_force_down_per_joint_down_acceleration_2);
   matrix.diagonal[1] = inertia[2] + length[2] * length[2] * (ratio<T>(1, 4) * mass[2] + load_mass);
   a[0] = torque[1] - joint_moment_1 + joint_moment_2
-      + length[1] * (sine_1 * span_down_force_bias_1 - cosine_1 * span_side_force_bias_1);
-  a[1] = torque[2] - joint_moment_2 + length[2] * (sine_2 * span_down_force_bias_2
-      - cosine_2 * span_side_force_bias_2);
-  const int failed = matrix.factor();
-  if (failed == 0) matrix.solve(a);
-  return failed;
+      + length[1] * (sine[1] * span_down_force_bias_1 - cosine[1] * span_side_force_bias_1);
+  a[1] = torque[2] - joint_moment_2 + length[2] * (sine[2] * span_down_force_bias_2
+      - cosine[2] * span_side_force_bias_2);
+  return matrix.solve_in_place(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).
-/// 66 additions, 154 multiplications, 0 divisions, 4 functions
+/// 66 additions, 154 multiplications, 0 divisions, 0 functions
 template <class T>
 void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
                    NewtonMatrix<T>& matrix) {
@@ -580,28 +560,22 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const FromOne<T> damping(at.p + 8);
   const T load_mass = at.p[12];
   const T gravity = at.p[13];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  
-  
-  
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -622,36 +596,37 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2] + load_mass;
   const T newton_joint_down_acceleration_gain_1 = length[1] * (theta_dot[1] * (theta_dot[1]
-      * sine_1 * cq - T(2) * cosine_1 * cv) - (theta_ddot[1] * cosine_1 * cq + sine_1 * ca));
-  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine_1 * ca
-      - theta_ddot[1] * sine_1 * cq - theta_dot[1] * (T(2) * sine_1 * cv
-      + theta_dot[1] * cosine_1 * cq));
+      * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine[1] * ca
+      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+      + theta_dot[1] * cosine[1] * cq));
   const T newton_joint_down_acceleration_gain_2 = length[2] * (theta_dot[2] * (theta_dot[2]
-      * sine_2 * cq - T(2) * cosine_2 * cv) - (theta_ddot[2] * cosine_2 * cq + sine_2 * ca));
-  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine_2 * ca
-      - theta_ddot[2] * sine_2 * cq - theta_dot[2] * (T(2) * sine_2 * cv
-      + theta_dot[2] * cosine_2 * cq));
-  matrix.upper_row[0][0] = -length[1] * sine_1;
-  matrix.upper_row[0][1] = length[1] * cosine_1;
+      * sine[2] * cq - T(2) * cosine[2] * cv) - (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
+  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine[2] * ca
+      - theta_ddot[2] * sine[2] * cq - theta_dot[2] * (T(2) * sine[2] * cv
+      + theta_dot[2] * cosine[2] * cq));
+  matrix.upper_row[0][0] = -length[1] * sine[1];
+  matrix.upper_row[0][1] = length[1] * cosine[1];
   matrix.upper_row[1][0] = T(0);
   matrix.upper_row[1][1] = T(0);
   matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_down_acceleration_gain_1;
   matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_side_acceleration_gain_1;
-  matrix.upper_column[1][0] = length[2] * (load_mass * (theta_dot[2] * (theta_dot[2] * sine_2
-      * cq - T(2) * cosine_2 * cv) - (theta_ddot[2] * cosine_2 * cq + sine_2 * ca))
-      + mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine_2 * cq - cosine_2 * cv)
-      - ratio<T>(1, 2) * (theta_ddot[2] * cosine_2 * cq + sine_2 * ca)));
-  matrix.upper_column[1][1] = length[2] * (load_mass * (cosine_2 * ca
-      - theta_ddot[2] * sine_2 * cq - theta_dot[2] * (T(2) * sine_2 * cv
-      + theta_dot[2] * cosine_2 * cq)) + mass[2] * (ratio<T>(1, 2) * (cosine_2 * ca
-      - theta_ddot[2] * sine_2 * cq) - theta_dot[2] * (sine_2 * cv
-      + ratio<T>(1, 2) * theta_dot[2] * cosine_2 * cq)));
-  matrix.lower_row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
-  matrix.lower_row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.upper_column[1][0] = length[2] * (load_mass * (theta_dot[2] * (theta_dot[2] * sine[2]
+      * cq - T(2) * cosine[2] * cv) - (theta_ddot[2] * cosine[2] * cq + sine[2] * ca))
+      + mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine[2] * cq - cosine[2] * cv)
+      - ratio<T>(1, 2) * (theta_ddot[2] * cosine[2] * cq + sine[2] * ca)));
+  matrix.upper_column[1][1] = length[2] * (load_mass * (cosine[2] * ca
+      - theta_ddot[2] * sine[2] * cq - theta_dot[2] * (T(2) * sine[2] * cv
+      + theta_dot[2] * cosine[2] * cq)) + mass[2] * (ratio<T>(1, 2) * (cosine[2] * ca
+      - theta_ddot[2] * sine[2] * cq) - theta_dot[2] * (sine[2] * cv
+      + ratio<T>(1, 2) * theta_dot[2] * cosine[2] * cq)));
+  matrix.lower_row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[0][1] = length[1] * cosine[1]
+      * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.lower_row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain_1;
   matrix.lower_column[0][1] = newton_joint_side_acceleration_gain_1;
   matrix.lower_column[1][0] = newton_joint_down_acceleration_gain_2;
@@ -659,12 +634,12 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
       + damping[2]) + length[1] * (length[1] * (mass_cut_force_down_per_joint_down_acceleration_2
       * (ca - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca
-      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine_1 * span_side_force_1
-      + cosine_1 * span_down_force_1));
+      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine[1] * span_side_force_1
+      + cosine[1] * span_down_force_1));
   matrix.diagonal[1] = inertia[2] * ca + stiffness[2] * cq + damping[2] * cv
       + length[2] * (length[2] * (load_mass * (ca - theta_dot[2] * theta_dot[2] * cq)
       + ratio<T>(1, 4) * mass[2] * (ca - theta_dot[2] * theta_dot[2] * cq))
-      - cq * (sine_2 * span_side_force_2 + cosine_2 * span_down_force_2));
+      - cq * (sine[2] * span_side_force_2 + cosine[2] * span_down_force_2));
   matrix.below[0] = T(0);
   matrix.below[1] = -(stiffness[2] * cq + damping[2] * cv);
   matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
@@ -672,7 +647,7 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
 }
 
 /// Energies (J) and powers (W), in the order of the table.
-/// 27 additions, 53 multiplications, 0 divisions, 4 functions
+/// 27 additions, 53 multiplications, 0 divisions, 0 functions
 template <class T>
 void energy(const Point<T>& at, T* e) {
   const FromOne<T> length(at.p);
@@ -685,14 +660,12 @@ void energy(const Point<T>& at, T* e) {
   const T gravity = at.p[13];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const T joint_down_0 = T(0);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_1 = length[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_1 = length[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T centre_side_velocity_1 = ratio<T>(1, 2) * span_side_velocity_1;
   const T centre_down_1 = joint_down_0 + ratio<T>(1, 2) * span_down_1;
   const T centre_down_velocity_1 = ratio<T>(1, 2) * span_down_velocity_1;
@@ -702,9 +675,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_2 = length[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_2 = length[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T centre_side_velocity_2 = ratio<T>(1, 2) * span_side_velocity_2 + joint_side_velocity_1;
   const T centre_down_2 = joint_down_1 + ratio<T>(1, 2) * span_down_2;
   const T centre_down_velocity_2 = ratio<T>(1, 2) * span_down_velocity_2 + joint_down_velocity_1;
@@ -744,23 +717,20 @@ void energy(const Point<T>& at, T* e) {
 }
 
 /// Support (0), far end of each link (1..), load (last): side and down, m.
-/// 4 additions, 4 multiplications, 0 divisions, 4 functions
+/// 4 additions, 4 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions(const Point<T>& at, T* side, T* down) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const T joint_side_0 = T(0);
   const T joint_down_0 = T(0);
-  const T span_side_1 = length[1] * sine_1;
-  const T span_down_1 = length[1] * cosine_1;
+  const T span_side_1 = length[1] * sine[1];
+  const T span_down_1 = length[1] * cosine[1];
   const T joint_side_1 = joint_side_0 + span_side_1;
   const T joint_down_1 = joint_down_0 + span_down_1;
-  const T span_side_2 = length[2] * sine_2;
-  const T span_down_2 = length[2] * cosine_2;
+  const T span_side_2 = length[2] * sine[2];
+  const T span_down_2 = length[2] * cosine[2];
   const T joint_side_2 = joint_side_1 + span_side_2;
   const T joint_down_2 = joint_down_1 + span_down_2;
   side[0] = joint_side_0;
@@ -774,22 +744,19 @@ void positions(const Point<T>& at, T* side, T* down) {
 }
 
 /// Derivative of the positions along `along`.
-/// 6 additions, 12 multiplications, 0 divisions, 4 functions
+/// 6 additions, 12 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T d_span_side_1 = length[1] * cosine_1 * d_theta[1] + sine_1 * d_length[1];
-  const T d_span_down_1 = cosine_1 * d_length[1] - length[1] * sine_1 * d_theta[1];
-  const T d_span_side_2 = length[2] * cosine_2 * d_theta[2] + sine_2 * d_length[2];
+  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
   const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
-  const T d_span_down_2 = cosine_2 * d_length[2] - length[2] * sine_2 * d_theta[2];
+  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
   const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
   dside[0] = T(0);
   ddown[0] = T(0);
@@ -802,22 +769,19 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
 }
 
 /// Velocities of the same points, m/s.
-/// 2 additions, 8 multiplications, 0 divisions, 4 functions
+/// 2 additions, 8 multiplications, 0 divisions, 0 functions
 template <class T>
 void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T joint_side_velocity_1 = span_side_velocity_1;
   const T joint_down_velocity_1 = span_down_velocity_1;
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T joint_side_velocity_2 = span_side_velocity_2 + joint_side_velocity_1;
   const T joint_down_velocity_2 = span_down_velocity_2 + joint_down_velocity_1;
   side_rate[0] = T(0);
@@ -831,7 +795,7 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 23 additions, 35 multiplications, 2 divisions, 4 functions
+/// 23 additions, 35 multiplications, 2 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -843,14 +807,12 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
@@ -858,10 +820,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -884,8 +846,8 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
   moment[0] = -joint_moment_1;
   moment[1] = -joint_moment_2;
-  tension[0] = -(sine_1 * cut_force_side_1 + cosine_1 * cut_force_down_1);
-  tension[1] = -(sine_2 * cut_force_side_2 + cosine_2 * cut_force_down_2);
+  tension[0] = -(sine[1] * cut_force_side_1 + cosine[1] * cut_force_down_1);
+  tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
   curvature[0] = theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
 }

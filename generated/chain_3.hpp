@@ -39,7 +39,7 @@ template <class T>
 using NewtonMatrix = Quasiseparable<T, kLinks, 2, 2>;
 
 /// r(t, q, v, a, z, u, p), the inverse dynamics.
-/// 49 additions, 62 multiplications, 0 divisions, 6 functions
+/// 49 additions, 62 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
@@ -53,26 +53,22 @@ void residual(const Point<T>& at, T* r) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -81,10 +77,10 @@ void residual(const Point<T>& at, T* r) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -115,15 +111,15 @@ void residual(const Point<T>& at, T* r) {
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
   r[0] = inertia[1] * theta_ddot[1] - torque[1] + joint_moment_1 - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_1 - sine_1 * span_down_force_1);
+      + length[1] * (cosine[1] * span_side_force_1 - sine[1] * span_down_force_1);
   r[1] = inertia[2] * theta_ddot[2] - torque[2] + joint_moment_2 - joint_moment_3
-      + length[2] * (cosine_2 * span_side_force_2 - sine_2 * span_down_force_2);
+      + length[2] * (cosine[2] * span_side_force_2 - sine[2] * span_down_force_2);
   r[2] = inertia[3] * theta_ddot[3] - torque[3] + joint_moment_3
-      + length[3] * (cosine_3 * span_side_force_3 - sine_3 * span_down_force_3);
+      + length[3] * (cosine[3] * span_side_force_3 - sine[3] * span_down_force_3);
 }
 
 /// Derivative of r along `along`.
-/// 138 additions, 192 multiplications, 0 divisions, 6 functions
+/// 138 additions, 192 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> length(at.p);
@@ -136,6 +132,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_mass(along.p + 3);
   const FromOne<T> d_inertia(along.p + 6);
@@ -147,26 +145,20 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -175,10 +167,10 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -211,19 +203,19 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
   const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine_1
-      * d_theta[1] - T(2) * cosine_1 * d_theta_dot[1]) - (theta_ddot[1] * cosine_1 * d_theta[1]
-      + sine_1 * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine_2
-      * d_theta[2] - T(2) * cosine_2 * d_theta_dot[2]) - (theta_ddot[2] * cosine_2 * d_theta[2]
-      + sine_2 * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+      * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
+      + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+      * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
+      + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine_3
-      * d_theta[3] - T(2) * cosine_3 * d_theta_dot[3]) - (theta_ddot[3] * cosine_3 * d_theta[3]
-      + sine_3 * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+      * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
+      + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
   const T d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
       + load_mass * (d_joint_down_acceleration_3 - d_gravity);
@@ -241,19 +233,19 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
   const T d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1) + length[1] * (cosine_1 * d_theta_ddot[1]
-      - theta_ddot[1] * sine_1 * d_theta[1] - theta_dot[1] * (T(2) * sine_1 * d_theta_dot[1]
-      + theta_dot[1] * cosine_1 * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2) + length[2] * (cosine_2 * d_theta_ddot[2]
-      - theta_ddot[2] * sine_2 * d_theta[2] - theta_dot[2] * (T(2) * sine_2 * d_theta_dot[2]
-      + theta_dot[2] * cosine_2 * d_theta[2]));
+  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
+      - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
+      + theta_dot[1] * cosine[1] * d_theta[1]));
+  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
+      - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
+      + theta_dot[2] * cosine[2] * d_theta[2]));
   const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3) + length[3] * (cosine_3 * d_theta_ddot[3]
-      - theta_ddot[3] * sine_3 * d_theta[3] - theta_dot[3] * (T(2) * sine_3 * d_theta_dot[3]
-      + theta_dot[3] * cosine_3 * d_theta[3]));
+  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
+      - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
+      + theta_dot[3] * cosine[3] * d_theta[3]));
   const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
   const T d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
       + joint_side_acceleration_3 * d_load_mass;
@@ -280,43 +272,38 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_span_down_force_3 = d_cut_force_down_4 + ratio<T>(1, 2) * d_centre_down_force_3;
   const T d_span_side_force_3 = d_cut_force_side_4 + ratio<T>(1, 2) * d_centre_side_force_3;
   dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
-      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine_1 * span_side_force_1
-      - sine_1 * span_down_force_1) + length[1] * (cosine_1 * (d_span_side_force_1
-      - span_down_force_1 * d_theta[1]) - sine_1 * (span_side_force_1 * d_theta[1]
+      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine[1] * span_side_force_1
+      - sine[1] * span_down_force_1) + length[1] * (cosine[1] * (d_span_side_force_1
+      - span_down_force_1 * d_theta[1]) - sine[1] * (span_side_force_1 * d_theta[1]
       + d_span_down_force_1));
   dr[1] = inertia[2] * d_theta_ddot[2] + theta_ddot[2] * d_inertia[2] - d_torque[2]
-      + d_joint_moment_2 - d_joint_moment_3 + d_length[2] * (cosine_2 * span_side_force_2
-      - sine_2 * span_down_force_2) + length[2] * (cosine_2 * (d_span_side_force_2
-      - span_down_force_2 * d_theta[2]) - sine_2 * (span_side_force_2 * d_theta[2]
+      + d_joint_moment_2 - d_joint_moment_3 + d_length[2] * (cosine[2] * span_side_force_2
+      - sine[2] * span_down_force_2) + length[2] * (cosine[2] * (d_span_side_force_2
+      - span_down_force_2 * d_theta[2]) - sine[2] * (span_side_force_2 * d_theta[2]
       + d_span_down_force_2));
   dr[2] = inertia[3] * d_theta_ddot[3] + theta_ddot[3] * d_inertia[3] - d_torque[3]
-      + d_joint_moment_3 + d_length[3] * (cosine_3 * span_side_force_3
-      - sine_3 * span_down_force_3) + length[3] * (cosine_3 * (d_span_side_force_3
-      - span_down_force_3 * d_theta[3]) - sine_3 * (span_side_force_3 * d_theta[3]
+      + d_joint_moment_3 + d_length[3] * (cosine[3] * span_side_force_3
+      - sine[3] * span_down_force_3) + length[3] * (cosine[3] * (d_span_side_force_3
+      - span_down_force_3 * d_theta[3]) - sine[3] * (span_side_force_3 * d_theta[3]
       + d_span_down_force_3));
 }
 
 /// The term inertia of r alone.
-/// 24 additions, 44 multiplications, 0 divisions, 6 functions
+/// 24 additions, 44 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_inertia(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const FromOne<T> inertia(at.p + 6);
   const T load_mass = at.p[18];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine_1;
-  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine_2;
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine[1];
+  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine[2];
   const T joint_down_acceleration_inertial_2 = span_down_acceleration_inertial_1
       + span_down_acceleration_inertial_2;
-  const T span_down_acceleration_inertial_3 = -length[3] * theta_ddot[3] * sine_3;
+  const T span_down_acceleration_inertial_3 = -length[3] * theta_ddot[3] * sine[3];
   const T joint_down_acceleration_inertial_3 = span_down_acceleration_inertial_3
       + joint_down_acceleration_inertial_2;
   const T cut_force_down_inertial_4 = load_mass * joint_down_acceleration_inertial_3;
@@ -332,11 +319,11 @@ void term_inertia(const Point<T>& at, T* r) {
   const T centre_down_force_inertial_1 = mass[1] * centre_down_acceleration_inertial_1;
   const T span_down_force_inertial_1 = cut_force_down_inertial_2
       + ratio<T>(1, 2) * centre_down_force_inertial_1;
-  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine_1;
-  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine_2;
+  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine[1];
+  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine[2];
   const T joint_side_acceleration_inertial_2 = span_side_acceleration_inertial_1
       + span_side_acceleration_inertial_2;
-  const T span_side_acceleration_inertial_3 = length[3] * theta_ddot[3] * cosine_3;
+  const T span_side_acceleration_inertial_3 = length[3] * theta_ddot[3] * cosine[3];
   const T joint_side_acceleration_inertial_3 = span_side_acceleration_inertial_3
       + joint_side_acceleration_inertial_2;
   const T cut_force_side_inertial_4 = load_mass * joint_side_acceleration_inertial_3;
@@ -360,34 +347,29 @@ void term_inertia(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_inertial_3;
   const T span_side_force_inertial_3 = cut_force_side_inertial_4
       + ratio<T>(1, 2) * centre_side_force_inertial_3;
-  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine_1 * span_side_force_inertial_1
-      - sine_1 * span_down_force_inertial_1);
-  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine_2 * span_side_force_inertial_2
-      - sine_2 * span_down_force_inertial_2);
-  r[2] = inertia[3] * theta_ddot[3] + length[3] * (cosine_3 * span_side_force_inertial_3
-      - sine_3 * span_down_force_inertial_3);
+  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine[1] * span_side_force_inertial_1
+      - sine[1] * span_down_force_inertial_1);
+  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine[2] * span_side_force_inertial_2
+      - sine[2] * span_down_force_inertial_2);
+  r[2] = inertia[3] * theta_ddot[3] + length[3] * (cosine[3] * span_side_force_inertial_3
+      - sine[3] * span_down_force_inertial_3);
 }
 
 /// The term coriolis of r alone.
-/// 21 additions, 47 multiplications, 0 divisions, 6 functions
+/// 21 additions, 47 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_coriolis(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const T load_mass = at.p[18];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
   const T cut_force_down_bias_4 = load_mass * joint_down_acceleration_bias_3;
@@ -403,11 +385,11 @@ void term_coriolis(const Point<T>& at, T* r) {
   const T centre_down_force_bias_1 = mass[1] * centre_down_acceleration_bias_1;
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
   const T cut_force_side_bias_4 = load_mass * joint_side_acceleration_bias_3;
@@ -431,23 +413,21 @@ void term_coriolis(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_bias_3;
   const T span_side_force_bias_3 = cut_force_side_bias_4
       + ratio<T>(1, 2) * centre_side_force_bias_3;
-  r[0] = length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
-  r[1] = length[2] * (cosine_2 * span_side_force_bias_2 - sine_2 * span_down_force_bias_2);
-  r[2] = length[3] * (cosine_3 * span_side_force_bias_3 - sine_3 * span_down_force_bias_3);
+  r[0] = length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
+  r[1] = length[2] * (cosine[2] * span_side_force_bias_2 - sine[2] * span_down_force_bias_2);
+  r[2] = length[3] * (cosine[3] * span_side_force_bias_3 - sine[3] * span_down_force_bias_3);
 }
 
 /// The term gravity of r alone.
-/// 5 additions, 13 multiplications, 0 divisions, 3 functions
+/// 5 additions, 13 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_gravity(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const T load_mass = at.p[18];
   const T gravity = at.p[19];
-  const FromOne<T> theta(at.q);
-  const T sine_1 = sin(theta[1]);
-  const T sine_2 = sin(theta[2]);
-  const T sine_3 = sin(theta[3]);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const T cut_force_down_4 = -load_mass * gravity;
   const T centre_down_force_3 = -mass[3] * gravity;
   const T span_down_force_3 = cut_force_down_4 + ratio<T>(1, 2) * centre_down_force_3;
@@ -457,9 +437,9 @@ void term_gravity(const Point<T>& at, T* r) {
   const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
   const T centre_down_force_1 = -mass[1] * gravity;
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
-  r[0] = -length[1] * sine_1 * span_down_force_1;
-  r[1] = -length[2] * sine_2 * span_down_force_2;
-  r[2] = -length[3] * sine_3 * span_down_force_3;
+  r[0] = -length[1] * sine[1] * span_down_force_1;
+  r[1] = -length[2] * sine[2] * span_down_force_2;
+  r[2] = -length[3] * sine[3] * span_down_force_3;
 }
 
 /// The term elastic of r alone.
@@ -526,7 +506,7 @@ void residual_term(const Point<T>& at, int term, T* r) {
 }
 
 /// r with a = 0.
-/// 40 additions, 53 multiplications, 0 divisions, 6 functions
+/// 40 additions, 53 multiplications, 0 divisions, 0 functions
 template <class T>
 void bias(const Point<T>& at, T* h) {
   const FromOne<T> length(at.p);
@@ -538,12 +518,8 @@ void bias(const Point<T>& at, T* h) {
   const T gravity = at.p[19];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
@@ -553,11 +529,11 @@ void bias(const Point<T>& at, T* h) {
   const T joint_moment_3 = stiffness[3] * joint_angle_3 + damping[3] * joint_rate_3;
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
   const T cut_force_down_bias_4 = load_mass * (joint_down_acceleration_bias_3 - gravity);
@@ -573,11 +549,11 @@ void bias(const Point<T>& at, T* h) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
   const T cut_force_side_bias_4 = load_mass * joint_side_acceleration_bias_3;
@@ -602,15 +578,15 @@ void bias(const Point<T>& at, T* h) {
   const T span_side_force_bias_3 = cut_force_side_bias_4
       + ratio<T>(1, 2) * centre_side_force_bias_3;
   h[0] = joint_moment_1 - torque[1] - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
+      + length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
   h[1] = joint_moment_2 - torque[2] - joint_moment_3
-      + length[2] * (cosine_2 * span_side_force_bias_2 - sine_2 * span_down_force_bias_2);
-  h[2] = joint_moment_3 - torque[3] + length[3] * (cosine_3 * span_side_force_bias_3
-      - sine_3 * span_down_force_bias_3);
+      + length[2] * (cosine[2] * span_side_force_bias_2 - sine[2] * span_down_force_bias_2);
+  h[2] = joint_moment_3 - torque[3] + length[3] * (cosine[3] * span_side_force_bias_3
+      - sine[3] * span_down_force_bias_3);
 }
 
 /// M, row by row.
-/// 12 additions, 31 multiplications, 0 divisions, 6 functions
+/// 12 additions, 31 multiplications, 0 divisions, 0 functions
 template <class T>
 void mass_matrix(const Point<T>& at, T* M) {
   MassMatrix<T> matrix;
@@ -618,30 +594,25 @@ void mass_matrix(const Point<T>& at, T* M) {
   const FromOne<T> mass(at.p + 3);
   const FromOne<T> inertia(at.p + 6);
   const T load_mass = at.p[18];
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
-  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine_3;
-  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine_3;
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
+  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine[3];
+  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine[3];
   const T mass_cut_force_down_per_joint_down_acceleration_3 = mass[3] + load_mass;
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -657,7 +628,7 @@ void mass_matrix(const Point<T>& at, T* M) {
 }
 
 /// a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.
-/// 52 additions, 84 multiplications, 0 divisions, 6 functions
+/// 52 additions, 84 multiplications, 0 divisions, 0 functions
 template <class T>
 int acceleration(const Point<T>& at, T* a) {
   MassMatrix<T> matrix;
@@ -671,12 +642,8 @@ int acceleration(const Point<T>& at, T* a) {
   const T gravity = at.p[19];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
@@ -686,11 +653,11 @@ int acceleration(const Point<T>& at, T* a) {
   const T joint_moment_3 = stiffness[3] * joint_angle_3 + damping[3] * joint_rate_3;
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
   const T cut_force_down_bias_4 = load_mass * (joint_down_acceleration_bias_3 - gravity);
@@ -706,11 +673,11 @@ int acceleration(const Point<T>& at, T* a) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
   const T cut_force_side_bias_4 = load_mass * joint_side_acceleration_bias_3;
@@ -734,23 +701,23 @@ int acceleration(const Point<T>& at, T* a) {
       + ratio<T>(1, 2) * centre_down_force_bias_3;
   const T span_side_force_bias_3 = cut_force_side_bias_4
       + ratio<T>(1, 2) * centre_side_force_bias_3;
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
-  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine_3;
-  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine_3;
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
+  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine[3];
+  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine[3];
   const T mass_cut_force_down_per_joint_down_acceleration_3 = mass[3] + load_mass;
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -763,18 +730,16 @@ int acceleration(const Point<T>& at, T* a) {
       + mass_cut_force_down_per_joint_down_acceleration_3);
   matrix.diagonal[2] = inertia[3] + length[3] * length[3] * (ratio<T>(1, 4) * mass[3] + load_mass);
   a[0] = torque[1] - joint_moment_1 + joint_moment_2
-      + length[1] * (sine_1 * span_down_force_bias_1 - cosine_1 * span_side_force_bias_1);
+      + length[1] * (sine[1] * span_down_force_bias_1 - cosine[1] * span_side_force_bias_1);
   a[1] = torque[2] - joint_moment_2 + joint_moment_3
-      + length[2] * (sine_2 * span_down_force_bias_2 - cosine_2 * span_side_force_bias_2);
-  a[2] = torque[3] - joint_moment_3 + length[3] * (sine_3 * span_down_force_bias_3
-      - cosine_3 * span_side_force_bias_3);
-  const int failed = matrix.factor();
-  if (failed == 0) matrix.solve(a);
-  return failed;
+      + length[2] * (sine[2] * span_down_force_bias_2 - cosine[2] * span_side_force_bias_2);
+  a[2] = torque[3] - joint_moment_3 + length[3] * (sine[3] * span_down_force_bias_3
+      - cosine[3] * span_side_force_bias_3);
+  return matrix.solve_in_place(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).
-/// 106 additions, 237 multiplications, 0 divisions, 6 functions
+/// 106 additions, 237 multiplications, 0 divisions, 0 functions
 template <class T>
 void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
                    NewtonMatrix<T>& matrix) {
@@ -785,40 +750,32 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const FromOne<T> damping(at.p + 12);
   const T load_mass = at.p[18];
   const T gravity = at.p[19];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  
-  
-  
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
       + joint_down_acceleration_1;
   const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -847,24 +804,24 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
   const T newton_joint_down_acceleration_gain_1 = length[1] * (theta_dot[1] * (theta_dot[1]
-      * sine_1 * cq - T(2) * cosine_1 * cv) - (theta_ddot[1] * cosine_1 * cq + sine_1 * ca));
-  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine_1 * ca
-      - theta_ddot[1] * sine_1 * cq - theta_dot[1] * (T(2) * sine_1 * cv
-      + theta_dot[1] * cosine_1 * cq));
+      * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine[1] * ca
+      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+      + theta_dot[1] * cosine[1] * cq));
   const T newton_joint_down_acceleration_gain_2 = length[2] * (theta_dot[2] * (theta_dot[2]
-      * sine_2 * cq - T(2) * cosine_2 * cv) - (theta_ddot[2] * cosine_2 * cq + sine_2 * ca));
-  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine_2 * ca
-      - theta_ddot[2] * sine_2 * cq - theta_dot[2] * (T(2) * sine_2 * cv
-      + theta_dot[2] * cosine_2 * cq));
+      * sine[2] * cq - T(2) * cosine[2] * cv) - (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
+  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine[2] * ca
+      - theta_ddot[2] * sine[2] * cq - theta_dot[2] * (T(2) * sine[2] * cv
+      + theta_dot[2] * cosine[2] * cq));
   const T newton_joint_down_acceleration_gain_3 = length[3] * (theta_dot[3] * (theta_dot[3]
-      * sine_3 * cq - T(2) * cosine_3 * cv) - (theta_ddot[3] * cosine_3 * cq + sine_3 * ca));
-  const T newton_joint_side_acceleration_gain_3 = length[3] * (cosine_3 * ca
-      - theta_ddot[3] * sine_3 * cq - theta_dot[3] * (T(2) * sine_3 * cv
-      + theta_dot[3] * cosine_3 * cq));
-  matrix.upper_row[0][0] = -length[1] * sine_1;
-  matrix.upper_row[0][1] = length[1] * cosine_1;
-  matrix.upper_row[1][0] = -length[2] * sine_2;
-  matrix.upper_row[1][1] = length[2] * cosine_2;
+      * sine[3] * cq - T(2) * cosine[3] * cv) - (theta_ddot[3] * cosine[3] * cq + sine[3] * ca));
+  const T newton_joint_side_acceleration_gain_3 = length[3] * (cosine[3] * ca
+      - theta_ddot[3] * sine[3] * cq - theta_dot[3] * (T(2) * sine[3] * cv
+      + theta_dot[3] * cosine[3] * cq));
+  matrix.upper_row[0][0] = -length[1] * sine[1];
+  matrix.upper_row[0][1] = length[1] * cosine[1];
+  matrix.upper_row[1][0] = -length[2] * sine[2];
+  matrix.upper_row[1][1] = length[2] * cosine[2];
   matrix.upper_row[2][0] = T(0);
   matrix.upper_row[2][1] = T(0);
   matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration_2
@@ -873,29 +830,30 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       * newton_joint_side_acceleration_gain_1;
   matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration_3
       * newton_joint_down_acceleration_gain_2
-      + length[2] * mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine_2 * cq
-      - cosine_2 * cv) - ratio<T>(1, 2) * (theta_ddot[2] * cosine_2 * cq + sine_2 * ca));
+      + length[2] * mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine[2] * cq
+      - cosine[2] * cv) - ratio<T>(1, 2) * (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
   matrix.upper_column[1][1] = mass_cut_force_down_per_joint_down_acceleration_3
       * newton_joint_side_acceleration_gain_2
-      + length[2] * mass[2] * (ratio<T>(1, 2) * (cosine_2 * ca - theta_ddot[2] * sine_2 * cq)
-      - theta_dot[2] * (sine_2 * cv + ratio<T>(1, 2) * theta_dot[2] * cosine_2 * cq));
-  matrix.upper_column[2][0] = length[3] * (load_mass * (theta_dot[3] * (theta_dot[3] * sine_3
-      * cq - T(2) * cosine_3 * cv) - (theta_ddot[3] * cosine_3 * cq + sine_3 * ca))
-      + mass[3] * (theta_dot[3] * (ratio<T>(1, 2) * theta_dot[3] * sine_3 * cq - cosine_3 * cv)
-      - ratio<T>(1, 2) * (theta_ddot[3] * cosine_3 * cq + sine_3 * ca)));
-  matrix.upper_column[2][1] = length[3] * (load_mass * (cosine_3 * ca
-      - theta_ddot[3] * sine_3 * cq - theta_dot[3] * (T(2) * sine_3 * cv
-      + theta_dot[3] * cosine_3 * cq)) + mass[3] * (ratio<T>(1, 2) * (cosine_3 * ca
-      - theta_ddot[3] * sine_3 * cq) - theta_dot[3] * (sine_3 * cv
-      + ratio<T>(1, 2) * theta_dot[3] * cosine_3 * cq)));
-  matrix.lower_row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+      + length[2] * mass[2] * (ratio<T>(1, 2) * (cosine[2] * ca - theta_ddot[2] * sine[2] * cq)
+      - theta_dot[2] * (sine[2] * cv + ratio<T>(1, 2) * theta_dot[2] * cosine[2] * cq));
+  matrix.upper_column[2][0] = length[3] * (load_mass * (theta_dot[3] * (theta_dot[3] * sine[3]
+      * cq - T(2) * cosine[3] * cv) - (theta_ddot[3] * cosine[3] * cq + sine[3] * ca))
+      + mass[3] * (theta_dot[3] * (ratio<T>(1, 2) * theta_dot[3] * sine[3] * cq - cosine[3] * cv)
+      - ratio<T>(1, 2) * (theta_ddot[3] * cosine[3] * cq + sine[3] * ca)));
+  matrix.upper_column[2][1] = length[3] * (load_mass * (cosine[3] * ca
+      - theta_ddot[3] * sine[3] * cq - theta_dot[3] * (T(2) * sine[3] * cv
+      + theta_dot[3] * cosine[3] * cq)) + mass[3] * (ratio<T>(1, 2) * (cosine[3] * ca
+      - theta_ddot[3] * sine[3] * cq) - theta_dot[3] * (sine[3] * cv
+      + ratio<T>(1, 2) * theta_dot[3] * cosine[3] * cq)));
+  matrix.lower_row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[0][1] = length[1] * cosine[1]
+      * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.lower_row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.lower_row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.lower_row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.lower_row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.lower_row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.lower_row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain_1;
   matrix.lower_column[0][1] = newton_joint_side_acceleration_gain_1;
   matrix.lower_column[1][0] = newton_joint_down_acceleration_gain_2;
@@ -905,17 +863,17 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
       + damping[2]) + length[1] * (length[1] * (mass_cut_force_down_per_joint_down_acceleration_2
       * (ca - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca
-      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine_1 * span_side_force_1
-      + cosine_1 * span_down_force_1));
+      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine[1] * span_side_force_1
+      + cosine[1] * span_down_force_1));
   matrix.diagonal[1] = inertia[2] * ca + cq * (stiffness[2] + stiffness[3]) + cv * (damping[2]
       + damping[3]) + length[2] * (length[2] * (mass_cut_force_down_per_joint_down_acceleration_3
       * (ca - theta_dot[2] * theta_dot[2] * cq) + ratio<T>(1, 4) * mass[2] * (ca
-      - theta_dot[2] * theta_dot[2] * cq)) - cq * (sine_2 * span_side_force_2
-      + cosine_2 * span_down_force_2));
+      - theta_dot[2] * theta_dot[2] * cq)) - cq * (sine[2] * span_side_force_2
+      + cosine[2] * span_down_force_2));
   matrix.diagonal[2] = inertia[3] * ca + stiffness[3] * cq + damping[3] * cv
       + length[3] * (length[3] * (load_mass * (ca - theta_dot[3] * theta_dot[3] * cq)
       + ratio<T>(1, 4) * mass[3] * (ca - theta_dot[3] * theta_dot[3] * cq))
-      - cq * (sine_3 * span_side_force_3 + cosine_3 * span_down_force_3));
+      - cq * (sine[3] * span_side_force_3 + cosine[3] * span_down_force_3));
   matrix.below[0] = T(0);
   matrix.below[1] = -(stiffness[2] * cq + damping[2] * cv);
   matrix.below[2] = -(stiffness[3] * cq + damping[3] * cv);
@@ -925,7 +883,7 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
 }
 
 /// Energies (J) and powers (W), in the order of the table.
-/// 45 additions, 77 multiplications, 0 divisions, 6 functions
+/// 45 additions, 77 multiplications, 0 divisions, 0 functions
 template <class T>
 void energy(const Point<T>& at, T* e) {
   const FromOne<T> length(at.p);
@@ -938,16 +896,12 @@ void energy(const Point<T>& at, T* e) {
   const T gravity = at.p[19];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const T joint_down_0 = T(0);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_1 = length[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_1 = length[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T centre_side_velocity_1 = ratio<T>(1, 2) * span_side_velocity_1;
   const T centre_down_1 = joint_down_0 + ratio<T>(1, 2) * span_down_1;
   const T centre_down_velocity_1 = ratio<T>(1, 2) * span_down_velocity_1;
@@ -957,9 +911,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_2 = length[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_2 = length[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T centre_side_velocity_2 = ratio<T>(1, 2) * span_side_velocity_2 + joint_side_velocity_1;
   const T centre_down_2 = joint_down_1 + ratio<T>(1, 2) * span_down_2;
   const T centre_down_velocity_2 = ratio<T>(1, 2) * span_down_velocity_2 + joint_down_velocity_1;
@@ -969,9 +923,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
   const T arc_3 = length[3] + arc_2;
-  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine_3;
-  const T span_down_3 = length[3] * cosine_3;
-  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine_3;
+  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine[3];
+  const T span_down_3 = length[3] * cosine[3];
+  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine[3];
   const T centre_side_velocity_3 = ratio<T>(1, 2) * span_side_velocity_3 + joint_side_velocity_2;
   const T centre_down_3 = joint_down_2 + ratio<T>(1, 2) * span_down_3;
   const T centre_down_velocity_3 = ratio<T>(1, 2) * span_down_velocity_3 + joint_down_velocity_2;
@@ -1021,29 +975,24 @@ void energy(const Point<T>& at, T* e) {
 }
 
 /// Support (0), far end of each link (1..), load (last): side and down, m.
-/// 6 additions, 6 multiplications, 0 divisions, 6 functions
+/// 6 additions, 6 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions(const Point<T>& at, T* side, T* down) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const T joint_side_0 = T(0);
   const T joint_down_0 = T(0);
-  const T span_side_1 = length[1] * sine_1;
-  const T span_down_1 = length[1] * cosine_1;
+  const T span_side_1 = length[1] * sine[1];
+  const T span_down_1 = length[1] * cosine[1];
   const T joint_side_1 = joint_side_0 + span_side_1;
   const T joint_down_1 = joint_down_0 + span_down_1;
-  const T span_side_2 = length[2] * sine_2;
-  const T span_down_2 = length[2] * cosine_2;
+  const T span_side_2 = length[2] * sine[2];
+  const T span_down_2 = length[2] * cosine[2];
   const T joint_side_2 = joint_side_1 + span_side_2;
   const T joint_down_2 = joint_down_1 + span_down_2;
-  const T span_side_3 = length[3] * sine_3;
-  const T span_down_3 = length[3] * cosine_3;
+  const T span_side_3 = length[3] * sine[3];
+  const T span_down_3 = length[3] * cosine[3];
   const T joint_side_3 = joint_side_2 + span_side_3;
   const T joint_down_3 = joint_down_2 + span_down_3;
   side[0] = joint_side_0;
@@ -1059,28 +1008,23 @@ void positions(const Point<T>& at, T* side, T* down) {
 }
 
 /// Derivative of the positions along `along`.
-/// 10 additions, 18 multiplications, 0 divisions, 6 functions
+/// 10 additions, 18 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T d_span_side_1 = length[1] * cosine_1 * d_theta[1] + sine_1 * d_length[1];
-  const T d_span_down_1 = cosine_1 * d_length[1] - length[1] * sine_1 * d_theta[1];
-  const T d_span_side_2 = length[2] * cosine_2 * d_theta[2] + sine_2 * d_length[2];
+  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
   const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
-  const T d_span_down_2 = cosine_2 * d_length[2] - length[2] * sine_2 * d_theta[2];
+  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
   const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_side_3 = length[3] * cosine_3 * d_theta[3] + sine_3 * d_length[3];
+  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
   const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
-  const T d_span_down_3 = cosine_3 * d_length[3] - length[3] * sine_3 * d_theta[3];
+  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
   const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
   dside[0] = T(0);
   ddown[0] = T(0);
@@ -1095,28 +1039,23 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
 }
 
 /// Velocities of the same points, m/s.
-/// 4 additions, 12 multiplications, 0 divisions, 6 functions
+/// 4 additions, 12 multiplications, 0 divisions, 0 functions
 template <class T>
 void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T joint_side_velocity_1 = span_side_velocity_1;
   const T joint_down_velocity_1 = span_down_velocity_1;
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T joint_side_velocity_2 = span_side_velocity_2 + joint_side_velocity_1;
   const T joint_down_velocity_2 = span_down_velocity_2 + joint_down_velocity_1;
-  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine_3;
-  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine_3;
+  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine[3];
+  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine[3];
   const T joint_side_velocity_3 = span_side_velocity_3 + joint_side_velocity_2;
   const T joint_down_velocity_3 = span_down_velocity_3 + joint_down_velocity_2;
   side_rate[0] = T(0);
@@ -1132,7 +1071,7 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 38 additions, 52 multiplications, 3 divisions, 6 functions
+/// 38 additions, 52 multiplications, 3 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1144,16 +1083,12 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
@@ -1161,10 +1096,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -1173,10 +1108,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -1206,9 +1141,9 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   moment[0] = -joint_moment_1;
   moment[1] = -joint_moment_2;
   moment[2] = -joint_moment_3;
-  tension[0] = -(sine_1 * cut_force_side_1 + cosine_1 * cut_force_down_1);
-  tension[1] = -(sine_2 * cut_force_side_2 + cosine_2 * cut_force_down_2);
-  tension[2] = -(sine_3 * cut_force_side_3 + cosine_3 * cut_force_down_3);
+  tension[0] = -(sine[1] * cut_force_side_1 + cosine[1] * cut_force_down_1);
+  tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
+  tension[2] = -(sine[3] * cut_force_side_3 + cosine[3] * cut_force_down_3);
   curvature[0] = theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
   curvature[2] = T(2) * (theta[3] - theta[2]) / curvature_divisor_3;

@@ -69,45 +69,53 @@ const catena_energy kEnergyTable[] = {
     {"torque", CATENA_SUPPLIED},
 };
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give
+// the same bits.
+#define CATENA_EACH_PROCESSOR __attribute__((target_clones("avx2", "default"), flatten))
+#else
+#define CATENA_EACH_PROCESSOR
+#endif
+
 Point<double> point(const catena_point* p) {
   return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};
 }
 
-void c_residual(const catena_point* at, double* r) { residual(point(at), r); }
-void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
+CATENA_EACH_PROCESSOR void c_residual(const catena_point* at, double* r) { residual(point(at), r); }
+CATENA_EACH_PROCESSOR void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
   residual_tangent(point(at), point(along), dr);
 }
-void c_residual_term(const catena_point* at, int32_t term, double* r) {
+CATENA_EACH_PROCESSOR void c_residual_term(const catena_point* at, int32_t term, double* r) {
   residual_term(point(at), term, r);
 }
-void c_bias(const catena_point* at, double* h) { bias(point(at), h); }
-void c_mass_matrix(const catena_point* at, double* mass) {
+CATENA_EACH_PROCESSOR void c_bias(const catena_point* at, double* h) { bias(point(at), h); }
+CATENA_EACH_PROCESSOR void c_mass_matrix(const catena_point* at, double* mass) {
   mass_matrix(point(at), mass);
 }
-int32_t c_acceleration(const catena_point* at, double* a) {
+CATENA_EACH_PROCESSOR int32_t c_acceleration(const catena_point* at, double* a) {
   return acceleration(point(at), a);
 }
-int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
+CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
                         double* work) {
   auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);
   newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();
 }
-void c_newton_solve(const double* work, double* x) {
+CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
   reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
 }
-void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
-void c_positions(const catena_point* at, double* side, double* down) {
+CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
+CATENA_EACH_PROCESSOR void c_positions(const catena_point* at, double* side, double* down) {
   positions(point(at), side, down);
 }
-void c_positions_tangent(const catena_point* at, const catena_point* along,
+CATENA_EACH_PROCESSOR void c_positions_tangent(const catena_point* at, const catena_point* along,
                          double* dside, double* ddown) {
   positions_tangent(point(at), point(along), dside, ddown);
 }
-void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {
+CATENA_EACH_PROCESSOR void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {
   velocities(point(at), side_rate, down_rate);
 }
-void c_internal_forces(const catena_point* at, double* moment, double* tension,
+CATENA_EACH_PROCESSOR void c_internal_forces(const catena_point* at, double* moment, double* tension,
                        double* curvature) {
   internal_forces(point(at), moment, tension, curvature);
 }

@@ -39,7 +39,7 @@ template <class T>
 using NewtonMatrix = Quasiseparable<T, kLinks, 2, 2>;
 
 /// r(t, q, v, a, z, u, p), the inverse dynamics.
-/// 68 additions, 82 multiplications, 0 divisions, 8 functions
+/// 68 additions, 82 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
@@ -53,28 +53,22 @@ void residual(const Point<T>& at, T* r) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -83,10 +77,10 @@ void residual(const Point<T>& at, T* r) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -95,10 +89,10 @@ void residual(const Point<T>& at, T* r) {
   const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
   const T joint_angle_3 = theta[3] - theta[2];
   const T joint_rate_3 = theta_dot[3] - theta_dot[2];
-  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine_4
-      - theta_dot[4] * theta_dot[4] * sine_4);
-  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine_4
-      + theta_ddot[4] * sine_4);
+  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]);
+  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
   const T centre_side_acceleration_4 = ratio<T>(1, 2) * span_side_acceleration_4
       + joint_side_acceleration_3;
   const T centre_down_acceleration_4 = ratio<T>(1, 2) * span_down_acceleration_4
@@ -136,17 +130,17 @@ void residual(const Point<T>& at, T* r) {
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
   r[0] = inertia[1] * theta_ddot[1] - torque[1] + joint_moment_1 - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_1 - sine_1 * span_down_force_1);
+      + length[1] * (cosine[1] * span_side_force_1 - sine[1] * span_down_force_1);
   r[1] = inertia[2] * theta_ddot[2] - torque[2] + joint_moment_2 - joint_moment_3
-      + length[2] * (cosine_2 * span_side_force_2 - sine_2 * span_down_force_2);
+      + length[2] * (cosine[2] * span_side_force_2 - sine[2] * span_down_force_2);
   r[2] = inertia[3] * theta_ddot[3] - torque[3] + joint_moment_3 - joint_moment_4
-      + length[3] * (cosine_3 * span_side_force_3 - sine_3 * span_down_force_3);
+      + length[3] * (cosine[3] * span_side_force_3 - sine[3] * span_down_force_3);
   r[3] = inertia[4] * theta_ddot[4] - torque[4] + joint_moment_4
-      + length[4] * (cosine_4 * span_side_force_4 - sine_4 * span_down_force_4);
+      + length[4] * (cosine[4] * span_side_force_4 - sine[4] * span_down_force_4);
 }
 
 /// Derivative of r along `along`.
-/// 188 additions, 254 multiplications, 0 divisions, 8 functions
+/// 188 additions, 254 multiplications, 0 divisions, 0 functions
 template <class T>
 void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> length(at.p);
@@ -159,6 +153,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_mass(along.p + 4);
   const FromOne<T> d_inertia(along.p + 8);
@@ -170,28 +166,20 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -200,10 +188,10 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -212,10 +200,10 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
   const T joint_angle_3 = theta[3] - theta[2];
   const T joint_rate_3 = theta_dot[3] - theta_dot[2];
-  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine_4
-      - theta_dot[4] * theta_dot[4] * sine_4);
-  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine_4
-      + theta_ddot[4] * sine_4);
+  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]);
+  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
   const T centre_side_acceleration_4 = ratio<T>(1, 2) * span_side_acceleration_4
       + joint_side_acceleration_3;
   const T centre_down_acceleration_4 = ratio<T>(1, 2) * span_down_acceleration_4
@@ -254,24 +242,24 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
   const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine_1
-      * d_theta[1] - T(2) * cosine_1 * d_theta_dot[1]) - (theta_ddot[1] * cosine_1 * d_theta[1]
-      + sine_1 * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine_2
-      * d_theta[2] - T(2) * cosine_2 * d_theta_dot[2]) - (theta_ddot[2] * cosine_2 * d_theta[2]
-      + sine_2 * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+      * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
+      + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+      * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
+      + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine_3
-      * d_theta[3] - T(2) * cosine_3 * d_theta_dot[3]) - (theta_ddot[3] * cosine_3 * d_theta[3]
-      + sine_3 * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+      * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
+      + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
-  const T d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine_4
-      * d_theta[4] - T(2) * cosine_4 * d_theta_dot[4]) - (theta_ddot[4] * cosine_4 * d_theta[4]
-      + sine_4 * d_theta_ddot[4])) - d_length[4] * (theta_dot[4] * theta_dot[4] * cosine_4
-      + theta_ddot[4] * sine_4);
+  const T d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine[4]
+      * d_theta[4] - T(2) * cosine[4] * d_theta_dot[4]) - (theta_ddot[4] * cosine[4] * d_theta[4]
+      + sine[4] * d_theta_ddot[4])) - d_length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
   const T d_joint_down_acceleration_4 = d_span_down_acceleration_4 + d_joint_down_acceleration_3;
   const T d_cut_force_down_5 = d_load_mass * (joint_down_acceleration_4 - gravity)
       + load_mass * (d_joint_down_acceleration_4 - d_gravity);
@@ -294,24 +282,24 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
   const T d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1) + length[1] * (cosine_1 * d_theta_ddot[1]
-      - theta_ddot[1] * sine_1 * d_theta[1] - theta_dot[1] * (T(2) * sine_1 * d_theta_dot[1]
-      + theta_dot[1] * cosine_1 * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2) + length[2] * (cosine_2 * d_theta_ddot[2]
-      - theta_ddot[2] * sine_2 * d_theta[2] - theta_dot[2] * (T(2) * sine_2 * d_theta_dot[2]
-      + theta_dot[2] * cosine_2 * d_theta[2]));
+  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
+      - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
+      + theta_dot[1] * cosine[1] * d_theta[1]));
+  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
+      - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
+      + theta_dot[2] * cosine[2] * d_theta[2]));
   const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3) + length[3] * (cosine_3 * d_theta_ddot[3]
-      - theta_ddot[3] * sine_3 * d_theta[3] - theta_dot[3] * (T(2) * sine_3 * d_theta_dot[3]
-      + theta_dot[3] * cosine_3 * d_theta[3]));
+  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
+      - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
+      + theta_dot[3] * cosine[3] * d_theta[3]));
   const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
-  const T d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine_4
-      - theta_dot[4] * theta_dot[4] * sine_4) + length[4] * (cosine_4 * d_theta_ddot[4]
-      - theta_ddot[4] * sine_4 * d_theta[4] - theta_dot[4] * (T(2) * sine_4 * d_theta_dot[4]
-      + theta_dot[4] * cosine_4 * d_theta[4]));
+  const T d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]) + length[4] * (cosine[4] * d_theta_ddot[4]
+      - theta_ddot[4] * sine[4] * d_theta[4] - theta_dot[4] * (T(2) * sine[4] * d_theta_dot[4]
+      + theta_dot[4] * cosine[4] * d_theta[4]));
   const T d_joint_side_acceleration_4 = d_span_side_acceleration_4 + d_joint_side_acceleration_3;
   const T d_cut_force_side_5 = load_mass * d_joint_side_acceleration_4
       + joint_side_acceleration_4 * d_load_mass;
@@ -349,53 +337,46 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T d_span_down_force_4 = d_cut_force_down_5 + ratio<T>(1, 2) * d_centre_down_force_4;
   const T d_span_side_force_4 = d_cut_force_side_5 + ratio<T>(1, 2) * d_centre_side_force_4;
   dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
-      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine_1 * span_side_force_1
-      - sine_1 * span_down_force_1) + length[1] * (cosine_1 * (d_span_side_force_1
-      - span_down_force_1 * d_theta[1]) - sine_1 * (span_side_force_1 * d_theta[1]
+      + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine[1] * span_side_force_1
+      - sine[1] * span_down_force_1) + length[1] * (cosine[1] * (d_span_side_force_1
+      - span_down_force_1 * d_theta[1]) - sine[1] * (span_side_force_1 * d_theta[1]
       + d_span_down_force_1));
   dr[1] = inertia[2] * d_theta_ddot[2] + theta_ddot[2] * d_inertia[2] - d_torque[2]
-      + d_joint_moment_2 - d_joint_moment_3 + d_length[2] * (cosine_2 * span_side_force_2
-      - sine_2 * span_down_force_2) + length[2] * (cosine_2 * (d_span_side_force_2
-      - span_down_force_2 * d_theta[2]) - sine_2 * (span_side_force_2 * d_theta[2]
+      + d_joint_moment_2 - d_joint_moment_3 + d_length[2] * (cosine[2] * span_side_force_2
+      - sine[2] * span_down_force_2) + length[2] * (cosine[2] * (d_span_side_force_2
+      - span_down_force_2 * d_theta[2]) - sine[2] * (span_side_force_2 * d_theta[2]
       + d_span_down_force_2));
   dr[2] = inertia[3] * d_theta_ddot[3] + theta_ddot[3] * d_inertia[3] - d_torque[3]
-      + d_joint_moment_3 - d_joint_moment_4 + d_length[3] * (cosine_3 * span_side_force_3
-      - sine_3 * span_down_force_3) + length[3] * (cosine_3 * (d_span_side_force_3
-      - span_down_force_3 * d_theta[3]) - sine_3 * (span_side_force_3 * d_theta[3]
+      + d_joint_moment_3 - d_joint_moment_4 + d_length[3] * (cosine[3] * span_side_force_3
+      - sine[3] * span_down_force_3) + length[3] * (cosine[3] * (d_span_side_force_3
+      - span_down_force_3 * d_theta[3]) - sine[3] * (span_side_force_3 * d_theta[3]
       + d_span_down_force_3));
   dr[3] = inertia[4] * d_theta_ddot[4] + theta_ddot[4] * d_inertia[4] - d_torque[4]
-      + d_joint_moment_4 + d_length[4] * (cosine_4 * span_side_force_4
-      - sine_4 * span_down_force_4) + length[4] * (cosine_4 * (d_span_side_force_4
-      - span_down_force_4 * d_theta[4]) - sine_4 * (span_side_force_4 * d_theta[4]
+      + d_joint_moment_4 + d_length[4] * (cosine[4] * span_side_force_4
+      - sine[4] * span_down_force_4) + length[4] * (cosine[4] * (d_span_side_force_4
+      - span_down_force_4 * d_theta[4]) - sine[4] * (span_side_force_4 * d_theta[4]
       + d_span_down_force_4));
 }
 
 /// The term inertia of r alone.
-/// 34 additions, 58 multiplications, 0 divisions, 8 functions
+/// 34 additions, 58 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_inertia(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const FromOne<T> inertia(at.p + 8);
   const T load_mass = at.p[24];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine_1;
-  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine_2;
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_inertial_1 = -length[1] * theta_ddot[1] * sine[1];
+  const T span_down_acceleration_inertial_2 = -length[2] * theta_ddot[2] * sine[2];
   const T joint_down_acceleration_inertial_2 = span_down_acceleration_inertial_1
       + span_down_acceleration_inertial_2;
-  const T span_down_acceleration_inertial_3 = -length[3] * theta_ddot[3] * sine_3;
+  const T span_down_acceleration_inertial_3 = -length[3] * theta_ddot[3] * sine[3];
   const T joint_down_acceleration_inertial_3 = span_down_acceleration_inertial_3
       + joint_down_acceleration_inertial_2;
-  const T span_down_acceleration_inertial_4 = -length[4] * theta_ddot[4] * sine_4;
+  const T span_down_acceleration_inertial_4 = -length[4] * theta_ddot[4] * sine[4];
   const T joint_down_acceleration_inertial_4 = span_down_acceleration_inertial_4
       + joint_down_acceleration_inertial_3;
   const T cut_force_down_inertial_5 = load_mass * joint_down_acceleration_inertial_4;
@@ -415,14 +396,14 @@ void term_inertia(const Point<T>& at, T* r) {
   const T centre_down_force_inertial_1 = mass[1] * centre_down_acceleration_inertial_1;
   const T span_down_force_inertial_1 = cut_force_down_inertial_2
       + ratio<T>(1, 2) * centre_down_force_inertial_1;
-  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine_1;
-  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine_2;
+  const T span_side_acceleration_inertial_1 = length[1] * theta_ddot[1] * cosine[1];
+  const T span_side_acceleration_inertial_2 = length[2] * theta_ddot[2] * cosine[2];
   const T joint_side_acceleration_inertial_2 = span_side_acceleration_inertial_1
       + span_side_acceleration_inertial_2;
-  const T span_side_acceleration_inertial_3 = length[3] * theta_ddot[3] * cosine_3;
+  const T span_side_acceleration_inertial_3 = length[3] * theta_ddot[3] * cosine[3];
   const T joint_side_acceleration_inertial_3 = span_side_acceleration_inertial_3
       + joint_side_acceleration_inertial_2;
-  const T span_side_acceleration_inertial_4 = length[4] * theta_ddot[4] * cosine_4;
+  const T span_side_acceleration_inertial_4 = length[4] * theta_ddot[4] * cosine[4];
   const T joint_side_acceleration_inertial_4 = span_side_acceleration_inertial_4
       + joint_side_acceleration_inertial_3;
   const T cut_force_side_inertial_5 = load_mass * joint_side_acceleration_inertial_4;
@@ -454,41 +435,34 @@ void term_inertia(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_inertial_4;
   const T span_side_force_inertial_4 = cut_force_side_inertial_5
       + ratio<T>(1, 2) * centre_side_force_inertial_4;
-  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine_1 * span_side_force_inertial_1
-      - sine_1 * span_down_force_inertial_1);
-  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine_2 * span_side_force_inertial_2
-      - sine_2 * span_down_force_inertial_2);
-  r[2] = inertia[3] * theta_ddot[3] + length[3] * (cosine_3 * span_side_force_inertial_3
-      - sine_3 * span_down_force_inertial_3);
-  r[3] = inertia[4] * theta_ddot[4] + length[4] * (cosine_4 * span_side_force_inertial_4
-      - sine_4 * span_down_force_inertial_4);
+  r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine[1] * span_side_force_inertial_1
+      - sine[1] * span_down_force_inertial_1);
+  r[1] = inertia[2] * theta_ddot[2] + length[2] * (cosine[2] * span_side_force_inertial_2
+      - sine[2] * span_down_force_inertial_2);
+  r[2] = inertia[3] * theta_ddot[3] + length[3] * (cosine[3] * span_side_force_inertial_3
+      - sine[3] * span_down_force_inertial_3);
+  r[3] = inertia[4] * theta_ddot[4] + length[4] * (cosine[4] * span_side_force_inertial_4
+      - sine[4] * span_down_force_inertial_4);
 }
 
 /// The term coriolis of r alone.
-/// 30 additions, 62 multiplications, 0 divisions, 8 functions
+/// 30 additions, 62 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_coriolis(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const T load_mass = at.p[24];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine_4;
+  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine[4];
   const T joint_down_acceleration_bias_4 = span_down_acceleration_bias_4
       + joint_down_acceleration_bias_3;
   const T cut_force_down_bias_5 = load_mass * joint_down_acceleration_bias_4;
@@ -508,14 +482,14 @@ void term_coriolis(const Point<T>& at, T* r) {
   const T centre_down_force_bias_1 = mass[1] * centre_down_acceleration_bias_1;
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine_4;
+  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine[4];
   const T joint_side_acceleration_bias_4 = span_side_acceleration_bias_4
       + joint_side_acceleration_bias_3;
   const T cut_force_side_bias_5 = load_mass * joint_side_acceleration_bias_4;
@@ -547,25 +521,22 @@ void term_coriolis(const Point<T>& at, T* r) {
       + ratio<T>(1, 2) * centre_down_force_bias_4;
   const T span_side_force_bias_4 = cut_force_side_bias_5
       + ratio<T>(1, 2) * centre_side_force_bias_4;
-  r[0] = length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
-  r[1] = length[2] * (cosine_2 * span_side_force_bias_2 - sine_2 * span_down_force_bias_2);
-  r[2] = length[3] * (cosine_3 * span_side_force_bias_3 - sine_3 * span_down_force_bias_3);
-  r[3] = length[4] * (cosine_4 * span_side_force_bias_4 - sine_4 * span_down_force_bias_4);
+  r[0] = length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
+  r[1] = length[2] * (cosine[2] * span_side_force_bias_2 - sine[2] * span_down_force_bias_2);
+  r[2] = length[3] * (cosine[3] * span_side_force_bias_3 - sine[3] * span_down_force_bias_3);
+  r[3] = length[4] * (cosine[4] * span_side_force_bias_4 - sine[4] * span_down_force_bias_4);
 }
 
 /// The term gravity of r alone.
-/// 7 additions, 17 multiplications, 0 divisions, 4 functions
+/// 7 additions, 17 multiplications, 0 divisions, 0 functions
 template <class T>
 void term_gravity(const Point<T>& at, T* r) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const T load_mass = at.p[24];
   const T gravity = at.p[25];
-  const FromOne<T> theta(at.q);
-  const T sine_1 = sin(theta[1]);
-  const T sine_2 = sin(theta[2]);
-  const T sine_3 = sin(theta[3]);
-  const T sine_4 = sin(theta[4]);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const T cut_force_down_5 = -load_mass * gravity;
   const T centre_down_force_4 = -mass[4] * gravity;
   const T span_down_force_4 = cut_force_down_5 + ratio<T>(1, 2) * centre_down_force_4;
@@ -578,10 +549,10 @@ void term_gravity(const Point<T>& at, T* r) {
   const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
   const T centre_down_force_1 = -mass[1] * gravity;
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
-  r[0] = -length[1] * sine_1 * span_down_force_1;
-  r[1] = -length[2] * sine_2 * span_down_force_2;
-  r[2] = -length[3] * sine_3 * span_down_force_3;
-  r[3] = -length[4] * sine_4 * span_down_force_4;
+  r[0] = -length[1] * sine[1] * span_down_force_1;
+  r[1] = -length[2] * sine[2] * span_down_force_2;
+  r[2] = -length[3] * sine[3] * span_down_force_3;
+  r[3] = -length[4] * sine[4] * span_down_force_4;
 }
 
 /// The term elastic of r alone.
@@ -655,7 +626,7 @@ void residual_term(const Point<T>& at, int term, T* r) {
 }
 
 /// r with a = 0.
-/// 56 additions, 70 multiplications, 0 divisions, 8 functions
+/// 56 additions, 70 multiplications, 0 divisions, 0 functions
 template <class T>
 void bias(const Point<T>& at, T* h) {
   const FromOne<T> length(at.p);
@@ -667,14 +638,8 @@ void bias(const Point<T>& at, T* h) {
   const T gravity = at.p[25];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
@@ -687,14 +652,14 @@ void bias(const Point<T>& at, T* h) {
   const T joint_moment_3 = stiffness[3] * joint_angle_3 + damping[3] * joint_rate_3;
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine_4;
+  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine[4];
   const T joint_down_acceleration_bias_4 = span_down_acceleration_bias_4
       + joint_down_acceleration_bias_3;
   const T cut_force_down_bias_5 = load_mass * (joint_down_acceleration_bias_4 - gravity);
@@ -714,14 +679,14 @@ void bias(const Point<T>& at, T* h) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine_4;
+  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine[4];
   const T joint_side_acceleration_bias_4 = span_side_acceleration_bias_4
       + joint_side_acceleration_bias_3;
   const T cut_force_side_bias_5 = load_mass * joint_side_acceleration_bias_4;
@@ -754,17 +719,17 @@ void bias(const Point<T>& at, T* h) {
   const T span_side_force_bias_4 = cut_force_side_bias_5
       + ratio<T>(1, 2) * centre_side_force_bias_4;
   h[0] = joint_moment_1 - torque[1] - joint_moment_2
-      + length[1] * (cosine_1 * span_side_force_bias_1 - sine_1 * span_down_force_bias_1);
+      + length[1] * (cosine[1] * span_side_force_bias_1 - sine[1] * span_down_force_bias_1);
   h[1] = joint_moment_2 - torque[2] - joint_moment_3
-      + length[2] * (cosine_2 * span_side_force_bias_2 - sine_2 * span_down_force_bias_2);
+      + length[2] * (cosine[2] * span_side_force_bias_2 - sine[2] * span_down_force_bias_2);
   h[2] = joint_moment_3 - torque[3] - joint_moment_4
-      + length[3] * (cosine_3 * span_side_force_bias_3 - sine_3 * span_down_force_bias_3);
-  h[3] = joint_moment_4 - torque[4] + length[4] * (cosine_4 * span_side_force_bias_4
-      - sine_4 * span_down_force_bias_4);
+      + length[3] * (cosine[3] * span_side_force_bias_3 - sine[3] * span_down_force_bias_3);
+  h[3] = joint_moment_4 - torque[4] + length[4] * (cosine[4] * span_side_force_bias_4
+      - sine[4] * span_down_force_bias_4);
 }
 
 /// M, row by row.
-/// 17 additions, 42 multiplications, 0 divisions, 8 functions
+/// 17 additions, 42 multiplications, 0 divisions, 0 functions
 template <class T>
 void mass_matrix(const Point<T>& at, T* M) {
   MassMatrix<T> matrix;
@@ -772,40 +737,33 @@ void mass_matrix(const Point<T>& at, T* M) {
   const FromOne<T> mass(at.p + 4);
   const FromOne<T> inertia(at.p + 8);
   const T load_mass = at.p[24];
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
-  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine_3;
-  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine_3;
-  const T mass_joint_down_acceleration_gain_4 = -length[4] * sine_4;
-  const T mass_joint_side_acceleration_gain_4 = length[4] * cosine_4;
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
+  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine[3];
+  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine[3];
+  const T mass_joint_down_acceleration_gain_4 = -length[4] * sine[4];
+  const T mass_joint_side_acceleration_gain_4 = length[4] * cosine[4];
   const T mass_cut_force_down_per_joint_down_acceleration_4 = mass[4] + load_mass;
   const T mass_cut_force_down_per_joint_down_acceleration_3 = mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4;
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.row[3][0] = -length[4] * sine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
-  matrix.row[3][1] = length[4] * cosine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.row[3][0] = -length[4] * sine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.row[3][1] = length[4] * cosine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -825,7 +783,7 @@ void mass_matrix(const Point<T>& at, T* M) {
 }
 
 /// a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.
-/// 73 additions, 112 multiplications, 0 divisions, 8 functions
+/// 73 additions, 112 multiplications, 0 divisions, 0 functions
 template <class T>
 int acceleration(const Point<T>& at, T* a) {
   MassMatrix<T> matrix;
@@ -839,14 +797,8 @@ int acceleration(const Point<T>& at, T* a) {
   const T gravity = at.p[25];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T joint_angle_2 = theta[2] - theta[1];
@@ -859,14 +811,14 @@ int acceleration(const Point<T>& at, T* a) {
   const T joint_moment_3 = stiffness[3] * joint_angle_3 + damping[3] * joint_rate_3;
   const T joint_moment_2 = stiffness[2] * joint_angle_2 + damping[2] * joint_rate_2;
   const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
-  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine_1;
-  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine_2;
+  const T span_down_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+  const T span_down_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
   const T joint_down_acceleration_bias_2 = span_down_acceleration_bias_1
       + span_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine_3;
+  const T span_down_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * cosine[3];
   const T joint_down_acceleration_bias_3 = span_down_acceleration_bias_3
       + joint_down_acceleration_bias_2;
-  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine_4;
+  const T span_down_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * cosine[4];
   const T joint_down_acceleration_bias_4 = span_down_acceleration_bias_4
       + joint_down_acceleration_bias_3;
   const T cut_force_down_bias_5 = load_mass * (joint_down_acceleration_bias_4 - gravity);
@@ -886,14 +838,14 @@ int acceleration(const Point<T>& at, T* a) {
   const T centre_down_force_bias_1 = mass[1] * (centre_down_acceleration_bias_1 - gravity);
   const T span_down_force_bias_1 = cut_force_down_bias_2
       + ratio<T>(1, 2) * centre_down_force_bias_1;
-  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine_1;
-  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine_2;
+  const T span_side_acceleration_bias_1 = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  const T span_side_acceleration_bias_2 = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
   const T joint_side_acceleration_bias_2 = span_side_acceleration_bias_1
       + span_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine_3;
+  const T span_side_acceleration_bias_3 = -length[3] * theta_dot[3] * theta_dot[3] * sine[3];
   const T joint_side_acceleration_bias_3 = span_side_acceleration_bias_3
       + joint_side_acceleration_bias_2;
-  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine_4;
+  const T span_side_acceleration_bias_4 = -length[4] * theta_dot[4] * theta_dot[4] * sine[4];
   const T joint_side_acceleration_bias_4 = span_side_acceleration_bias_4
       + joint_side_acceleration_bias_3;
   const T cut_force_side_bias_5 = load_mass * joint_side_acceleration_bias_4;
@@ -925,31 +877,31 @@ int acceleration(const Point<T>& at, T* a) {
       + ratio<T>(1, 2) * centre_down_force_bias_4;
   const T span_side_force_bias_4 = cut_force_side_bias_5
       + ratio<T>(1, 2) * centre_side_force_bias_4;
-  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine_1;
-  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine_1;
-  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine_2;
-  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine_2;
-  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine_3;
-  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine_3;
-  const T mass_joint_down_acceleration_gain_4 = -length[4] * sine_4;
-  const T mass_joint_side_acceleration_gain_4 = length[4] * cosine_4;
+  const T mass_joint_down_acceleration_gain_1 = -length[1] * sine[1];
+  const T mass_joint_side_acceleration_gain_1 = length[1] * cosine[1];
+  const T mass_joint_down_acceleration_gain_2 = -length[2] * sine[2];
+  const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
+  const T mass_joint_down_acceleration_gain_3 = -length[3] * sine[3];
+  const T mass_joint_side_acceleration_gain_3 = length[3] * cosine[3];
+  const T mass_joint_down_acceleration_gain_4 = -length[4] * sine[4];
+  const T mass_joint_side_acceleration_gain_4 = length[4] * cosine[4];
   const T mass_cut_force_down_per_joint_down_acceleration_4 = mass[4] + load_mass;
   const T mass_cut_force_down_per_joint_down_acceleration_3 = mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4;
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
-  matrix.row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.row[3][0] = -length[4] * sine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
-  matrix.row[3][1] = length[4] * cosine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.row[3][0] = -length[4] * sine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.row[3][1] = length[4] * cosine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
   matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
   matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
@@ -966,20 +918,18 @@ int acceleration(const Point<T>& at, T* a) {
       + mass_cut_force_down_per_joint_down_acceleration_4);
   matrix.diagonal[3] = inertia[4] + length[4] * length[4] * (ratio<T>(1, 4) * mass[4] + load_mass);
   a[0] = torque[1] - joint_moment_1 + joint_moment_2
-      + length[1] * (sine_1 * span_down_force_bias_1 - cosine_1 * span_side_force_bias_1);
+      + length[1] * (sine[1] * span_down_force_bias_1 - cosine[1] * span_side_force_bias_1);
   a[1] = torque[2] - joint_moment_2 + joint_moment_3
-      + length[2] * (sine_2 * span_down_force_bias_2 - cosine_2 * span_side_force_bias_2);
+      + length[2] * (sine[2] * span_down_force_bias_2 - cosine[2] * span_side_force_bias_2);
   a[2] = torque[3] - joint_moment_3 + joint_moment_4
-      + length[3] * (sine_3 * span_down_force_bias_3 - cosine_3 * span_side_force_bias_3);
-  a[3] = torque[4] - joint_moment_4 + length[4] * (sine_4 * span_down_force_bias_4
-      - cosine_4 * span_side_force_bias_4);
-  const int failed = matrix.factor();
-  if (failed == 0) matrix.solve(a);
-  return failed;
+      + length[3] * (sine[3] * span_down_force_bias_3 - cosine[3] * span_side_force_bias_3);
+  a[3] = torque[4] - joint_moment_4 + length[4] * (sine[4] * span_down_force_bias_4
+      - cosine[4] * span_side_force_bias_4);
+  return matrix.solve_in_place(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).
-/// 146 additions, 320 multiplications, 0 divisions, 8 functions
+/// 146 additions, 320 multiplications, 0 divisions, 0 functions
 template <class T>
 void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
                    NewtonMatrix<T>& matrix) {
@@ -990,52 +940,42 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const FromOne<T> damping(at.p + 16);
   const T load_mass = at.p[24];
   const T gravity = at.p[25];
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  
-  
-  
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
   const T joint_down_acceleration_1 = span_down_acceleration_1;
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
       + joint_down_acceleration_1;
   const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
       + joint_down_acceleration_2;
   const T joint_side_acceleration_3 = span_side_acceleration_3 + joint_side_acceleration_2;
   const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
-  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine_4
-      - theta_dot[4] * theta_dot[4] * sine_4);
-  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine_4
-      + theta_ddot[4] * sine_4);
+  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]);
+  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
   const T centre_side_acceleration_4 = ratio<T>(1, 2) * span_side_acceleration_4
       + joint_side_acceleration_3;
   const T centre_down_acceleration_4 = ratio<T>(1, 2) * span_down_acceleration_4
@@ -1072,31 +1012,31 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
   const T newton_joint_down_acceleration_gain_1 = length[1] * (theta_dot[1] * (theta_dot[1]
-      * sine_1 * cq - T(2) * cosine_1 * cv) - (theta_ddot[1] * cosine_1 * cq + sine_1 * ca));
-  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine_1 * ca
-      - theta_ddot[1] * sine_1 * cq - theta_dot[1] * (T(2) * sine_1 * cv
-      + theta_dot[1] * cosine_1 * cq));
+      * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+  const T newton_joint_side_acceleration_gain_1 = length[1] * (cosine[1] * ca
+      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+      + theta_dot[1] * cosine[1] * cq));
   const T newton_joint_down_acceleration_gain_2 = length[2] * (theta_dot[2] * (theta_dot[2]
-      * sine_2 * cq - T(2) * cosine_2 * cv) - (theta_ddot[2] * cosine_2 * cq + sine_2 * ca));
-  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine_2 * ca
-      - theta_ddot[2] * sine_2 * cq - theta_dot[2] * (T(2) * sine_2 * cv
-      + theta_dot[2] * cosine_2 * cq));
+      * sine[2] * cq - T(2) * cosine[2] * cv) - (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
+  const T newton_joint_side_acceleration_gain_2 = length[2] * (cosine[2] * ca
+      - theta_ddot[2] * sine[2] * cq - theta_dot[2] * (T(2) * sine[2] * cv
+      + theta_dot[2] * cosine[2] * cq));
   const T newton_joint_down_acceleration_gain_3 = length[3] * (theta_dot[3] * (theta_dot[3]
-      * sine_3 * cq - T(2) * cosine_3 * cv) - (theta_ddot[3] * cosine_3 * cq + sine_3 * ca));
-  const T newton_joint_side_acceleration_gain_3 = length[3] * (cosine_3 * ca
-      - theta_ddot[3] * sine_3 * cq - theta_dot[3] * (T(2) * sine_3 * cv
-      + theta_dot[3] * cosine_3 * cq));
+      * sine[3] * cq - T(2) * cosine[3] * cv) - (theta_ddot[3] * cosine[3] * cq + sine[3] * ca));
+  const T newton_joint_side_acceleration_gain_3 = length[3] * (cosine[3] * ca
+      - theta_ddot[3] * sine[3] * cq - theta_dot[3] * (T(2) * sine[3] * cv
+      + theta_dot[3] * cosine[3] * cq));
   const T newton_joint_down_acceleration_gain_4 = length[4] * (theta_dot[4] * (theta_dot[4]
-      * sine_4 * cq - T(2) * cosine_4 * cv) - (theta_ddot[4] * cosine_4 * cq + sine_4 * ca));
-  const T newton_joint_side_acceleration_gain_4 = length[4] * (cosine_4 * ca
-      - theta_ddot[4] * sine_4 * cq - theta_dot[4] * (T(2) * sine_4 * cv
-      + theta_dot[4] * cosine_4 * cq));
-  matrix.upper_row[0][0] = -length[1] * sine_1;
-  matrix.upper_row[0][1] = length[1] * cosine_1;
-  matrix.upper_row[1][0] = -length[2] * sine_2;
-  matrix.upper_row[1][1] = length[2] * cosine_2;
-  matrix.upper_row[2][0] = -length[3] * sine_3;
-  matrix.upper_row[2][1] = length[3] * cosine_3;
+      * sine[4] * cq - T(2) * cosine[4] * cv) - (theta_ddot[4] * cosine[4] * cq + sine[4] * ca));
+  const T newton_joint_side_acceleration_gain_4 = length[4] * (cosine[4] * ca
+      - theta_ddot[4] * sine[4] * cq - theta_dot[4] * (T(2) * sine[4] * cv
+      + theta_dot[4] * cosine[4] * cq));
+  matrix.upper_row[0][0] = -length[1] * sine[1];
+  matrix.upper_row[0][1] = length[1] * cosine[1];
+  matrix.upper_row[1][0] = -length[2] * sine[2];
+  matrix.upper_row[1][1] = length[2] * cosine[2];
+  matrix.upper_row[2][0] = -length[3] * sine[3];
+  matrix.upper_row[2][1] = length[3] * cosine[3];
   matrix.upper_row[3][0] = T(0);
   matrix.upper_row[3][1] = T(0);
   matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration_2
@@ -1105,41 +1045,42 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       * newton_joint_side_acceleration_gain_1;
   matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration_3
       * newton_joint_down_acceleration_gain_2
-      + length[2] * mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine_2 * cq
-      - cosine_2 * cv) - ratio<T>(1, 2) * (theta_ddot[2] * cosine_2 * cq + sine_2 * ca));
+      + length[2] * mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine[2] * cq
+      - cosine[2] * cv) - ratio<T>(1, 2) * (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
   matrix.upper_column[1][1] = mass_cut_force_down_per_joint_down_acceleration_3
       * newton_joint_side_acceleration_gain_2
-      + length[2] * mass[2] * (ratio<T>(1, 2) * (cosine_2 * ca - theta_ddot[2] * sine_2 * cq)
-      - theta_dot[2] * (sine_2 * cv + ratio<T>(1, 2) * theta_dot[2] * cosine_2 * cq));
+      + length[2] * mass[2] * (ratio<T>(1, 2) * (cosine[2] * ca - theta_ddot[2] * sine[2] * cq)
+      - theta_dot[2] * (sine[2] * cv + ratio<T>(1, 2) * theta_dot[2] * cosine[2] * cq));
   matrix.upper_column[2][0] = mass_cut_force_down_per_joint_down_acceleration_4
       * newton_joint_down_acceleration_gain_3
-      + length[3] * mass[3] * (theta_dot[3] * (ratio<T>(1, 2) * theta_dot[3] * sine_3 * cq
-      - cosine_3 * cv) - ratio<T>(1, 2) * (theta_ddot[3] * cosine_3 * cq + sine_3 * ca));
+      + length[3] * mass[3] * (theta_dot[3] * (ratio<T>(1, 2) * theta_dot[3] * sine[3] * cq
+      - cosine[3] * cv) - ratio<T>(1, 2) * (theta_ddot[3] * cosine[3] * cq + sine[3] * ca));
   matrix.upper_column[2][1] = mass_cut_force_down_per_joint_down_acceleration_4
       * newton_joint_side_acceleration_gain_3
-      + length[3] * mass[3] * (ratio<T>(1, 2) * (cosine_3 * ca - theta_ddot[3] * sine_3 * cq)
-      - theta_dot[3] * (sine_3 * cv + ratio<T>(1, 2) * theta_dot[3] * cosine_3 * cq));
-  matrix.upper_column[3][0] = length[4] * (load_mass * (theta_dot[4] * (theta_dot[4] * sine_4
-      * cq - T(2) * cosine_4 * cv) - (theta_ddot[4] * cosine_4 * cq + sine_4 * ca))
-      + mass[4] * (theta_dot[4] * (ratio<T>(1, 2) * theta_dot[4] * sine_4 * cq - cosine_4 * cv)
-      - ratio<T>(1, 2) * (theta_ddot[4] * cosine_4 * cq + sine_4 * ca)));
-  matrix.upper_column[3][1] = length[4] * (load_mass * (cosine_4 * ca
-      - theta_ddot[4] * sine_4 * cq - theta_dot[4] * (T(2) * sine_4 * cv
-      + theta_dot[4] * cosine_4 * cq)) + mass[4] * (ratio<T>(1, 2) * (cosine_4 * ca
-      - theta_ddot[4] * sine_4 * cq) - theta_dot[4] * (sine_4 * cv
-      + ratio<T>(1, 2) * theta_dot[4] * cosine_4 * cq)));
-  matrix.lower_row[0][0] = -length[1] * sine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[0][1] = length[1] * cosine_1 * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[1][0] = -length[2] * sine_2 * (ratio<T>(1, 2) * mass[2]
+      + length[3] * mass[3] * (ratio<T>(1, 2) * (cosine[3] * ca - theta_ddot[3] * sine[3] * cq)
+      - theta_dot[3] * (sine[3] * cv + ratio<T>(1, 2) * theta_dot[3] * cosine[3] * cq));
+  matrix.upper_column[3][0] = length[4] * (load_mass * (theta_dot[4] * (theta_dot[4] * sine[4]
+      * cq - T(2) * cosine[4] * cv) - (theta_ddot[4] * cosine[4] * cq + sine[4] * ca))
+      + mass[4] * (theta_dot[4] * (ratio<T>(1, 2) * theta_dot[4] * sine[4] * cq - cosine[4] * cv)
+      - ratio<T>(1, 2) * (theta_ddot[4] * cosine[4] * cq + sine[4] * ca)));
+  matrix.upper_column[3][1] = length[4] * (load_mass * (cosine[4] * ca
+      - theta_ddot[4] * sine[4] * cq - theta_dot[4] * (T(2) * sine[4] * cv
+      + theta_dot[4] * cosine[4] * cq)) + mass[4] * (ratio<T>(1, 2) * (cosine[4] * ca
+      - theta_ddot[4] * sine[4] * cq) - theta_dot[4] * (sine[4] * cv
+      + ratio<T>(1, 2) * theta_dot[4] * cosine[4] * cq)));
+  matrix.lower_row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[0][1] = length[1] * cosine[1]
+      * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.lower_row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.lower_row[1][1] = length[2] * cosine_2 * (ratio<T>(1, 2) * mass[2]
+  matrix.lower_row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.lower_row[2][0] = -length[3] * sine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.lower_row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.lower_row[2][1] = length[3] * cosine_3 * (ratio<T>(1, 2) * mass[3]
+  matrix.lower_row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3]
       + mass_cut_force_down_per_joint_down_acceleration_4);
-  matrix.lower_row[3][0] = -length[4] * sine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
-  matrix.lower_row[3][1] = length[4] * cosine_4 * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.lower_row[3][0] = -length[4] * sine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
+  matrix.lower_row[3][1] = length[4] * cosine[4] * (ratio<T>(1, 2) * mass[4] + load_mass);
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain_1;
   matrix.lower_column[0][1] = newton_joint_side_acceleration_gain_1;
   matrix.lower_column[1][0] = newton_joint_down_acceleration_gain_2;
@@ -1151,22 +1092,22 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
       + damping[2]) + length[1] * (length[1] * (mass_cut_force_down_per_joint_down_acceleration_2
       * (ca - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca
-      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine_1 * span_side_force_1
-      + cosine_1 * span_down_force_1));
+      - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine[1] * span_side_force_1
+      + cosine[1] * span_down_force_1));
   matrix.diagonal[1] = inertia[2] * ca + cq * (stiffness[2] + stiffness[3]) + cv * (damping[2]
       + damping[3]) + length[2] * (length[2] * (mass_cut_force_down_per_joint_down_acceleration_3
       * (ca - theta_dot[2] * theta_dot[2] * cq) + ratio<T>(1, 4) * mass[2] * (ca
-      - theta_dot[2] * theta_dot[2] * cq)) - cq * (sine_2 * span_side_force_2
-      + cosine_2 * span_down_force_2));
+      - theta_dot[2] * theta_dot[2] * cq)) - cq * (sine[2] * span_side_force_2
+      + cosine[2] * span_down_force_2));
   matrix.diagonal[2] = inertia[3] * ca + cq * (stiffness[3] + stiffness[4]) + cv * (damping[3]
       + damping[4]) + length[3] * (length[3] * (mass_cut_force_down_per_joint_down_acceleration_4
       * (ca - theta_dot[3] * theta_dot[3] * cq) + ratio<T>(1, 4) * mass[3] * (ca
-      - theta_dot[3] * theta_dot[3] * cq)) - cq * (sine_3 * span_side_force_3
-      + cosine_3 * span_down_force_3));
+      - theta_dot[3] * theta_dot[3] * cq)) - cq * (sine[3] * span_side_force_3
+      + cosine[3] * span_down_force_3));
   matrix.diagonal[3] = inertia[4] * ca + stiffness[4] * cq + damping[4] * cv
       + length[4] * (length[4] * (load_mass * (ca - theta_dot[4] * theta_dot[4] * cq)
       + ratio<T>(1, 4) * mass[4] * (ca - theta_dot[4] * theta_dot[4] * cq))
-      - cq * (sine_4 * span_side_force_4 + cosine_4 * span_down_force_4));
+      - cq * (sine[4] * span_side_force_4 + cosine[4] * span_down_force_4));
   matrix.below[0] = T(0);
   matrix.below[1] = -(stiffness[2] * cq + damping[2] * cv);
   matrix.below[2] = -(stiffness[3] * cq + damping[3] * cv);
@@ -1178,7 +1119,7 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
 }
 
 /// Energies (J) and powers (W), in the order of the table.
-/// 63 additions, 101 multiplications, 0 divisions, 8 functions
+/// 63 additions, 101 multiplications, 0 divisions, 0 functions
 template <class T>
 void energy(const Point<T>& at, T* e) {
   const FromOne<T> length(at.p);
@@ -1191,18 +1132,12 @@ void energy(const Point<T>& at, T* e) {
   const T gravity = at.p[25];
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const T joint_down_0 = T(0);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_1 = length[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_1 = length[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T centre_side_velocity_1 = ratio<T>(1, 2) * span_side_velocity_1;
   const T centre_down_1 = joint_down_0 + ratio<T>(1, 2) * span_down_1;
   const T centre_down_velocity_1 = ratio<T>(1, 2) * span_down_velocity_1;
@@ -1212,9 +1147,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_2 = length[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_2 = length[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T centre_side_velocity_2 = ratio<T>(1, 2) * span_side_velocity_2 + joint_side_velocity_1;
   const T centre_down_2 = joint_down_1 + ratio<T>(1, 2) * span_down_2;
   const T centre_down_velocity_2 = ratio<T>(1, 2) * span_down_velocity_2 + joint_down_velocity_1;
@@ -1224,9 +1159,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
   const T arc_3 = length[3] + arc_2;
-  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine_3;
-  const T span_down_3 = length[3] * cosine_3;
-  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine_3;
+  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine[3];
+  const T span_down_3 = length[3] * cosine[3];
+  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine[3];
   const T centre_side_velocity_3 = ratio<T>(1, 2) * span_side_velocity_3 + joint_side_velocity_2;
   const T centre_down_3 = joint_down_2 + ratio<T>(1, 2) * span_down_3;
   const T centre_down_velocity_3 = ratio<T>(1, 2) * span_down_velocity_3 + joint_down_velocity_2;
@@ -1236,9 +1171,9 @@ void energy(const Point<T>& at, T* e) {
   const T joint_angle_3 = theta[3] - theta[2];
   const T joint_rate_3 = theta_dot[3] - theta_dot[2];
   const T arc_4 = length[4] + arc_3;
-  const T span_side_velocity_4 = length[4] * theta_dot[4] * cosine_4;
-  const T span_down_4 = length[4] * cosine_4;
-  const T span_down_velocity_4 = -length[4] * theta_dot[4] * sine_4;
+  const T span_side_velocity_4 = length[4] * theta_dot[4] * cosine[4];
+  const T span_down_4 = length[4] * cosine[4];
+  const T span_down_velocity_4 = -length[4] * theta_dot[4] * sine[4];
   const T centre_side_velocity_4 = ratio<T>(1, 2) * span_side_velocity_4 + joint_side_velocity_3;
   const T centre_down_4 = joint_down_3 + ratio<T>(1, 2) * span_down_4;
   const T centre_down_velocity_4 = ratio<T>(1, 2) * span_down_velocity_4 + joint_down_velocity_3;
@@ -1298,35 +1233,28 @@ void energy(const Point<T>& at, T* e) {
 }
 
 /// Support (0), far end of each link (1..), load (last): side and down, m.
-/// 8 additions, 8 multiplications, 0 divisions, 8 functions
+/// 8 additions, 8 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions(const Point<T>& at, T* side, T* down) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const T joint_side_0 = T(0);
   const T joint_down_0 = T(0);
-  const T span_side_1 = length[1] * sine_1;
-  const T span_down_1 = length[1] * cosine_1;
+  const T span_side_1 = length[1] * sine[1];
+  const T span_down_1 = length[1] * cosine[1];
   const T joint_side_1 = joint_side_0 + span_side_1;
   const T joint_down_1 = joint_down_0 + span_down_1;
-  const T span_side_2 = length[2] * sine_2;
-  const T span_down_2 = length[2] * cosine_2;
+  const T span_side_2 = length[2] * sine[2];
+  const T span_down_2 = length[2] * cosine[2];
   const T joint_side_2 = joint_side_1 + span_side_2;
   const T joint_down_2 = joint_down_1 + span_down_2;
-  const T span_side_3 = length[3] * sine_3;
-  const T span_down_3 = length[3] * cosine_3;
+  const T span_side_3 = length[3] * sine[3];
+  const T span_down_3 = length[3] * cosine[3];
   const T joint_side_3 = joint_side_2 + span_side_3;
   const T joint_down_3 = joint_down_2 + span_down_3;
-  const T span_side_4 = length[4] * sine_4;
-  const T span_down_4 = length[4] * cosine_4;
+  const T span_side_4 = length[4] * sine[4];
+  const T span_down_4 = length[4] * cosine[4];
   const T joint_side_4 = joint_side_3 + span_side_4;
   const T joint_down_4 = joint_down_3 + span_down_4;
   side[0] = joint_side_0;
@@ -1344,34 +1272,27 @@ void positions(const Point<T>& at, T* side, T* down) {
 }
 
 /// Derivative of the positions along `along`.
-/// 14 additions, 24 multiplications, 0 divisions, 8 functions
+/// 14 additions, 24 multiplications, 0 divisions, 0 functions
 template <class T>
 void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T d_span_side_1 = length[1] * cosine_1 * d_theta[1] + sine_1 * d_length[1];
-  const T d_span_down_1 = cosine_1 * d_length[1] - length[1] * sine_1 * d_theta[1];
-  const T d_span_side_2 = length[2] * cosine_2 * d_theta[2] + sine_2 * d_length[2];
+  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
   const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
-  const T d_span_down_2 = cosine_2 * d_length[2] - length[2] * sine_2 * d_theta[2];
+  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
   const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_side_3 = length[3] * cosine_3 * d_theta[3] + sine_3 * d_length[3];
+  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
   const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
-  const T d_span_down_3 = cosine_3 * d_length[3] - length[3] * sine_3 * d_theta[3];
+  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
   const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
-  const T d_span_side_4 = length[4] * cosine_4 * d_theta[4] + sine_4 * d_length[4];
+  const T d_span_side_4 = length[4] * cosine[4] * d_theta[4] + sine[4] * d_length[4];
   const T d_joint_side_4 = d_span_side_4 + d_joint_side_3;
-  const T d_span_down_4 = cosine_4 * d_length[4] - length[4] * sine_4 * d_theta[4];
+  const T d_span_down_4 = cosine[4] * d_length[4] - length[4] * sine[4] * d_theta[4];
   const T d_joint_down_4 = d_span_down_4 + d_joint_down_3;
   dside[0] = T(0);
   ddown[0] = T(0);
@@ -1388,34 +1309,27 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
 }
 
 /// Velocities of the same points, m/s.
-/// 6 additions, 16 multiplications, 0 divisions, 8 functions
+/// 6 additions, 16 multiplications, 0 divisions, 0 functions
 template <class T>
 void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   const FromOne<T> length(at.p);
-  const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine_1;
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine_1;
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
   const T joint_side_velocity_1 = span_side_velocity_1;
   const T joint_down_velocity_1 = span_down_velocity_1;
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine_2;
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine_2;
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
   const T joint_side_velocity_2 = span_side_velocity_2 + joint_side_velocity_1;
   const T joint_down_velocity_2 = span_down_velocity_2 + joint_down_velocity_1;
-  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine_3;
-  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine_3;
+  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine[3];
+  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine[3];
   const T joint_side_velocity_3 = span_side_velocity_3 + joint_side_velocity_2;
   const T joint_down_velocity_3 = span_down_velocity_3 + joint_down_velocity_2;
-  const T span_side_velocity_4 = length[4] * theta_dot[4] * cosine_4;
-  const T span_down_velocity_4 = -length[4] * theta_dot[4] * sine_4;
+  const T span_side_velocity_4 = length[4] * theta_dot[4] * cosine[4];
+  const T span_down_velocity_4 = -length[4] * theta_dot[4] * sine[4];
   const T joint_side_velocity_4 = span_side_velocity_4 + joint_side_velocity_3;
   const T joint_down_velocity_4 = span_down_velocity_4 + joint_down_velocity_3;
   side_rate[0] = T(0);
@@ -1433,7 +1347,7 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 53 additions, 69 multiplications, 4 divisions, 8 functions
+/// 53 additions, 69 multiplications, 4 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1445,18 +1359,12 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> theta(at.q);
   const FromOne<T> theta_dot(at.v);
   const FromOne<T> theta_ddot(at.a);
-  T sine_1, cosine_1;
-  sine_cosine(theta[1], sine_1, cosine_1);
-  T sine_2, cosine_2;
-  sine_cosine(theta[2], sine_2, cosine_2);
-  T sine_3, cosine_3;
-  sine_cosine(theta[3], sine_3, cosine_3);
-  T sine_4, cosine_4;
-  sine_cosine(theta[4], sine_4, cosine_4);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine_1
-      - theta_dot[1] * theta_dot[1] * sine_1);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine_1
-      + theta_ddot[1] * sine_1);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
   const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
   const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
   const T joint_side_acceleration_1 = span_side_acceleration_1;
@@ -1464,10 +1372,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_angle_1 = theta[1];
   const T joint_rate_1 = theta_dot[1];
   const T arc_2 = length[1] + length[2];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine_2
-      - theta_dot[2] * theta_dot[2] * sine_2);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine_2
-      + theta_ddot[2] * sine_2);
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
   const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
       + joint_side_acceleration_1;
   const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
@@ -1476,10 +1384,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
   const T joint_angle_2 = theta[2] - theta[1];
   const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine_3
-      - theta_dot[3] * theta_dot[3] * sine_3);
-  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine_3
-      + theta_ddot[3] * sine_3);
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
   const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
       + joint_side_acceleration_2;
   const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
@@ -1488,10 +1396,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
   const T joint_angle_3 = theta[3] - theta[2];
   const T joint_rate_3 = theta_dot[3] - theta_dot[2];
-  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine_4
-      - theta_dot[4] * theta_dot[4] * sine_4);
-  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine_4
-      + theta_ddot[4] * sine_4);
+  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]);
+  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
   const T centre_side_acceleration_4 = ratio<T>(1, 2) * span_side_acceleration_4
       + joint_side_acceleration_3;
   const T centre_down_acceleration_4 = ratio<T>(1, 2) * span_down_acceleration_4
@@ -1528,10 +1436,10 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   moment[1] = -joint_moment_2;
   moment[2] = -joint_moment_3;
   moment[3] = -joint_moment_4;
-  tension[0] = -(sine_1 * cut_force_side_1 + cosine_1 * cut_force_down_1);
-  tension[1] = -(sine_2 * cut_force_side_2 + cosine_2 * cut_force_down_2);
-  tension[2] = -(sine_3 * cut_force_side_3 + cosine_3 * cut_force_down_3);
-  tension[3] = -(sine_4 * cut_force_side_4 + cosine_4 * cut_force_down_4);
+  tension[0] = -(sine[1] * cut_force_side_1 + cosine[1] * cut_force_down_1);
+  tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
+  tension[2] = -(sine[3] * cut_force_side_3 + cosine[3] * cut_force_down_3);
+  tension[3] = -(sine[4] * cut_force_side_4 + cosine[4] * cut_force_down_4);
   curvature[0] = theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
   curvature[2] = T(2) * (theta[3] - theta[2]) / curvature_divisor_3;

@@ -150,74 +150,45 @@ struct SymmetricSemiseparable {
   static constexpr int rr = rank > 0 ? rank : 1;
   T row[n][rr], column[n][rr], diagonal[n];
 
-  /// Factors in place: row is that of the triangular factor, diagonal holds the reciprocal pivots.
-  /// Returns 0, or the 1-based row whose pivot is not positive. Products that do not need W are formed
-  /// apart from it, as above.
-  int factor() {
-    T w[rr][rr];
+  /// Overwrites x, the right-hand side, with the solution; row, column and diagonal are used up.
+  /// Returns 0, or the 1-based row whose pivot is not positive.
+  ///
+  /// Rows 0..m-1 are eliminated from the first on, rows n-1..m from the last up. The two sweeps do
+  /// not depend on each other, so a processor works on both at once: half the latency of one
+  /// sweep. What couples the halves is a vector each way, sum = C' x_top and carried = R' x_bottom
+  /// (C the columns of the top, R the rows of the bottom), found from
+  ///
+  ///     sum = sum_0 - V carried,   carried = carried_0 - W sum,
+  ///     V = C' A_top^-1 C,         W = R' A_bottom^-1 R.
+  int solve_in_place(T* x) {
+    if constexpr (n < 6) return solve_short(x);
+    constexpr int m = n / 2;
+    T v[rr][rr], w[rr][rr], sum[rr], carried[rr];
     for (int r = 0; r < rr; ++r) {
-      for (int s = 0; s < rr; ++s) w[r][s] = T(0);
+      sum[r] = carried[r] = T(0);
+      for (int s = 0; s < rr; ++s) v[r][s] = w[r][s] = T(0);
     }
-    for (int j = n - 1; j >= 0; --j) {
-      T known = T(0);
-      for (int r = 0; r < rank; ++r) {
-        T terms = column[j][r] * column[j][r] * w[r][r];
-        for (int s = 0; s < r; ++s) {
-          const T product = column[j][r] * column[j][s];
-          terms += (product + product) * w[r][s];
-        }
-        known += terms;
-      }
-      const T pivot = diagonal[j] - known;
-      for (int r = 0; r < rank; ++r) {
-        T w_q = T(0);
-        for (int s = 0; s < rank; ++s) w_q += (s <= r ? w[r][s] : w[s][r]) * column[j][s];
-        row[j][r] -= w_q;
-      }
-      if (!positive_pivot(pivot)) return j + 1;
-      const T reciprocal = T(1) / pivot;
-      diagonal[j] = reciprocal;
-      for (int r = 0; r < rank; ++r) {
-        for (int s = 0; s <= r; ++s) w[r][s] += row[j][r] * row[j][s] * reciprocal;
-      }
+    for (int j = n - 1; j >= 2 * m; --j) {
+      if (!eliminate(row[j], column[j], diagonal[j], x[j], w, carried)) return j + 1;
     }
+    for (int i = 0; i < m; ++i) {
+      const int j = 2 * m - 1 - i;
+      const bool top = eliminate(column[i], row[i], diagonal[i], x[i], v, sum);
+      const bool bottom = eliminate(row[j], column[j], diagonal[j], x[j], w, carried);
+      if (!top) return i + 1;
+      if (!bottom) return j + 1;
+    }
+    join(v, w, sum, carried);
+    for (int i = m - 1; i >= 0; --i) {
+      const int j = 2 * m - 1 - i;
+      substitute(column[i], row[i], diagonal[i], x[i], carried);
+      substitute(row[j], column[j], diagonal[j], x[j], sum);
+    }
+    for (int j = 2 * m; j < n; ++j) substitute(row[j], column[j], diagonal[j], x[j], sum);
     return 0;
   }
 
-  /// Overwrites x, the right-hand side, with the solution.
-  void solve(T* x) const {
-    T carried[rr], sum[rr];
-    for (int r = 0; r < rr; ++r) carried[r] = sum[r] = T(0);
-    T last = T(0), last_but_one = T(0);
-    for (int j = n - 1; j >= 0; --j) {
-      T near = T(0);  // what lies beyond the neighbour is in `carried`
-      if (j + 1 < n) {
-        for (int r = 0; r < rank; ++r) near += column[j][r] * row[j + 1][r];
-      }
-      if (j + 2 < n) {
-        for (int r = 0; r < rank; ++r) carried[r] += row[j + 2][r] * last_but_one;
-      }
-      T rest = x[j];
-      for (int r = 0; r < rank; ++r) rest -= column[j][r] * carried[r];
-      last_but_one = last;
-      last = rest * diagonal[j] - near * diagonal[j] * last;
-      x[j] = last;
-    }
-    for (int j = 1; j < n; ++j) {  // last is x[0]
-      T near = T(0);
-      for (int r = 0; r < rank; ++r) near += row[j][r] * column[j - 1][r];
-      if (j > 1) {
-        for (int r = 0; r < rank; ++r) sum[r] += column[j - 2][r] * last_but_one;
-      }
-      T rest = T(0);
-      for (int r = 0; r < rank; ++r) rest += row[j][r] * sum[r];
-      last_but_one = last;
-      last = (x[j] - rest * diagonal[j]) - near * diagonal[j] * last;
-      x[j] = last;
-    }
-  }
-
-  /// The whole matrix, row by row. Not after factor().
+  /// The whole matrix, row by row. Not after solve_in_place().
   void to_dense(T* matrix) const {
     for (int i = 0; i < n; ++i) {
       matrix[i * n + i] = diagonal[i];
@@ -226,6 +197,91 @@ struct SymmetricSemiseparable {
         for (int r = 0; r < rank; ++r) entry += row[i][r] * column[j][r];
         matrix[i * n + j] = matrix[j * n + i] = entry;
       }
+    }
+  }
+
+ private:
+  // A few rows are solved faster as a full matrix: A = L D L', L D in the lower triangle.
+  int solve_short(T* x) {
+    T a[n][n];
+    for (int i = 0; i < n; ++i) {
+      a[i][i] = diagonal[i];
+      for (int j = 0; j < i; ++j) {
+        a[i][j] = row[i][0] * column[j][0];
+        for (int r = 1; r < rank; ++r) a[i][j] += row[i][r] * column[j][r];
+      }
+    }
+    for (int j = 0; j < n; ++j) {
+      if (!positive_pivot(a[j][j])) return j + 1;
+      diagonal[j] = T(1) / a[j][j];
+      x[j] = x[j] * diagonal[j];
+      for (int i = j + 1; i < n; ++i) {
+        const T scaled = a[i][j] * diagonal[j];
+        for (int k = j + 1; k <= i; ++k) a[i][k] -= scaled * a[k][j];
+        x[i] -= a[i][j] * x[j];
+      }
+    }
+    for (int j = n - 1; j >= 0; --j) {
+      T rest = T(0);
+      for (int i = j + 1; i < n; ++i) rest += a[i][j] * x[i];
+      x[j] -= rest * diagonal[j];
+    }
+    return 0;
+  }
+
+  // One step of an elimination. `own` couples the row to those left, `other` those left to it.
+  static bool eliminate(T* own, const T* other, T& pivot, T& x, T (&w)[rr][rr], T* carried) {
+    for (int r = 0; r < rank; ++r) {
+      T product = T(0);
+      for (int s = 0; s < rank; ++s) product += (s <= r ? w[r][s] : w[s][r]) * other[s];
+      pivot -= other[r] * product;
+      x -= other[r] * carried[r];
+      own[r] -= product;
+    }
+    if (!positive_pivot(pivot)) return false;
+    pivot = T(1) / pivot;
+    x = x * pivot;
+    for (int r = 0; r < rank; ++r) {
+      const T scaled = own[r] * pivot;
+      for (int s = 0; s <= r; ++s) w[r][s] += scaled * own[s];
+      carried[r] += own[r] * x;
+    }
+    return true;
+  }
+
+  static void substitute(const T* own, const T* other, const T& reciprocal, T& x, T* known) {
+    T product = T(0);
+    for (int r = 0; r < rank; ++r) product += own[r] * known[r];
+    x -= product * reciprocal;
+    for (int r = 0; r < rank; ++r) known[r] += other[r] * x;
+  }
+
+  // (1 - V W) sum = sum_0 - V carried_0, by elimination; then carried.
+  static void join(const T (&v)[rr][rr], const T (&w)[rr][rr], T* sum, T* carried) {
+    const auto at = [](const T(&a)[rr][rr], int r, int s) -> const T& {
+      return s <= r ? a[r][s] : a[s][r];
+    };
+    T a[rr][rr];
+    for (int r = 0; r < rank; ++r) {
+      for (int s = 0; s < rank; ++s) {
+        a[r][s] = T(r == s ? 1 : 0);
+        for (int t = 0; t < rank; ++t) a[r][s] -= at(v, r, t) * at(w, t, s);
+        sum[r] -= at(v, r, s) * carried[s];
+      }
+    }
+    for (int k = 0; k < rank; ++k) {
+      for (int r = k + 1; r < rank; ++r) {
+        const T factor = a[r][k] / a[k][k];
+        for (int s = k + 1; s < rank; ++s) a[r][s] -= factor * a[k][s];
+        sum[r] -= factor * sum[k];
+      }
+    }
+    for (int k = rank - 1; k >= 0; --k) {
+      for (int s = k + 1; s < rank; ++s) sum[k] -= a[k][s] * sum[s];
+      sum[k] = sum[k] / a[k][k];
+    }
+    for (int r = 0; r < rank; ++r) {
+      for (int s = 0; s < rank; ++s) carried[r] -= at(w, r, s) * sum[s];
     }
   }
 };

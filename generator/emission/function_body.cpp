@@ -60,12 +60,11 @@ class Body {
     });
     const SymbolText text = [&](int number) {
       const Symbol& symbol = definitions_[number];
-      if (symbol.is_input) return input_text(symbol, std::to_string(symbol.index));
+      if (given(symbol)) return input_text(symbol, std::to_string(symbol.index));
       return symbol.index == kNoIndex ? symbol.family
                                       : symbol.family + "_" + std::to_string(symbol.index);
     };
     for (const Item* item : items) {
-      if (item->family == "cosine" && defines_sine(item->index)) continue;
       line(statement(*item, std::to_string(item->index), text, true), 1);
       ++result_.statements;
     }
@@ -92,7 +91,7 @@ class Body {
     while (!open.empty()) {
       const int number = open.back();
       open.pop_back();
-      if (!definitions_[number].is_input) need(definitions_[number].value);
+      if (!given(definitions_[number])) need(definitions_[number].value);
     }
     std::map<std::string, size_t> position;
     const auto family_of = [&](const std::string& name) -> Family& {
@@ -105,7 +104,7 @@ class Body {
     };
     for (const int number : needed) {
       const Symbol& symbol = definitions_[number];
-      if (symbol.is_input) {
+      if (given(symbol)) {
         used_inputs_.insert({symbol.family_rank, symbol.family});
         continue;
       }
@@ -130,7 +129,10 @@ class Body {
       for (const auto& [index, item] : family.items) {
         for (const int number : definitions_.symbols_of(item.value)) {
           const Symbol& symbol = definitions_[number];
-          if (symbol.is_input) continue;
+          if (symbol.is_input && !given(symbol)) {
+            throw std::logic_error("input not declared: " + symbol.family);
+          }
+          if (given(symbol)) continue;
           const bool relative = index != kNoIndex && symbol.index != kNoIndex;
           family.dependencies.insert({symbol.family, relative ? symbol.index - index : kUnrelated});
         }
@@ -139,12 +141,8 @@ class Body {
     position_ = std::move(position);
   }
 
-  bool defines_sine(int index) const {
-    const auto sine = position_.find("sine"), cosine = position_.find("cosine");
-    return sine != position_.end() && cosine != position_.end() &&
-           families_[sine->second].items.count(index) &&
-           families_[cosine->second].items.count(index);
-  }
+  // Inputs, and what a declaration brings in ready-made (sines and cosines).
+  bool given(const Symbol& symbol) const { return inputs_.count(symbol.family) > 0; }
 
   // ---- sweeps ---------------------------------------------------------------------------------
 
@@ -186,12 +184,6 @@ class Body {
   }
 
   void schedule() {
-    std::vector<size_t> trigonometric;
-    for (const char* name : {"sine", "cosine"}) {
-      const auto found = position_.find(name);
-      if (found != position_.end()) trigonometric.push_back(found->second);
-    }
-    if (!trigonometric.empty()) add_sweep(1, trigonometric);
     for (;;) {
       bool open = false, alone = false;
       for (size_t k = 0; k < families_.size(); ++k) {
@@ -253,10 +245,13 @@ class Body {
   }
 
   void declare_inputs() {
+    // Sines and cosines are brought in by one and the same declaration.
+    std::set<std::string> written;
     for (const auto& [rank, family] : used_inputs_) {
-      const auto found = inputs_.find(family);
-      if (found == inputs_.end()) throw std::logic_error("input not declared: " + family);
-      line(found->second, 1);
+      std::string statements = inputs_.at(family);
+      if (statements.empty() || !written.insert(statements).second) continue;
+      statements += "\n";
+      indented(statements, 1);
     }
   }
 
@@ -285,15 +280,6 @@ class Body {
     }
     const Symbol& symbol = definitions_[item.number];
     const Family& family = families_[position_.at(item.family)];
-    if (item.family == "sine" && defines_sine(item.index)) {
-      const std::string angle = text(definitions_.number_of(item.value.op(0)));
-      result_.operations.functions += 2;
-      if (straight) {
-        return "T sine_" + index + ", cosine_" + index + ";\n  sine_cosine(" + angle + ", sine_" +
-               index + ", cosine_" + index + ");";
-      }
-      return "sine_cosine(" + angle + ", sine[" + index + "], cosine[" + index + "]);";
-    }
     std::string name = symbol.family;
     if (symbol.index != kNoIndex) {
       if (straight) {
@@ -318,7 +304,7 @@ class Body {
       } else if (offset != 0) {
         at += (offset > 0 ? " + " : " - ") + std::to_string(std::abs(offset));
       }
-      if (symbol.is_input) return input_text(symbol, at);
+      if (given(symbol)) return input_text(symbol, at);
       if (symbol.index == kNoIndex) return symbol.family;
       return families_[position_.at(symbol.family)].local ? symbol.family
                                                           : symbol.family + "[" + at + "]";
@@ -327,7 +313,6 @@ class Body {
     for (const size_t k : sweep.families) {
       const auto item = families_[k].items.find(link);
       if (item == families_[k].items.end()) continue;
-      if (item->second.family == "cosine" && defines_sine(link)) continue;
       statements += statement(item->second, index, text, false) + "\n";
     }
     return statements;

@@ -317,9 +317,10 @@ class Builder {
     }
     add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
         body(all, at_), acceleration_wrapper, "  MassMatrix<T> matrix;\n",
-        "  const int failed = matrix.factor();\n"
-        "  if (failed == 0) matrix.solve(a);\n"
-        "  return failed;\n");
+        symmetric ? "  return matrix.solve_in_place(a);\n"
+                  : "  const int failed = matrix.factor();\n"
+                    "  if (failed == 0) matrix.solve(a);\n"
+                    "  return failed;\n");
   }
 
   static std::string quasiseparable_type(const Quasiseparable& q) {
@@ -349,7 +350,7 @@ class Builder {
         "  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);\n"
         "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
         "  return matrix.factor();\n}\n"
-        "void c_newton_solve(const double* work, double* x) {\n"
+        "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
         "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);\n}\n");
   }
 

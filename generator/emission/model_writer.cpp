@@ -159,9 +159,16 @@ std::string source_text(const Description& description, const ModelFunctions& fu
              [&](const EnergyItem& item) {
                out << quoted(item.name) << ", " << kind_text(item.kind);
              });
+  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)\n"
+         "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give\n"
+         "// the same bits.\n"
+         "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), flatten))\n"
+         "#else\n#define CATENA_EACH_PROCESSOR\n#endif\n\n";
   out << "Point<double> point(const catena_point* p) {\n"
          "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
-  for (const EmittedFunction& function : functions.functions) out << function.wrapper;
+  for (const EmittedFunction& function : functions.functions) {
+    if (!function.wrapper.empty()) out << "CATENA_EACH_PROCESSOR " << function.wrapper;
+  }
   out << "}  // namespace\n\nconst ::catena_model& table() {\n"
          "  static const ::catena_model model = {\n"
          "      CATENA_MODEL_ABI,\n      sizeof(::catena_model),\n      "

@@ -104,6 +104,13 @@ InputDeclarations input_declarations(const Description& description, int links,
   array("theta_dot", "v", 0);
   array("theta_ddot", "a", 0);
   declarations[family_prefix + "time"] = "const T " + family_prefix + "time = " + point + "t;";
+  if (family_prefix.empty()) {
+    // Angles are the first coordinates.
+    const std::string size = std::to_string(links);
+    declarations["sine"] = declarations["cosine"] =
+        "T sine[" + std::to_string(links + 1) + "], cosine[" + std::to_string(links + 1) +
+        "];\nsines_and_cosines<" + size + ">(" + point + "q, sine + 1, cosine + 1);";
+  }
   declarations["pi"] = "const T pi = T(3.14159265358979323846);";
   int q = links, z = 0, u = 0;
   for (const Effect& effect : description.effects) {

@@ -54,6 +54,12 @@ inline void sine_cosine(const T& angle, T& sine, T& cosine) {
   cosine = cos(angle);
 }
 
+/// Sines and cosines of n angles.
+template <int n, class T>
+inline void sines_and_cosines(const T* angle, T* sine, T* cosine) {
+  for (int i = 0; i < n; ++i) sine_cosine(angle[i], sine[i], cosine[i]);
+}
+
 /// Whether a pivot of a positive definite matrix may be divided by; false for NaN.
 template <class T>
 inline bool positive_pivot(const T& pivot) {
