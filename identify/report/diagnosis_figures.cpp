@@ -150,8 +150,8 @@ class BeforeAfter {
 
   void add_error() {
     Figure figure;
-    figure.title = fmt::format("Error over time, before and after: {}", change_);
-    figure.caption = "Mean over the points.";
+    figure.title = "Error over time, before and after";
+    figure.caption = fmt::format("Mean over the points; after: {}.", change_);
     figure.x = {"time", "s"};
     figure.y = {quantity(), after_.unit};
     figure.series.push_back({"before", before_.time,
@@ -181,9 +181,9 @@ class BeforeAfter {
       return (angles ? channels.angle : channels.side)[worst];
     };
     Figure figure;
-    figure.title = fmt::format("{} of {}, before and after: {}", angles ? "angle" : "side",
-                               measured.points[worst].name, change_);
-    figure.caption = "The point that was worst before.";
+    figure.title = fmt::format("{} of {}, before and after", angles ? "Angle" : "Side",
+                               measured.points[worst].name);
+    figure.caption = fmt::format("The point that was worst before; after: {}.", change_);
     figure.x = {"time", "s"};
     figure.y = {angles ? "angle" : "side", angles ? "rad" : "m"};
     figure.series.push_back(
@@ -198,8 +198,8 @@ class BeforeAfter {
   void add_map(const std::string& when, const Residuals& residuals) {
     if (residuals.points.size() < 2) return;
     Figure figure;
-    figure.title = fmt::format("Residual by point and time, {}: {}", when, change_);
-    figure.caption = "Before and after share one scale of colours.";
+    figure.title = fmt::format("Residual by point and time, {}", when);
+    figure.caption = fmt::format("After: {}. Both share one scale of colours.", change_);
     figure.x = {"time", "s"};
     plot::HeatMap map;
     map.x = residuals.time;
@@ -216,8 +216,9 @@ class BeforeAfter {
     const Spectrum after = mean_spectrum(after_);
     if (before.frequency.empty()) return;
     Figure figure;
-    figure.title = fmt::format("Spectrum of the residuals, before and after: {}", change_);
-    figure.caption = "Root mean square over the channels of the amplitudes, through a Hann window.";
+    figure.title = "Spectrum of the residuals, before and after";
+    figure.caption = fmt::format(
+        "Root mean square over the channels, through a Hann window; after: {}.", change_);
     figure.x = {"frequency", "Hz"};
     figure.y = {"amplitude", after_.unit, true};
     figure.series.push_back({"before", before.frequency, before.amplitude, Mark::kLine, 2});

@@ -143,7 +143,8 @@ std::string equation_html(const Equation& equation) {
   std::string html;
   if (!equation.title.empty()) html += fmt::format("<p>{}:</p>\n", escaped(equation.title));
   if (!equation.mathml.empty()) {
-    html += fmt::format("<div class=\"formula\">{}</div>\n", equation.mathml);
+    html +=
+        fmt::format("<div class=\"formula scrolls\" tabindex=\"0\">{}</div>\n", equation.mathml);
   } else if (!equation.latex.empty()) {
     html += fmt::format("<pre><code>{}</code></pre>\n", escaped(equation.latex));
   }
@@ -322,7 +323,11 @@ std::string diagnosis_html(const Diagnosis& diagnosis) {
 std::string equations_html(const Result& result) {
   std::string html = "<h3>The chain</h3>\n";
   if (result.equations.empty()) {
-    html += asset_chain_equations();
+    html += fmt::format(
+        "<div class=\"scrolls\" tabindex=\"0\" role=\"region\" aria-label=\"Equations of the "
+        "chain\">\n{}"
+        "</div>\n",
+        asset_chain_equations());
   } else {
     for (const Equation& equation : result.equations) html += equation_html(equation);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "identify/report/report_figures.hpp"
@@ -31,6 +32,11 @@ void add(std::vector<ReportFigure>& figures, const Experiment& experiment,
   figures.push_back({std::move(figure), "motion", family, experiment.name, "Point", point});
 }
 
+std::string title(std::string quantity, const std::string& point) {
+  quantity.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(quantity.front())));
+  return fmt::format("{} of {}", quantity, point);
+}
+
 /// Measured and predicted values of one kind, a figure per measured point.
 void add_measured(const Experiment& experiment, const std::string& quantity,
                   const std::string& unit, const Rows& measured, const Rows& predicted,
@@ -39,7 +45,7 @@ void add_measured(const Experiment& experiment, const std::string& quantity,
   for (std::size_t p = 0; p < measured.size(); ++p) {
     const std::string& name = experiment.measured->points[p].name;
     Figure figure;
-    figure.title = fmt::format("{} of {}", quantity, name);
+    figure.title = title(quantity, name);
     figure.x = {"time", "s"};
     figure.y = {quantity, unit};
     figure.series.push_back({"measured", time, measured[p], Mark::kPoints, 0});
@@ -59,7 +65,7 @@ void add_simulated(const Experiment& experiment, const std::string& quantity,
     const bool load = last_is_load && p + 1 == rows.size();
     const std::string name = load ? "load" : fmt::format("{} {}", point, first == 0 ? p + 1 : p);
     Figure figure;
-    figure.title = fmt::format("{} of {}", quantity, name);
+    figure.title = title(quantity, name);
     figure.x = {"time", "s"};
     figure.y = {quantity, unit};
     figure.series.push_back({"simulated", experiment.trajectory.time, rows[p], Mark::kLine, 1});
@@ -106,10 +112,11 @@ bool seen_at(const Channels& measured, double at, double step) {
 void add_shapes(const Experiment& experiment, std::vector<ReportFigure>& figures) {
   const Channels& motion = experiment.trajectory;
   const Channels* measured = measured_positions(experiment);
-  const double span = motion.time.back() - motion.time.front();
   // Figure 6.10 lays a shape every 0.02 s over the others, for the first 1.75 s.
+  const double span = motion.time.back() - motion.time.front();
   const double shown = std::min(span, 1.75);
-  const double step = shown / nice_step(shown, 80) > 120 ? shown / 100 : nice_step(shown, 80);
+  const double frame = span / static_cast<double>(motion.time.size() - 1);
+  const double step = std::max(1.0, std::round(shown / 88 / frame)) * frame;
   Figure figure;
   figure.title = "Shapes laid over one another";
   figure.caption = fmt::format("A shape every {} s, for the first {} s.", plot::for_people(step, 3),

@@ -146,6 +146,9 @@ class Drawing {
     if (any) top_ += 8;
   }
 
+  /// Thin where many lines lie over one another.
+  double line_width() const { return figure_.series.size() > 20 ? 0.9 : 1.6; }
+
   static bool has_line(const Series& series) { return series.mark != Mark::kPoints; }
   static bool has_points(const Series& series) {
     return series.mark == Mark::kPoints || series.mark == Mark::kLineWithPoints;
@@ -302,7 +305,8 @@ class Drawing {
       }
     }
     body_ += path(bars, stroke(series.colour, 1, ""));
-    if (has_line(series)) body_ += path(curve, stroke(series.colour, 1.6, dash_of(series)));
+    if (has_line(series))
+      body_ += path(curve, stroke(series.colour, line_width(), dash_of(series)));
     if (has_points(series)) body_ += path(points, stroke(series.colour, 1.2, ""));
   }
 

@@ -82,7 +82,7 @@ export class Card {
       this.legend.append(
           element('span', {}, `${map.scale.label}: ${map.signed ? forPeople(-map.maximum, 3) : '0'}`),
           element('span', {class: 'bar', style: `background: ${cssGradient(colourScale(map.signed, dark))}`}),
-          element('span', {}, withUnit(map.maximum, map.scale)));
+          element('span', {}, withUnit(map.maximum, map.scale, 3)));
     }
     figure.series.forEach((series, k) => {
       const sample = element('canvas', {class: 'sample', 'aria-hidden': 'true'});

@@ -24,7 +24,7 @@ export class Chart {
     this.columns = columns;
     this.hidden = figure.series.map(() => false);
     const x = figure.map ? [columns[figure.map.x]] : figure.series.map((series) => columns[series.x]);
-    this.extent = extentOf(x, figure.x);
+    this.extent = extentOf([...x, figure.rules.filter((rule) => rule.vertical).map((rule) => rule.at)], figure.x);
     if (figure.map && !figure.x.categories) {
       const step = x[0].length < 2 ? 1 : (x[0].at(-1) - x[0][0]) / (x[0].length - 1);
       this.extent = [this.extent[0] - step / 2, this.extent[1] + step / 2];

@@ -56,8 +56,8 @@ export function axisTitle(axis) {
   return axis.label ? `${axis.label} / ${axis.unit}` : axis.unit;
 }
 
-export function withUnit(value, axis) {
-  const text = forPeople(value);
+export function withUnit(value, axis, digits = 4) {
+  const text = forPeople(value, digits);
   return axis.unit && axis.unit !== '1' && text !== '–' ? `${text} ${axis.unit}` : text;
 }
 

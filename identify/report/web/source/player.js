@@ -37,9 +37,9 @@ export class Player {
     this.key = element('p', {class: 'key'});
     this.controls = element('div', {class: 'controls', role: 'group', 'aria-label': 'Player'},
         button('◀◀', 'To the start', () => this.seekFrame(0)),
-        button('−1', 'One frame back', () => this.step(-1)),
+        button('−1', '−1 frame', () => this.step(-1)),
         this.playButton,
-        button('+1', 'One frame on', () => this.step(1)),
+        button('+1', '+1 frame', () => this.step(1)),
         this.slider, this.clock,
         select('Speed', speeds, '1', (speed) => { this.speed = Number(speed); }),
         element('label', {class: 'choice'}, this.overlayBox, ' Shapes so far'));
