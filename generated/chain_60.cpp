@@ -8,7 +8,7 @@ namespace catena::chain_60 {
 
 namespace {
 
-const catena_quantity kCoordinateTable[] = {
+static const catena_quantity kCoordinateTable[] = {
     {"theta_1", "rad"},
     {"theta_2", "rad"},
     {"theta_3", "rad"},
@@ -71,15 +71,15 @@ const catena_quantity kCoordinateTable[] = {
     {"theta_60", "rad"},
 };
 
-const catena_quantity kStateTable[] = {
-    {},
+static const catena_quantity kStateTable[] = {
+    {0, 0},
 };
 
-const catena_quantity kSignalTable[] = {
-    {},
+static const catena_quantity kSignalTable[] = {
+    {0, 0},
 };
 
-const catena_quantity kTermTable[] = {
+static const catena_quantity kTermTable[] = {
     {"inertia", "N m"},
     {"coriolis", "N m"},
     {"gravity", "N m"},
@@ -88,7 +88,7 @@ const catena_quantity kTermTable[] = {
     {"torque", "N m"},
 };
 
-const catena_parameter kParameterTable[] = {
+static const catena_parameter kParameterTable[] = {
     {"length_1", "m", "length of link 1", NAN, 0.0, INFINITY, NAN},
     {"length_2", "m", "length of link 2", NAN, 0.0, INFINITY, NAN},
     {"length_3", "m", "length of link 3", NAN, 0.0, INFINITY, NAN},
@@ -453,7 +453,7 @@ const catena_parameter kParameterTable[] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.8100000000000005, -INFINITY, INFINITY, NAN},
 };
 
-const catena_energy kEnergyTable[] = {
+static const catena_energy kEnergyTable[] = {
     {"kinetic", CATENA_STORED},
     {"gravity", CATENA_STORED},
     {"joint_elastic", CATENA_STORED},

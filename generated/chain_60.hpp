@@ -566,17 +566,23 @@ template <class T>
 void residual_term(const Point<T>& at, int term, T* r) {
   switch (term) {
     case 0:
-      return term_inertia(at, r);
+      term_inertia(at, r);
+      break;
     case 1:
-      return term_coriolis(at, r);
+      term_coriolis(at, r);
+      break;
     case 2:
-      return term_gravity(at, r);
+      term_gravity(at, r);
+      break;
     case 3:
-      return term_elastic(at, r);
+      term_elastic(at, r);
+      break;
     case 4:
-      return term_friction(at, r);
+      term_friction(at, r);
+      break;
     case 5:
-      return term_torque(at, r);
+      term_torque(at, r);
+      break;
   }
 }
 

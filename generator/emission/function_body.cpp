@@ -43,8 +43,12 @@ struct Sweep {
 class Body {
  public:
   Body(const Definitions& definitions, const std::vector<Output>& outputs,
-       const InputDeclarations& inputs)
-      : definitions_(definitions), outputs_(outputs), inputs_(inputs) {
+       const InputDeclarations& inputs, Language language)
+      : definitions_(definitions),
+        outputs_(outputs),
+        inputs_(inputs),
+        language_(language),
+        scalar_(language == Language::kC ? "double" : "T") {
     collect();
   }
 
@@ -60,7 +64,7 @@ class Body {
     });
     const SymbolText text = [&](int number) {
       const Symbol& symbol = definitions_[number];
-      if (given(symbol)) return input_text(symbol, std::to_string(symbol.index));
+      if (given(symbol)) return input_text(symbol, std::to_string(symbol.index + shift(symbol)));
       return symbol.index == kNoIndex ? symbol.family
                                       : symbol.family + "_" + std::to_string(symbol.index);
     };
@@ -255,6 +259,11 @@ class Body {
     }
   }
 
+  // Arrays of inputs count from 0 in C; in C++ FromOne lets them count from 1, as links do.
+  int shift(const Symbol& symbol) const {
+    return language_ == Language::kC && symbol.is_input ? -1 : 0;
+  }
+
   static std::string input_text(const Symbol& symbol, const std::string& index) {
     return symbol.index == kNoIndex ? symbol.family : symbol.family + "[" + index + "]";
   }
@@ -262,7 +271,7 @@ class Body {
   std::string statement(const Item& item, const std::string& index, const SymbolText& text,
                         bool straight) {
     const auto value = [&] {
-      return expression_text(definitions_, item.value, item.index, text, &result_.operations);
+      return expression_text(definitions_, item.value, item.index, text, language_, &result_.operations);
     };
     if (item.output != nullptr) {
       std::string place = item.output->before;
@@ -288,7 +297,7 @@ class Body {
         return name + "[" + index + "] = " + value() + ";";
       }
     }
-    return "const T " + name + " = " + value() + ";";
+    return "const " + scalar_ + " " + name + " = " + value() + ";";
   }
 
   // Statements of one link; `index` is the text of its number ("i" or digits).
@@ -296,11 +305,11 @@ class Body {
     const SymbolText text = [&](int number) {
       const Symbol& symbol = definitions_[number];
       std::string at = index;
-      const int offset = symbol.index - link;
+      const int offset = symbol.index - link + shift(symbol);
       if (symbol.index == kNoIndex) {
         // of no link
       } else if (index != "i") {
-        at = std::to_string(symbol.index);
+        at = std::to_string(symbol.index + shift(symbol));
       } else if (offset != 0) {
         at += (offset > 0 ? " + " : " - ") + std::to_string(std::abs(offset));
       }
@@ -339,7 +348,7 @@ class Body {
       first = std::min(first, family.items.begin()->first);
       last = std::max(last, family.items.rbegin()->first);
       if (!family.is_output && !family.local) {
-        line("T " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
+        line(scalar_ + " " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
       }
     }
     bool any_local = false;
@@ -399,6 +408,8 @@ class Body {
   const Definitions& definitions_;
   const std::vector<Output>& outputs_;
   const InputDeclarations& inputs_;
+  Language language_;
+  std::string scalar_;
   std::vector<Family> families_;
   std::map<std::string, size_t> position_;
   std::set<std::pair<int, std::string>> used_inputs_;
@@ -410,8 +421,8 @@ class Body {
 }  // namespace
 
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                           const InputDeclarations& inputs, Layout layout) {
-  Body body(definitions, outputs, inputs);
+                           const InputDeclarations& inputs, Layout layout, Language language) {
+  Body body(definitions, outputs, inputs, language);
   return layout == Layout::kStraight ? body.straight() : body.loops();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From definitions to the statements of a C++ function: what the outputs do not need is left out,
+// From definitions to the statements of a C++ (or C99) function: what the outputs do not need is left out,
 // definitions are put in sweeps over the links (towards the tip, or towards the support), and
 // links whose statements read the same become one loop.
 #pragma once
@@ -40,6 +40,7 @@ struct FunctionBody {
 };
 
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                           const InputDeclarations& inputs, Layout layout);
+                           const InputDeclarations& inputs, Layout layout,
+                           Language language = Language::kCpp);
 
 }  // namespace catena

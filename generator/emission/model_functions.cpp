@@ -2,6 +2,7 @@
 #include "generator/emission/model_functions.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/parameter_table.hpp"
@@ -16,16 +17,18 @@ std::string differential_family(const std::string& family) { return "d_" + famil
 
 class Builder {
  public:
-  Builder(const Description& description, int links, Layout layout)
+  Builder(const Description& description, int links, Layout layout, Language language)
       : description_(description),
         links_(links),
         layout_(layout),
+        language_(language),
         chain_(description, links),
         definitions_(chain_.definitions()),
         tangent_(definitions_, differential_family),
-        at_(input_declarations(description, links, "at.", "")),
+        at_(input_declarations(description, links, in_c() ? "at->" : "at.", "", language)),
         at_and_along_(at_) {
-    at_and_along_.merge(input_declarations(description, links, "along.", "d_"));
+    at_and_along_.merge(
+        input_declarations(description, links, in_c() ? "along->" : "along.", "d_", language));
     for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = "";
   }
 
@@ -44,7 +47,7 @@ class Builder {
     terms();
     if (s.states > 0) state_rates();
     mass_and_acceleration();
-    newton();
+    if (!in_c()) newton();
     energy();
     positions();
     internal_forces();
@@ -63,6 +66,8 @@ class Builder {
   }
 
  private:
+  bool in_c() const { return language_ == Language::kC; }
+
   static std::vector<Output> from_one(const std::string& array, const std::vector<ex>& values) {
     std::vector<Output> outputs;
     for (size_t i = 0; i < values.size(); ++i) {
@@ -72,13 +77,14 @@ class Builder {
   }
 
   FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs) {
-    return function_body(definitions_, outputs, inputs, layout_);
+    return function_body(definitions_, outputs, inputs, layout_, language_);
   }
 
   void add(const std::string& name, const std::string& comment, const std::string& signature,
            FunctionBody text, const std::string& wrapper, const std::string& before = "",
            const std::string& after = "") {
-    result_.functions.push_back({name, comment, signature, before, std::move(text), after, wrapper});
+    result_.functions.push_back(
+        {name, comment, signature, before, std::move(text), after, wrapper});
   }
 
   std::vector<ex> each(const std::vector<ex>& values, const auto& act) {
@@ -131,7 +137,7 @@ class Builder {
       result_.terms.push_back(name);
       add("term_" + name, "The term " + name + " of r alone.",
           "void term_" + name + "(const Point<T>& at, T* r)",
-          function_body(definitions, from_one("r", values), at_, layout_), "");
+          function_body(definitions, from_one("r", values), at_, layout_, language_), "");
     };
     for (const std::string& name : Chain::term_names(description_)) {
       Chain chain(description_, links_, name);
@@ -151,8 +157,8 @@ class Builder {
     }
     std::string choose = "  switch (term) {\n";
     for (size_t k = 0; k < result_.terms.size(); ++k) {
-      choose += "    case " + std::to_string(k) + ":\n      return term_" + result_.terms[k] +
-                "(at, r);\n";
+      choose += "    case " + std::to_string(k) + ":\n      term_" + result_.terms[k] +
+                "(at, r);\n      break;\n";
     }
     choose += "  }\n";
     add("residual_term", "One term of r, numbered as in the table; their sum is r.",
@@ -190,7 +196,8 @@ class Builder {
       const auto mirrored = entries.find({at.second, at.first});
       fine = fine && mirrored != entries.end() && (mirrored->second - entry).expand().is_zero();
     }
-    (stiffness ? result_.summary.stiffness_tridiagonal : result_.summary.damping_tridiagonal) = fine;
+    (stiffness ? result_.summary.stiffness_tridiagonal : result_.summary.damping_tridiagonal) =
+        fine;
   }
 
   static ex flattened(Definitions& definitions, const ex& e) {
@@ -207,7 +214,8 @@ class Builder {
     const auto f = chain_.state_rates();
     add("state_rate", "zdot = f(t, q, v, z, u, p), the rates of the extra states.",
         "void state_rate(const Point<T>& at, T* zdot)", body(from_one("zdot", f), at_),
-        "void c_state_rate(const catena_point* at, double* zdot) { state_rate(point(at), zdot); }\n");
+        "void c_state_rate(const catena_point* at, double* zdot) { state_rate(point(at), zdot); "
+        "}\n");
     const auto df = each(f, [&](const ex& e) { return tangent_.of(e); });
     add("state_rate_tangent", "Derivative of zdot along `along`.",
         "void state_rate_tangent(const Point<T>& at, const Point<T>& along, T* dzdot)",
@@ -279,23 +287,36 @@ class Builder {
           "void inertial(const Point<T>& at, T* r)", body(from_one("r", inertial), at_), "");
       add("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
           "void mass_matrix(const Point<T>& at, T* M)", {}, mass_wrapper,
-          "  T unit[kCoordinates], column[kCoordinates];\n"
-          "  for (int j = 0; j < kCoordinates; ++j) unit[j] = T(0);\n"
-          "  Point<T> moving = at;\n"
-          "  moving.a = unit;\n"
-          "  for (int j = 0; j < kCoordinates; ++j) {\n"
-          "    unit[j] = T(1);\n"
-          "    inertial(moving, column);\n"
-          "    unit[j] = T(0);\n"
-          "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
-          "  }\n");
+          in_c()
+              ? "  double unit[kCoordinates], column[kCoordinates];\n"
+                "  for (int j = 0; j < kCoordinates; ++j) unit[j] = 0.0;\n"
+                "  catena_point moving = *at;\n"
+                "  moving.a = unit;\n"
+                "  for (int j = 0; j < kCoordinates; ++j) {\n"
+                "    unit[j] = 1.0;\n"
+                "    inertial(&moving, column);\n"
+                "    unit[j] = 0.0;\n"
+                "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
+                "  }\n"
+              : "  T unit[kCoordinates], column[kCoordinates];\n"
+                "  for (int j = 0; j < kCoordinates; ++j) unit[j] = T(0);\n"
+                "  Point<T> moving = at;\n"
+                "  moving.a = unit;\n"
+                "  for (int j = 0; j < kCoordinates; ++j) {\n"
+                "    unit[j] = T(1);\n"
+                "    inertial(moving, column);\n"
+                "    unit[j] = T(0);\n"
+                "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
+                "  }\n");
       add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)", {},
           acceleration_wrapper,
-          "  T mass[kCoordinates * kCoordinates];\n"
-          "  mass_matrix(at, mass);\n"
-          "  bias(at, a);\n"
-          "  for (int i = 0; i < kCoordinates; ++i) a[i] = -a[i];\n"
-          "  return solve_symmetric<kCoordinates>(mass, a);\n");
+          std::string(in_c() ? "  double" : "  T") +
+              " mass[kCoordinates * kCoordinates];\n"
+              "  mass_matrix(at, mass);\n"
+              "  bias(at, a);\n"
+              "  for (int i = 0; i < kCoordinates; ++i) a[i] = -a[i];\n" +
+              (in_c() ? "  return solve_symmetric(mass, a);\n"
+                      : "  return solve_symmetric<kCoordinates>(mass, a);\n"));
       return;
     }
     bool tridiagonal_part = false;
@@ -308,19 +329,26 @@ class Builder {
     result_.mass_type =
         symmetric ? "SymmetricSemiseparable<T, kLinks, " + std::to_string(mass.lower_rank) + ">"
                   : quasiseparable_type(mass);
+    if (in_c() && !symmetric) throw std::logic_error("C: a mass matrix that is not symmetric");
+    const std::string matrix = !in_c() ? "  MassMatrix<T> matrix;\n"
+                               : mass.lower_rank == 0
+                                   ? "  MassMatrix matrix = {{{0.0}}, {{0.0}}, {0.0}};\n"
+                                   : "  MassMatrix matrix;\n";
     const std::vector<Output> entries = all_entries(mass, symmetric);
     add("mass_matrix", "M, row by row.", "void mass_matrix(const Point<T>& at, T* M)",
-        body(entries, at_), mass_wrapper, "  MassMatrix<T> matrix;\n", "  matrix.to_dense(M);\n");
+        body(entries, at_), mass_wrapper, matrix,
+        in_c() ? "  to_dense(&matrix, M);\n" : "  matrix.to_dense(M);\n");
     std::vector<Output> all = entries;
     for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
       all.push_back(output);
     }
     add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
-        body(all, at_), acceleration_wrapper, "  MassMatrix<T> matrix;\n",
-        symmetric ? "  return matrix.solve_in_place(a);\n"
-                  : "  const int failed = matrix.factor();\n"
-                    "  if (failed == 0) matrix.solve(a);\n"
-                    "  return failed;\n");
+        body(all, at_), acceleration_wrapper, matrix,
+        in_c()      ? "  return solve_in_place(&matrix, a);\n"
+        : symmetric ? "  return matrix.solve_in_place(a);\n"
+                    : "  const int failed = matrix.factor();\n"
+                      "  if (failed == 0) matrix.solve(a);\n"
+                      "  return failed;\n");
   }
 
   static std::string quasiseparable_type(const Quasiseparable& q) {
@@ -408,7 +436,8 @@ class Builder {
   void internal_forces() {
     std::vector<Output> outputs = from_one("moment", chain_.moments());
     for (const Output& output : from_one("tension", chain_.tensions())) outputs.push_back(output);
-    for (const Output& output : from_one("curvature", chain_.curvatures())) outputs.push_back(output);
+    for (const Output& output : from_one("curvature", chain_.curvatures()))
+      outputs.push_back(output);
     add("internal_forces", "Joint moments (N m), link tensions (N), curvatures at joints (rad/m).",
         "void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature)",
         body(outputs, at_),
@@ -420,19 +449,21 @@ class Builder {
   void sensor() {
     result_.observes = true;
     const Chain::Sensor& sensor = chain_.sensor();
-    InputDeclarations inputs = input_declarations(description_, links_, "", "");
-    inputs.merge(input_declarations(description_, links_, "d", "d_"));
-    inputs["time"] = "const T& time = t;";
-    inputs["d_time"] = "const T d_time = T(0);";
+    InputDeclarations inputs = input_declarations(description_, links_, "", "", language_);
+    inputs.merge(input_declarations(description_, links_, "d", "d_", language_));
+    const std::string type = in_c() ? "const double " : "const T ";
+    inputs["time"] = type + "time = t;";
+    inputs["d_time"] = type + "d_time = " + (in_c() ? "0.0;" : "T(0);");
     const char* const names[] = {"side", "down", "angle"};
     for (int k = 0; k < 3; ++k) {
       const std::string at = std::to_string(k);
-      inputs[names[k]] = std::string("const T ") + names[k] + " = in[" + at + "];";
-      inputs[std::string("d_") + names[k]] = std::string("const T d_") + names[k] + " = din[" + at + "];";
+      inputs[names[k]] = type + names[k] + " = in[" + at + "];";
+      inputs[std::string("d_") + names[k]] = type + "d_" + names[k] + " = din[" + at + "];";
     }
     const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
     add("observe", "What the sensor reports of side, down (m) and angle (rad).",
-        "void observe([[maybe_unused]] const T& t, [[maybe_unused]] const T* p, const T* in, T* out)",
+        "void observe([[maybe_unused]] const T& t, [[maybe_unused]] const T* p, const T* in, T* "
+        "out)",
         body(from_one("out", reported), inputs),
         "void c_observe(double t, const double* p, const double in[3], double out[3]) {\n"
         "  observe(t, p, in, out);\n}\n");
@@ -444,17 +475,19 @@ class Builder {
         "void c_observe_tangent(double t, const double* p, const double* dp, const double in[3],\n"
         "                       const double din[3], double dout[3]) {\n"
         "  observe_tangent(t, p, dp, in, din, dout);\n}\n");
+    const std::string before = in_c() ? "  double out;\n" : "  T out;\n";
     const std::string after = "  return out;\n";
     add("clock", "Model time at which what was recorded at t happened, s.",
-        "T clock(const T& t, [[maybe_unused]] const T* p)", body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
-        "double c_clock(double t, const double* p) { return clock(t, p); }\n", "  T out;\n", after);
+        "T clock(const T& t, [[maybe_unused]] const T* p)",
+        body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
+        "double c_clock(double t, const double* p) { return clock(t, p); }\n", before, after);
     add("clock_tangent", "Its derivative along dp.",
         "T clock_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
         "                [[maybe_unused]] const T* dp)",
         body({{"out", kNoIndex, 0, "", tangent_.of(sensor.clock)}}, inputs),
         "double c_clock_tangent(double t, const double* p, const double* dp) {\n"
         "  return clock_tangent(t, p, dp);\n}\n",
-        "  T out;\n", after);
+        before, after);
   }
 
   // Symbols the equations depend on.
@@ -479,6 +512,7 @@ class Builder {
   const Description& description_;
   int links_;
   Layout layout_;
+  Language language_;
   Chain chain_;
   Definitions& definitions_;
   Differential tangent_;
@@ -514,8 +548,9 @@ std::vector<std::string> ModelFunctions::table_entries() const {
           maybe(observes, "c_clock_tangent")};
 }
 
-ModelFunctions model_functions(const Description& description, int links, Layout layout) {
-  return Builder(description, links, layout).build();
+ModelFunctions model_functions(const Description& description, int links, Layout layout,
+                               Language language) {
+  return Builder(description, links, layout, language).build();
 }
 
 }  // namespace catena

@@ -35,6 +35,8 @@ struct ModelFunctions {
   std::vector<std::string> table_entries() const;
 };
 
-ModelFunctions model_functions(const Description& description, int links, Layout layout);
+/// In C there is no Newton matrix: `newton_type` stays empty and the table says not structured.
+ModelFunctions model_functions(const Description& description, int links, Layout layout,
+                               Language language);
 
 }  // namespace catena

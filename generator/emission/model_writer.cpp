@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/model_writer.hpp"
 
-#include <cmath>
 #include <sstream>
 
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/model_functions.hpp"
-#include "generator/emission/parameter_table.hpp"
+#include "generator/emission/table_text.hpp"
 
 namespace catena {
 
@@ -15,37 +14,6 @@ namespace {
 
 const char* const kBanner =
     "// Written by catena-derive. Do not edit: change the model description and derive again.\n";
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
-std::string number(double value) {
-  if (std::isnan(value)) return "NAN";
-  if (std::isinf(value)) return value > 0 ? "INFINITY" : "-INFINITY";
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  const std::string text = out.str();
-  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-std::string kind_text(EnergyItem::Kind kind) {
-  switch (kind) {
-    case EnergyItem::kStored:
-      return "CATENA_STORED";
-    case EnergyItem::kDissipated:
-      return "CATENA_DISSIPATED";
-    case EnergyItem::kSupplied:
-      return "CATENA_SUPPLIED";
-  }
-  return "";
-}
 
 std::string operations_text(const FunctionBody& body) {
   const OperationCount& count = body.operations;
@@ -120,45 +88,13 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   return out.str();
 }
 
-template <class Rows, class Print>
-void table_rows(std::ostringstream& out, const std::string& type, const std::string& name,
-                const Rows& rows, const Print& print) {
-  out << "const " << type << " " << name << "[] = {\n";
-  for (const auto& row : rows) {
-    out << "    {";
-    print(row);
-    out << "},\n";
-  }
-  if (rows.empty()) out << "    {},\n";
-  out << "};\n\n";
-}
-
 std::string source_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
-  const ModelTable table = model_table(description, s.links);
   std::ostringstream out;
   out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "#include \"" << s.name
       << ".hpp\"\n\n#include \"catena_model.h\"\n\nnamespace catena::" << s.name
       << " {\n\nnamespace {\n\n";
-  const auto quantity = [&](const QuantityRow& row) {
-    out << quoted(row.name) << ", " << quoted(row.unit);
-  };
-  table_rows(out, "catena_quantity", "kCoordinateTable", table.coordinates, quantity);
-  table_rows(out, "catena_quantity", "kStateTable", table.states, quantity);
-  table_rows(out, "catena_quantity", "kSignalTable", table.signals, quantity);
-  table_rows(out, "catena_quantity", "kTermTable", functions.terms,
-             [&](const std::string& name) { out << quoted(name) << ", \"N m\""; });
-  table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
-             [&](const ParameterRow& row) {
-               out << quoted(row.name) << ", " << quoted(row.unit) << ", "
-                   << quoted(row.description) << ", " << number(row.default_value) << ", "
-                   << number(row.lower) << ", " << number(row.upper) << ", "
-                   << number(row.neutral);
-             });
-  table_rows(out, "catena_energy", "kEnergyTable", functions.energies,
-             [&](const EnergyItem& item) {
-               out << quoted(item.name) << ", " << kind_text(item.kind);
-             });
+  out << table_arrays(description, functions);
   out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)\n"
          "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give\n"
          "// the same bits.\n"
@@ -170,18 +106,8 @@ std::string source_text(const Description& description, const ModelFunctions& fu
     if (!function.wrapper.empty()) out << "CATENA_EACH_PROCESSOR " << function.wrapper;
   }
   out << "}  // namespace\n\nconst ::catena_model& table() {\n"
-         "  static const ::catena_model model = {\n"
-         "      CATENA_MODEL_ABI,\n      sizeof(::catena_model),\n      "
-      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description))) << ",\n"
-      << "      kLinks,\n      kCoordinates,\n      kStates,\n      kSignals,\n      kParameters,\n"
-      << "      " << functions.terms.size() << ",  // terms\n      " << functions.energies.size()
-      << ",  // energies\n      " << (functions.uses_time ? 1 : 0) << ",  // uses_time\n      "
-      << (functions.observes ? 1 : 0) << ",  // observes\n      " << (s.structured ? 1 : 0)
-      << ",  // structured\n      "
-      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0")
-      << ",\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
-         "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
-  for (const std::string& entry : functions.table_entries()) out << "      " << entry << ",\n";
+         "  static const ::catena_model model = {\n";
+  out << table_entries(description, functions, Language::kCpp);
   out << "  };\n  return model;\n}\n\n}  // namespace catena::" << s.name << "\n\n"
       << "#ifdef CATENA_SHARED_LIBRARY\n"
          "// The one entry of a shared library that holds this model alone.\n"
@@ -197,7 +123,7 @@ std::string model_name(const Description& description, int links) {
 }
 
 EmittedModel emit_model(const Description& description, int links, Layout layout) {
-  const ModelFunctions functions = model_functions(description, links, layout);
+  const ModelFunctions functions = model_functions(description, links, layout, Language::kCpp);
   EmittedModel model;
   model.summary = functions.summary;
   const std::string name = functions.summary.name;

@@ -83,16 +83,21 @@ ModelTable model_table(const Description& description, int links) {
 }
 
 InputDeclarations input_declarations(const Description& description, int links,
-                                     const std::string& point, const std::string& family_prefix) {
+                                     const std::string& point, const std::string& family_prefix,
+                                     Language language) {
   InputDeclarations declarations;
+  const bool c = language == Language::kC;
+  const std::string scalar_type = c ? "double" : "T";
   const auto array = [&](const std::string& family, const std::string& member, int offset) {
     const std::string shift = offset == 0 ? "" : " + " + std::to_string(offset);
     declarations[family_prefix + family] =
-        "const FromOne<T> " + family_prefix + family + "(" + point + member + shift + ");";
+        c ? "const double* const " + family_prefix + family + " = " + point + member + shift + ";"
+          : "const FromOne<T> " + family_prefix + family + "(" + point + member + shift + ");";
   };
   const auto scalar = [&](const std::string& family, const std::string& member, int offset) {
-    declarations[family_prefix + family] = "const T " + family_prefix + family + " = " + point +
-                                           member + "[" + std::to_string(offset) + "];";
+    declarations[family_prefix + family] = "const " + scalar_type + " " + family_prefix + family +
+                                           " = " + point + member + "[" + std::to_string(offset) +
+                                           "];";
   };
   int p = 0;
   for (const ChainFamily& row : kPerLink) {
@@ -103,15 +108,19 @@ InputDeclarations input_declarations(const Description& description, int links,
   array("theta", "q", 0);
   array("theta_dot", "v", 0);
   array("theta_ddot", "a", 0);
-  declarations[family_prefix + "time"] = "const T " + family_prefix + "time = " + point + "t;";
+  declarations[family_prefix + "time"] =
+      "const " + scalar_type + " " + family_prefix + "time = " + point + "t;";
   if (family_prefix.empty()) {
     // Angles are the first coordinates.
-    const std::string size = std::to_string(links);
+    const std::string arrays = scalar_type + " sine[" + std::to_string(links + 1) + "], cosine[" +
+                               std::to_string(links + 1) + "];\n";
+    const std::string arguments = point + "q, sine + 1, cosine + 1);";
     declarations["sine"] = declarations["cosine"] =
-        "T sine[" + std::to_string(links + 1) + "], cosine[" + std::to_string(links + 1) +
-        "];\nsines_and_cosines<" + size + ">(" + point + "q, sine + 1, cosine + 1);";
+        arrays + (c ? "sines_and_cosines(" + arguments
+                    : "sines_and_cosines<" + std::to_string(links) + ">(" + arguments);
   }
-  declarations["pi"] = "const T pi = T(3.14159265358979323846);";
+  declarations["pi"] = c ? "const double pi = 3.14159265358979323846;"
+                         : "const T pi = T(3.14159265358979323846);";
   int q = links, z = 0, u = 0;
   for (const Effect& effect : description.effects) {
     for (const EffectParameter& parameter : effect.parameters) {

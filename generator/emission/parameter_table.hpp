@@ -32,6 +32,7 @@ ModelTable model_table(const Description& description, int links);
 /// the point is reached ("at.", or "" for functions that are given t and p alone); `family_prefix`
 /// is "d_" for differentials.
 InputDeclarations input_declarations(const Description& description, int links,
-                                     const std::string& point, const std::string& family_prefix);
+                                     const std::string& point, const std::string& family_prefix,
+                                     Language language = Language::kCpp);
 
 }  // namespace catena

@@ -42,8 +42,9 @@ using Sum = std::vector<Monomial>;
 
 class Writer {
  public:
-  Writer(const Definitions& definitions, int link, const SymbolText& text, OperationCount& count)
-      : definitions_(definitions), link_(link), text_(text), count_(count) {}
+  Writer(const Definitions& definitions, int link, const SymbolText& text, Language language,
+         OperationCount& count)
+      : definitions_(definitions), link_(link), text_(text), language_(language), count_(count) {}
 
   Sum read(const ex& e) const {
     Sum sum;
@@ -59,7 +60,7 @@ class Writer {
 
   // A sum as text; `as_factor` asks for parentheses where there are several terms.
   std::string write(Sum sum, bool as_factor) {
-    if (sum.empty()) return "T(0)";
+    if (sum.empty()) return number_text(0);
     if (sum.size() == 1) return write_product(sum[0], "");
     // What all terms share stands in front.
     Monomial common = shared(sum);
@@ -185,16 +186,21 @@ class Writer {
   }
 
   std::string number_text(const numeric& value) const {
-    if (value.is_integer()) return "T(" + integer_text(value) + ")";
     if (!value.is_rational()) throw std::logic_error("numbers in equations must be rational");
+    if (language_ == Language::kC) {
+      if (value.is_integer()) return integer_text(value);
+      return "(" + integer_text(value.numer()) + " / " + integer_text(value.denom()) + ")";
+    }
+    if (value.is_integer()) return "T(" + integer_text(value) + ")";
     return "ratio<T>(" + integer_text(value.numer()) + ", " + integer_text(value.denom()) + ")";
   }
 
-  // Numbers beyond 2^53 are written as double literals: the nearest double either way.
-  static std::string integer_text(const numeric& value) {
+  // What an int may not hold is written as a double literal: the nearest double either way.
+  std::string integer_text(const numeric& value) const {
     std::ostringstream out;
     if (GiNaC::abs(value) < numeric(1'000'000'000)) {
       out << value;
+      if (language_ == Language::kC) out << ".0";
     } else {
       out.precision(17);
       out << std::scientific << value.to_double();
@@ -212,7 +218,7 @@ class Writer {
       for (int k = 0; k < std::abs(power); ++k) (power > 0 ? above : below).push_back(text);
     }
     if (!last_factor.empty()) above.push_back(last_factor);
-    if (above.empty()) above.push_back("T(1)");
+    if (above.empty()) above.push_back(number_text(1));
     std::string text;
     for (const std::string& factor : above) text += (text.empty() ? "" : " * ") + factor;
     count_.multiplications += static_cast<long>(above.size()) - 1;
@@ -229,13 +235,15 @@ class Writer {
   const Definitions& definitions_;
   int link_;
   const SymbolText& text_;
+  Language language_;
   OperationCount& count_;
 };
 
 }  // namespace
 
 std::string expression_text(const Definitions& definitions, const ex& expression, int link,
-                            const SymbolText& symbol_text, OperationCount* count) {
+                            const SymbolText& symbol_text, Language language,
+                            OperationCount* count) {
   OperationCount unasked;
   OperationCount& operations = count == nullptr ? unasked : *count;
   if (GiNaC::is_a<GiNaC::function>(expression)) {
@@ -247,7 +255,7 @@ std::string expression_text(const Definitions& definitions, const ex& expression
     ++operations.functions;
     return "sqrt(" + symbol_text(definitions.number_of(expression.op(0))) + ")";
   }
-  Writer writer(definitions, link, symbol_text, operations);
+  Writer writer(definitions, link, symbol_text, language, operations);
   return writer.write(writer.read(expression), false);
 }
 

@@ -16,15 +16,19 @@ namespace catena {
 /// Text of a symbol as seen from the link at hand.
 using SymbolText = std::function<std::string(int number)>;
 
+/// C++: a template on the scalar type T. C: C99 in double precision.
+enum class Language { kCpp, kC };
+
 struct OperationCount {
   long additions = 0, multiplications = 0, divisions = 0, functions = 0;
   OperationCount& operator+=(const OperationCount& other);
 };
 
-/// C++ text of a definition's right-hand side: a polynomial in symbols, factored where factors are
+/// Text of a definition's right-hand side: a polynomial in symbols, factored where factors are
 /// shared, or one function of a symbol. Symbols are ordered by family and by index - link.
-/// Every number is written as a value of the scalar type T. Counts what it costs, if asked.
+/// In C++ every number is written as a value of the scalar type T. Counts what it costs, if asked.
 std::string expression_text(const Definitions& definitions, const GiNaC::ex& expression, int link,
-                            const SymbolText& symbol_text, OperationCount* count = nullptr);
+                            const SymbolText& symbol_text, Language language = Language::kCpp,
+                            OperationCount* count = nullptr);
 
 }  // namespace catena

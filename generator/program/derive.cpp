@@ -6,7 +6,9 @@
 #include "generator/description/description.hpp"
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
+#include "generator/emission/c_writer.hpp"
 #include "generator/emission/emitted_files.hpp"
+#include "generator/emission/support_text.hpp"
 #include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"
 
@@ -20,6 +22,7 @@ struct Options {
   std::vector<std::string> effects;
   bool library = false;
   bool latex = false;
+  std::string format = "c++";
 };
 
 Description description_of(const Options& options) {
@@ -67,8 +70,13 @@ void derive(const Options& options) {
                 s.structured ? "O(n)   " : "general", seconds);
     std::fflush(stdout);
   };
-  const EmittedFiles files =
-      emit_files(description, description.links, options.library, progress);
+  EmittedFiles files;
+  if (options.format == "c") {
+    for (const int n : description.links) files.merge(emit_c_model(description, n));
+    files["catena_model.h"] = support_text().at("catena_model.h");
+  } else {
+    files = emit_files(description, description.links, options.library, progress);
+  }
   std::filesystem::create_directories(options.output);
   for (const auto& [name, text] : files) {
     write_whole_file(std::filesystem::path(options.output) / name, text);
@@ -90,6 +98,10 @@ void add_derive_command(CLI::App& app, int& status) {
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   command->add_flag("--library", options->library,
                     "write the look-up of the models and the list for CMake too");
+  command
+      ->add_option("--format", options->format, "c++, or c: plain C99 for embedding")
+      ->check(CLI::IsMember({"c++", "c"}))
+      ->capture_default_str();
   command->add_flag("--latex", options->latex,
                     "write the equations as a LaTeX document instead, for reading");
   command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");

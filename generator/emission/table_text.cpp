@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/table_text.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "generator/emission/parameter_table.hpp"
+
+namespace catena {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string number(double value) {
+  if (std::isnan(value)) return "NAN";
+  if (std::isinf(value)) return value > 0 ? "INFINITY" : "-INFINITY";
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  const std::string text = out.str();
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+std::string kind_text(EnergyItem::Kind kind) {
+  switch (kind) {
+    case EnergyItem::kStored:
+      return "CATENA_STORED";
+    case EnergyItem::kDissipated:
+      return "CATENA_DISSIPATED";
+    case EnergyItem::kSupplied:
+      return "CATENA_SUPPLIED";
+  }
+  return "";
+}
+
+template <class Rows, class Print>
+void table_rows(std::ostringstream& out, const std::string& type, const std::string& name,
+                const Rows& rows, const Print& print) {
+  out << "static const " << type << " " << name << "[] = {\n";
+  for (const auto& row : rows) {
+    out << "    {";
+    print(row);
+    out << "},\n";
+  }
+  if (rows.empty()) out << "    {0, 0},\n";
+  out << "};\n\n";
+}
+
+}  // namespace
+
+std::string table_arrays(const Description& description, const ModelFunctions& functions) {
+  const ModelTable table = model_table(description, functions.summary.links);
+  std::ostringstream out;
+  const auto quantity = [&](const QuantityRow& row) {
+    out << quoted(row.name) << ", " << quoted(row.unit);
+  };
+  table_rows(out, "catena_quantity", "kCoordinateTable", table.coordinates, quantity);
+  table_rows(out, "catena_quantity", "kStateTable", table.states, quantity);
+  table_rows(out, "catena_quantity", "kSignalTable", table.signals, quantity);
+  table_rows(out, "catena_quantity", "kTermTable", functions.terms,
+             [&](const std::string& name) { out << quoted(name) << ", \"N m\""; });
+  table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
+             [&](const ParameterRow& row) {
+               out << quoted(row.name) << ", " << quoted(row.unit) << ", "
+                   << quoted(row.description) << ", " << number(row.default_value) << ", "
+                   << number(row.lower) << ", " << number(row.upper) << ", "
+                   << number(row.neutral);
+             });
+  table_rows(out, "catena_energy", "kEnergyTable", functions.energies,
+             [&](const EnergyItem& item) {
+               out << quoted(item.name) << ", " << kind_text(item.kind);
+             });
+  return out.str();
+}
+
+std::string table_entries(const Description& description, const ModelFunctions& functions,
+                          Language language) {
+  const ModelSummary& s = functions.summary;
+  const bool c = language == Language::kC;
+  std::ostringstream out;
+  out << "      CATENA_MODEL_ABI,\n      sizeof(" << (c ? "" : "::") << "catena_model),\n      "
+      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description))) << ",\n"
+      << "      kLinks,\n      kCoordinates,\n      kStates,\n      kSignals,\n      kParameters,\n"
+      << "      " << functions.terms.size() << ",  // terms\n      " << functions.energies.size()
+      << ",  // energies\n      " << (functions.uses_time ? 1 : 0) << ",  // uses_time\n      "
+      << (functions.observes ? 1 : 0) << ",  // observes\n      " << (s.structured ? 1 : 0)
+      << ",  // structured\n      "
+      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0")
+      << ",\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
+         "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
+  for (const std::string& entry : functions.table_entries()) {
+    out << "      " << (!c ? entry : entry == "nullptr" ? "NULL" : entry.substr(2)) << ",\n";
+  }
+  return out.str();
+}
+
+}  // namespace catena
