@@ -124,6 +124,27 @@ int scale_add_multi_op(int count, double* a, N_Vector x, N_Vector* y, N_Vector* 
   return 0;
 }
 
+// For arrays of vectors CVODES would otherwise allocate in every step.
+
+// z_i = sum_k c_k x_ki; z may be x_0
+int linear_combination_array_op(int vectors, int count, double* c, N_Vector** x, N_Vector* z) {
+  for (int i = 0; i < vectors; ++i) {
+    const Index n = size(z[i]);
+    if (x[0][i] != z[i] || c[0] != 1.0) scale(c[0], data(x[0][i]), data(z[i]), n);
+    for (int k = 1; k < count; ++k) add_scaled(c[k], data(x[k][i]), data(z[i]), n);
+  }
+  return 0;
+}
+
+// z_ki = a_k x_i + y_ki
+int scale_add_multi_array_op(int vectors, int count, double* a, N_Vector* x, N_Vector** y,
+                             N_Vector** z) {
+  for (int k = 0; k < count; ++k)
+    for (int i = 0; i < vectors; ++i)
+      linear_sum(a[k], data(x[i]), 1.0, data(y[k][i]), data(z[k][i]), size(x[i]));
+  return 0;
+}
+
 _generic_N_Vector_Ops make_operations() {
   _generic_N_Vector_Ops ops{};
   ops.nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
@@ -145,6 +166,8 @@ _generic_N_Vector_Ops make_operations() {
   ops.nvmin = &min_op;
   ops.nvlinearcombination = &linear_combination_op;
   ops.nvscaleaddmulti = &scale_add_multi_op;
+  ops.nvlinearcombinationvectorarray = &linear_combination_array_op;
+  ops.nvscaleaddmultivectorarray = &scale_add_multi_array_op;
   return ops;
 }
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// No step of a simulation allocates: a run of many more steps calls malloc no more often.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstddef>
+
+#include "runtime/initial_shape.hpp"
+#include "runtime/sensitivity.hpp"
+#include "tests/runtime/cable_case.hpp"
+#include "tests/runtime/reference_model.hpp"
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Every allocation of the process passes here: operator new, Eigen's and SUNDIALS' malloc.
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+}
+
+namespace {
+
+struct Count {
+  long steps, allocations;
+};
+
+Count count(const catena::Model& model, double last, bool sensitivities,
+            catena::LinearSolver solver) {
+  const auto p = catena::testing::cable_parameters(model, 20.0, 0.1);
+  const auto start = catena::straight(model, 0.6);
+  std::vector<catena::Seed> seeds;
+  if (sensitivities) seeds = {catena::Seed::parameter(model, 0), catena::Seed::parameter(model, 5)};
+  catena::SimulationOptions options;
+  options.linear_solver = solver;
+  const long before = allocations;
+  const auto run =
+      catena::simulate_with_sensitivities(model, p, start, seeds, {0.0, last}, options);
+  const long after = allocations;
+  REQUIRE(run.status == catena::Status::kSuccess);
+  return {run.statistics.steps, after - before};
+}
+
+TEST_CASE("steps do not allocate") {
+  const catena::Model model = catena::Model::built_in(12);
+  for (const bool sensitivities : {false, true})
+    for (const auto solver : {catena::LinearSolver::kStructured, catena::LinearSolver::kDense}) {
+      CAPTURE(sensitivities);
+      const Count few = count(model, 0.1, sensitivities, solver),
+                  many = count(model, 1.0, sensitivities, solver);
+      CHECK(few.allocations > 0);
+      CHECK(many.steps > 3 * few.steps);
+      CHECK(many.allocations == few.allocations);
+    }
+}
+
+}  // namespace
+
+#else
+
+TEST_CASE("steps do not allocate" * doctest::skip()) {}
+
+#endif
