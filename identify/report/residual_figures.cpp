@@ -85,6 +85,14 @@ void add_map(const Experiment& experiment, const Residuals& residuals,
   add(figures, experiment, "residual_map", "", std::move(figure));
 }
 
+/// Up to a little above the last frequency that stands out: a thousandth of the largest amplitude.
+std::size_t worth_showing(const Row& amplitude) {
+  const double largest = *std::max_element(amplitude.begin(), amplitude.end());
+  std::size_t last = amplitude.size();
+  while (last > 0 && amplitude[last - 1] < 1e-3 * largest) --last;
+  return std::min(amplitude.size(), last + last / 4 + 10);
+}
+
 void add_spectra(const Experiment& experiment, const std::string& quantity, const std::string& unit,
                  const Rows& measured, const Rows& predicted, std::vector<ReportFigure>& figures) {
   const Row& time = experiment.measured->values.time;
@@ -94,8 +102,11 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
       for (double& value : row) value *= 1e3;
       return row;
     };
-    const Spectrum of_measured = amplitude_spectrum(time, scaled(measured[p]));
+    Spectrum of_measured = amplitude_spectrum(time, scaled(measured[p]));
     if (of_measured.frequency.empty()) continue;
+    const std::size_t shown = worth_showing(of_measured.amplitude);
+    of_measured.frequency.resize(shown);
+    of_measured.amplitude.resize(shown);
     Figure figure;
     figure.title = fmt::format("Spectrum of {} of {}", quantity, name);
     figure.caption = "Amplitude, through a Hann window.";
@@ -109,7 +120,9 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
       for (std::size_t t = 0; t < seen.size(); ++t) {
         if (std::isnan(measured[p][t])) seen[t] = kAbsent;
       }
-      const Spectrum simulated = amplitude_spectrum(time, scaled(seen));
+      Spectrum simulated = amplitude_spectrum(time, scaled(seen));
+      simulated.frequency.resize(std::min(shown, simulated.frequency.size()));
+      simulated.amplitude.resize(simulated.frequency.size());
       figure.series.push_back(
           {"simulated", simulated.frequency, simulated.amplitude, Mark::kLine, 1});
     }

@@ -288,6 +288,8 @@ class Drawing {
     std::string points;
     std::string bars;
     bool drawing = false;
+    double last_x = -100;
+    double last_y = -100;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
       if (!x_.shows(series.x[i]) || !y_.shows(series.y[i])) {
         drawing = false;
@@ -297,7 +299,11 @@ class Drawing {
       const double y = y_(series.y[i]);
       curve += fmt::format("{}{} {}", drawing ? 'L' : 'M', place(x), place(y));
       drawing = true;
-      points += marker(series.colour, x, y, 3.5);
+      if (std::hypot(x - last_x, y - last_y) >= 4) {  // else it would cover the marker before
+        points += marker(series.colour, x, y, 3.5);
+        last_x = x;
+        last_y = y;
+      }
       if (!series.low.empty()) {
         const double low = y_.shows(series.low[i]) ? y_(series.low[i]) : y_.from;
         const double high = y_.shows(series.high[i]) ? y_(series.high[i]) : y_.to;

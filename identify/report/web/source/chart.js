@@ -155,10 +155,14 @@ export class Chart {
       context.strokeStyle = seriesColour(series.colour);
       context.beginPath();
       const [low, high] = [plot.scales.x.min, plot.scales.x.max];
+      let last = null;  // markers that would cover one another are left out
       xs.forEach((x, i) => {
         if (x === null || ys[i] === null || x < low || x > high) return;
         if (this.figure.y.logarithmic && ys[i] <= 0) return;
-        traceMarker(context, series.colour, plot.valToPos(x, 'x', true), plot.valToPos(ys[i], 'y', true), 3 * ratio);
+        const at = [plot.valToPos(x, 'x', true), plot.valToPos(ys[i], 'y', true)];
+        if (last && Math.hypot(at[0] - last[0], at[1] - last[1]) < 4 * ratio) return;
+        last = at;
+        traceMarker(context, series.colour, ...at, 3 * ratio);
       });
       context.stroke();
     });
