@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 
 #include "generator/certificate/random_point.hpp"
@@ -128,16 +129,22 @@ class Measurement {
     Values mass(at(n * n));
     table_.mass_matrix(&here, mass.data());
     const double size = largest(mass);
+    // M x for one x tells of every entry; the product of the doubles is taken exactly.
+    const auto inputs = exact_inputs(table_, point_);
+    std::map<std::string, numeric> x;
     for (int j = 0; j < n; ++j) {
-      const std::string unit = "exact_unit_" + full_name_of(chain_.accelerations()[at(j)]);
-      const auto inputs = exact_inputs(table_, point_);
-      ExactEvaluation column(chain_.definitions(), [&](const std::string& name) -> ex {
-        if (name.starts_with("exact_unit_")) return name == unit ? 1 : 0;
-        return inputs(name);
-      });
-      for (int i = 0; i < n; ++i) {
-        note("mass_matrix", difference(mass[at(i * n + j)], column.of(mass_[at(i)])), size);
+      x["exact_unit_" + full_name_of(chain_.accelerations()[at(j)])] = numeric(direction_.a[at(j)]);
+    }
+    ExactEvaluation product(chain_.definitions(), [&](const std::string& name) -> ex {
+      const auto found = x.find(name);
+      return found == x.end() ? inputs(name) : ex(found->second);
+    });
+    for (int i = 0; i < n; ++i) {
+      numeric row = 0;
+      for (int j = 0; j < n; ++j) {
+        row = row + numeric(mass[at(i * n + j)]) * numeric(direction_.a[at(j)]);
       }
+      note("mass_matrix", (product.of(mass_[at(i)]) - row).to_double(), size);
     }
     RandomPoint still = point_;
     std::fill(still.a.begin(), still.a.end(), 0.0);
@@ -249,21 +256,25 @@ class Measurement {
     const catena_point here = point_.at();
     Values energy(at(table_.energies));
     table_.energy(&here, energy.data());
+    std::vector<numeric> exact;
     numeric balance = 0;
-    double powers = 0;
+    double powers = 0;  // the sum of the sizes of all
     for (std::size_t k = 0; k < energy.size(); ++k) {
       const EnergyItem& item = chain_.energies()[k];
-      numeric exact = 0;
+      numeric sum = 0;
       double size = 0;
       for (const ex& part : item.parts) {
         const numeric value = here_->of(part);
-        exact = exact + value;
+        sum = sum + value;
         size += std::abs(value.to_double());
       }
-      note("energy", difference(energy[k], exact), size);
-      if (item.kind == EnergyItem::kStored) continue;
-      balance = item.kind == EnergyItem::kDissipated ? balance + exact : balance - exact;
-      powers += size;
+      exact.push_back(sum);
+      if (item.kind == EnergyItem::kStored) {
+        note("energy", difference(energy[k], sum), size);
+      } else {
+        balance = item.kind == EnergyItem::kDissipated ? balance + sum : balance - sum;
+        powers += size;
+      }
     }
     for (const ex& part : stored_rate_) {
       const numeric value = here_->of(part);
@@ -274,6 +285,11 @@ class Measurement {
       const numeric value = here_->of(chain_.rates()[i]) * here_->of(chain_.residual()[i]);
       balance = balance - value;
       powers += std::abs(value.to_double());
+    }
+    for (std::size_t k = 0; k < energy.size(); ++k) {
+      if (chain_.energies()[k].kind != EnergyItem::kStored) {
+        note("power", difference(energy[k], exact[k]), powers);
+      }
     }
     note("power_balance", balance.to_double(), powers);
   }

@@ -8,7 +8,8 @@
 //   mass_matrix                        its largest entry
 //   acceleration                       backward: |r(a)| over the same size, a the one returned
 //   newton_solve                       backward: |N x - b| over |N| |x|
-//   energy                             for each item the sum of the sizes of its parts
+//   energy                             for each stored energy the sum of the sizes of its parts
+//   power                              the sum of the sizes of all powers, v.r included
 //   positions, velocities              the length (speed) summed along the chain
 //   internal_forces                    the largest force, moment and curvature
 //   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers

@@ -33,24 +33,6 @@ Effect named_effect(const TomlTable& file, const std::string& name) {
   return built_in_effect(name);
 }
 
-void check_together(const TomlTable& file, const std::vector<Effect>& effects) {
-  std::set<std::string> ids, names;
-  for (const Effect& effect : effects) {
-    if (!ids.insert(effect.id).second) {
-      file.fail("effects", "\"" + effect.id + "\" stands there twice; name each effect once");
-    }
-    // Coordinates, states and signals carry their own names in the model, not their effect's.
-    const auto check = [&](const std::string& name) {
-      if (!names.insert(name).second) {
-        file.fail("effects", "two effects both add \"" + name + "\"; rename one in its file");
-      }
-    };
-    for (const Coordinate& coordinate : effect.coordinates) check(coordinate.name);
-    for (const ExtraState& state : effect.states) check(state.name);
-    for (const SignalChannel& signal : effect.signals) check(signal.name);
-  }
-}
-
 bool is_identifier(const std::string& text) {
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
          std::all_of(text.begin(), text.end(),
@@ -86,8 +68,30 @@ Description read_description(const std::filesystem::path& path) {
   file.optional_text("description");
   file.finish();
   for (const std::string& name : names) description.effects.push_back(named_effect(file, name));
-  check_together(file, description.effects);
+  if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
+    file.fail("effects", conflict);
+  }
   return description;
+}
+
+std::string conflict_between(const std::vector<Effect>& effects) {
+  std::set<std::string> ids, names;
+  std::string conflict;
+  for (const Effect& effect : effects) {
+    if (!ids.insert(effect.id).second) {
+      return "\"" + effect.id + "\" stands there twice; name each effect once";
+    }
+    // Signals are columns of data by their own names, coordinates and states are told apart alike.
+    const auto check = [&](const std::string& name) {
+      if (!names.insert(name).second) {
+        conflict = "two effects both add \"" + name + "\"; rename one in its file";
+      }
+    };
+    for (const Coordinate& coordinate : effect.coordinates) check(coordinate.name);
+    for (const ExtraState& state : effect.states) check(state.name);
+    for (const SignalChannel& signal : effect.signals) check(signal.name);
+  }
+  return conflict;
 }
 
 void write_description(const Description& description, const std::filesystem::path& path) {

@@ -26,6 +26,10 @@ Description plain_chain();
 /// .toml) relative to the description. Throws InputError naming file, line, key, value and rule.
 Description read_description(const std::filesystem::path& path);
 
+/// Why effects cannot stand in one description (an id twice, or two that add a coordinate, state or
+/// signal of one name), and what to do; empty if they can.
+std::string conflict_between(const std::vector<Effect>& effects);
+
 /// Writes a description that read_description reads back to the same canonical text. Effects read
 /// from files are named by their path relative to where the description is written.
 /// The file is written whole or not at all.

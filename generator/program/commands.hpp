@@ -8,6 +8,7 @@
 
 namespace catena {
 
+void add_certify_command(CLI::App& app, int& status);
 void add_check_command(CLI::App& app, int& status);
 void add_derive_command(CLI::App& app, int& status);
 void add_verify_command(CLI::App& app, int& status);

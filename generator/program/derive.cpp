@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "generator/description/description.hpp"
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
 #include "generator/emission/c_writer.hpp"
@@ -11,39 +10,19 @@
 #include "generator/emission/support_text.hpp"
 #include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"
+#include "generator/program/model_options.hpp"
 
 namespace catena {
 
 namespace {
 
 struct Options {
-  std::string description, output = "generated";
-  std::vector<int> links;
-  std::vector<std::string> effects;
+  ModelOptions model;
+  std::string output = "generated";
   bool library = false;
   bool latex = false;
   std::string format = "c++";
 };
-
-Description description_of(const Options& options) {
-  Description description =
-      options.description.empty() ? plain_chain() : read_description(options.description);
-  for (const std::string& effect : options.effects) {
-    description.effects.push_back(effect.ends_with(".toml") ? read_effect(effect)
-                                                            : built_in_effect(effect));
-    if (options.description.empty()) description.id += "_" + description.effects.back().id;
-  }
-  if (!options.links.empty()) description.links = options.links;
-  if (description.links.empty()) {
-    throw InputError("no link count: give --links N, or `links = [...]` in the description");
-  }
-  for (const int n : description.links) {
-    if (n < 1) {
-      throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
-    }
-  }
-  return description;
-}
 
 void write_latex(const Options& options, const Description& description) {
   for (const int n : description.links) {
@@ -60,7 +39,7 @@ void write_latex(const Options& options, const Description& description) {
 }
 
 void derive(const Options& options) {
-  const Description description = description_of(options);
+  const Description description = description_of(options.model);
   if (options.latex) {
     write_latex(options, description);
     return;
@@ -90,11 +69,7 @@ void add_derive_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "derive", "Derive the equations of motion of a model and write them as C++");
-  command->add_option("--description", options->description,
-                      "model description (TOML); the plain chain if absent");
-  command->add_option("--links", options->links, "link counts, instead of the description's");
-  command->add_option("--effect", options->effects,
-                      "effect to add: a built-in id or a TOML file; may be repeated");
+  add_model_options(*command, options->model);
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   command->add_flag("--library", options->library,
                     "write the look-up of the models and the list for CMake too");

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int status = 0;
   catena::add_derive_command(app, status);
+  catena::add_certify_command(app, status);
   catena::add_check_command(app, status);
   catena::add_verify_command(app, status);
   catena::add_manual_command(app);

@@ -10,9 +10,8 @@ using namespace catena;
 
 namespace {
 
-// Backward errors of a factorisation without pivoting grow with the links; everything else is a few
-// roundings per link.
-constexpr double kRoundings = 20;
+// What the certificates allow; measured are up to 6.
+constexpr double kRoundings = 30;
 
 void check(const Description& description, int links, int points) {
   CAPTURE(links);
@@ -22,7 +21,7 @@ void check(const Description& description, int links, int points) {
   for (const FunctionAccuracy& accuracy :
        measure_accuracy(description, links, model.table(), points, 1)) {
     CAPTURE(accuracy.function);
-    CHECK(accuracy.worst < kRoundings * links);
+    CHECK(accuracy.worst < kRoundings);
   }
 }
 

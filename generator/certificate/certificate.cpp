@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/certificate/certificate.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "generator/certificate/accuracy.hpp"
+#include "generator/certificate/compiled_model.hpp"
+#include "generator/certificate/exact_evaluation.hpp"
+#include "generator/certificate/operations.hpp"
+#include "generator/certificate/twin.hpp"
+#include "generator/derivation/chain.hpp"
+#include "generator/derivation/closed_form_proof.hpp"
+
+namespace catena {
+namespace {
+
+using GiNaC::ex;
+using Json = nlohmann::ordered_json;
+
+constexpr int kPoints = 3;
+constexpr unsigned kSeed = 1;
+// Measured are up to 3 roundings of what is summed up, and little more with more links. Other
+// compilers and mathematical libraries may round otherwise; a wrong digit anywhere costs thousands.
+constexpr double kTolerance = 30;
+// The eigenvalue solver loses the condition of M, about n^4 for the frequencies that matter least.
+constexpr double kFrequencyTolerance = 1e-9;
+
+// L = T - V as the derivation holds it: each part and every definition it needs, in order.
+std::string lagrangian_text(Chain& chain) {
+  const Definitions& definitions = chain.definitions();
+  std::vector<int> needed;
+  std::vector<bool> seen(static_cast<std::size_t>(definitions.size()));
+  std::string text;
+  const std::function<void(const ex&)> need = [&](const ex& expression) {
+    for (const int number : definitions.symbols_of(expression)) {
+      if (seen[static_cast<std::size_t>(number)]) continue;
+      seen[static_cast<std::size_t>(number)] = true;
+      const Symbol symbol = definitions[number];
+      if (symbol.is_input) continue;
+      need(symbol.value);
+      text += full_name(symbol) + " = " + definitions.canonical_key(symbol.value) + "\n";
+    }
+  };
+  for (const EnergyItem& item : chain.energies()) {
+    if (item.kind != EnergyItem::kStored) continue;
+    for (const ex& part : item.parts) {
+      need(part);
+      text += item.name + ": " + definitions.canonical_key(part.expand()) + "\n";
+    }
+  }
+  return text;
+}
+
+Json proofs(const Description& description, int links, const Json& summary) {
+  Json list = Json::array();
+  const auto add = [&](const std::string& what, bool proved) {
+    list.push_back({{"what", what}, {"proved", proved}});
+  };
+  if (description.effects.empty()) {
+    for (const Proof& proof : prove_closed_form(links)) {
+      add(proof.what + " = closed form, " + std::to_string(proof.entries) + " entries",
+          proof.equal);
+    }
+  }
+  // What the emitted code exploits it does only where it is proved; what is not, is not claimed.
+  const Json& structure = summary.at("structure");
+  if (structure.at("mass_matrix").at("symmetric")) add("M symmetric", true);
+  if (structure.at("mass_matrix").at("semiseparable")) add("M semiseparable", true);
+  if (structure.at("newton_matrix").at("tridiagonal_plus_semiseparable")) {
+    add("Newton matrix tridiagonal plus semiseparable", true);
+  }
+  for (const auto& [key, name] : {std::pair("stiffness_matrix", "K"), {"damping_matrix", "C"}}) {
+    if (structure.at(key).at("constant_symmetric_tridiagonal")) {
+      add(std::string(name) + " constant, symmetric, tridiagonal", true);
+    }
+  }
+  return list;
+}
+
+// Three digits are enough to compare, and to read.
+double rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return std::stod(text);
+}
+
+// Counts are whole until they are too large to be.
+Json count(double operations) {
+  if (operations < 0x1p53) return static_cast<std::int64_t>(operations);
+  return rounded(operations);
+}
+
+Json operations(const Description& description, int links, const Json& summary) {
+  Chain chain(description, links);
+  Json result;
+  result["residual_before_sharing"] =
+      count(operations_written_out(chain.definitions(), chain.residual()));
+  for (const auto& [function, counts] : summary.at("functions").items()) {
+    std::int64_t sum = 0;
+    for (const auto& [kind, operations] : counts.items()) sum += operations.get<std::int64_t>();
+    result["after_sharing"][function] = sum;
+  }
+  return result;
+}
+
+Json hashes(const std::string& model, const EmittedFiles& files) {
+  Json result;
+  for (const auto& [name, text] : files) {
+    const bool own = name.starts_with(model + ".");
+    const bool support =
+        name.ends_with(".h") || (name.ends_with(".hpp") && !name.starts_with("chain"));
+    if (own || support) result[name] = sha256_hex(text);
+  }
+  return result;
+}
+
+Json worst(const std::vector<FunctionAccuracy>& accuracies) {
+  Json result;
+  for (const FunctionAccuracy& accuracy : accuracies) {
+    // NaN has no place in JSON; an error that cannot be stated is infinite.
+    result[accuracy.function] = std::isfinite(accuracy.worst) ? rounded(accuracy.worst) : 1e300;
+  }
+  return result;
+}
+
+Json numerical(const Description& description, int links, const catena_model& table) {
+  Json result;
+  result["points"] = kPoints;
+  result["seed"] = kSeed;
+  result["tolerance_roundings"] = kTolerance;
+  result["worst_roundings_against_50_digits"] =
+      worst(measure_accuracy(description, links, table, kPoints, kSeed));
+  if (description.effects.empty()) {
+    result["worst_roundings_against_closed_form"] = worst(compare_with_twin(table, kPoints, kSeed));
+  }
+  const Frequencies frequencies = natural_frequencies(table);
+  Json& at_rest = result["natural_frequencies"];
+  if (!frequencies.applicable) {
+    at_rest["not_compared"] = frequencies.why_not;
+    return result;
+  }
+  at_rest["lowest_rad_per_s"] = frequencies.emitted.front();
+  at_rest["highest_rad_per_s"] = frequencies.emitted.back();
+  at_rest["largest_relative_difference"] = rounded(frequencies.largest_difference);
+  at_rest["tolerance"] = kFrequencyTolerance;
+  return result;
+}
+
+}  // namespace
+
+std::string certificate_name(const std::string& model) { return model + ".certificate.json"; }
+
+Json make_certificate(const Description& description, int links, const EmittedFiles& files) {
+  const std::string model = model_name(description, links);
+  const Json summary = Json::parse(files.at(model + ".json"));
+  Json certificate;
+  certificate["format"] = 1;
+  certificate["kind"] = "certificate";
+  certificate["model"] = model;
+  Json& exact = certificate["exact"];
+  exact["links"] = links;
+  exact["description"] = sha256_hex(canonical_text(description));
+  Chain chain(description, links);
+  exact["lagrangian"] = sha256_hex(lagrangian_text(chain));
+  exact["files"] = hashes(model, files);
+  exact["operations"] = operations(description, links, summary);
+  exact["proofs"] = proofs(description, links, summary);
+  const CompiledModel compiled(files, model);
+  certificate["numerical"] = numerical(description, links, compiled.table());
+  return certificate;
+}
+
+std::vector<std::string> failures(const Json& certificate) {
+  std::vector<std::string> result;
+  for (const Json& proof : certificate.at("exact").at("proofs")) {
+    if (!proof.at("proved").get<bool>()) {
+      result.push_back("not proved: " + proof.at("what").get<std::string>());
+    }
+  }
+  const Json& numerical = certificate.at("numerical");
+  const double tolerance = numerical.at("tolerance_roundings");
+  for (const char* list :
+       {"worst_roundings_against_50_digits", "worst_roundings_against_closed_form"}) {
+    if (!numerical.contains(list)) continue;
+    for (const auto& [function, value] : numerical.at(list).items()) {
+      if (value.get<double>() <= tolerance) continue;
+      result.push_back(std::string(list) + ": " + function + " has " + value.dump() +
+                       ", tolerated are " + numerical.at("tolerance_roundings").dump());
+    }
+  }
+  const Json& frequencies = numerical.at("natural_frequencies");
+  if (frequencies.contains("tolerance") &&
+      !(frequencies.at("largest_relative_difference") <= frequencies.at("tolerance"))) {
+    result.push_back("natural frequencies differ by " +
+                     frequencies.at("largest_relative_difference").dump() + ", tolerated are " +
+                     frequencies.at("tolerance").dump());
+  }
+  return result;
+}
+
+std::vector<std::string> differences(const Json& on_file, const Json& now) {
+  std::vector<std::string> result;
+  const auto compare = [&](const std::string& where, const Json& a, const Json& b) {
+    if (a == b) return;
+    const Json patch = Json::diff(a, b);
+    for (const Json& change : patch) {
+      const std::string path = change.at("path");
+      const Json::json_pointer pointer(path);
+      const auto shown = [&](const Json& json) {
+        return json.contains(pointer) ? json.at(pointer).dump() : "nothing";
+      };
+      result.push_back(where + path + ": on file " + shown(a) + ", now " + shown(b));
+    }
+  };
+  compare("", on_file.value("exact", Json()), now.at("exact"));
+  const Json stated = on_file.value("numerical", Json::object());
+  for (const char* key : {"points", "seed", "tolerance_roundings"}) {
+    compare(std::string("numerical.") + key, stated.value(key, Json()),
+            now.at("numerical").at(key));
+  }
+  const Json& frequencies = now.at("numerical").at("natural_frequencies");
+  for (const char* key : {"lowest_rad_per_s", "highest_rad_per_s"}) {
+    if (!frequencies.contains(key)) continue;
+    const double before = stated.value("natural_frequencies", Json::object()).value(key, 0.0);
+    const double value = frequencies.at(key);
+    if (std::abs(before / value - 1) <= frequencies.at("tolerance").get<double>()) continue;
+    result.push_back(std::string("numerical.natural_frequencies.") + key + ": on file " +
+                     Json(before).dump() + ", now " + Json(value).dump());
+  }
+  return result;
+}
+
+}  // namespace catena

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "generator/certificate/certificate.hpp"
+#include "generator/description/input_error.hpp"
+#include "generator/description/whole_file.hpp"
+#include "generator/program/commands.hpp"
+#include "generator/program/model_options.hpp"
+
+namespace catena {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  ModelOptions model;
+  std::string folder = "generated";
+  bool write = false;
+};
+
+std::optional<std::string> text_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Where two texts differ first: "line 12".
+std::string first_difference(const std::string& a, const std::string& b) {
+  std::size_t at = 0, line = 1;
+  while (at < a.size() && at < b.size() && a[at] == b[at]) line += a[at++] == '\n' ? 1 : 0;
+  return "line " + std::to_string(line);
+}
+
+// Emitted files that are not, byte by byte, what is derived now.
+std::vector<std::string> changed_files(const Json& certificate, const EmittedFiles& files,
+                                       const std::filesystem::path& folder) {
+  std::vector<std::string> changed;
+  for (const auto& [name, hash] : certificate.at("exact").at("files").items()) {
+    const auto text = text_of(folder / name);
+    if (!text) {
+      changed.push_back(name + " is not there");
+    } else if (*text != files.at(name)) {
+      changed.push_back(name + " is not what is derived, from " +
+                        first_difference(*text, files.at(name)) + " on");
+    }
+  }
+  return changed;
+}
+
+Json certificate_on_file(const std::filesystem::path& path) {
+  const auto text = text_of(path);
+  if (!text) {
+    throw InputError(path.string() + ": there is no such file; write it with certify --write");
+  }
+  try {
+    return Json::parse(*text);
+  } catch (const Json::parse_error& error) {
+    throw InputError(path.string() + ": not valid JSON: " + error.what());
+  }
+}
+
+bool certify(const Options& options, const Description& description, int links) {
+  const EmittedFiles files =
+      emit_files(description, {links}, false, [](const ModelSummary&, double) {});
+  const Json now = make_certificate(description, links, files);
+  const std::string model = now.at("model");
+  const std::filesystem::path folder = options.folder, path = folder / certificate_name(model);
+  std::vector<std::string> problems = failures(now);
+  for (const std::string& changed : changed_files(now, files, folder)) problems.push_back(changed);
+  if (!options.write) {
+    for (const std::string& different : differences(certificate_on_file(path), now)) {
+      problems.push_back(different);
+    }
+  } else if (problems.empty()) {
+    write_whole_file(path, now.dump(2) + "\n");
+  }
+  std::printf("%-24s %s\n", model.c_str(),
+              !problems.empty() ? "FAILED"
+              : options.write   ? "certified"
+                                : "as certified");
+  for (const std::string& problem : problems) std::printf("  %s\n", problem.c_str());
+  std::fflush(stdout);
+  return problems.empty();
+}
+
+}  // namespace
+
+void add_certify_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "certify",
+      "Derive, prove and measure emitted models again and compare with their certificates");
+  add_model_options(*command, options->model);
+  command->add_option("--folder", options->folder, "where the emitted models are")
+      ->capture_default_str();
+  command->add_flag("--write", options->write, "write the certificates instead of comparing");
+  command->footer(
+      "Exit status 1 if a byte of the emitted code differs, a proof fails or a number is out of "
+      "its "
+      "tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
+  command->callback([options, &status] {
+    const Description description = description_of(options->model);
+    for (const int n : description.links) {
+      if (!certify(*options, description, n)) status = 1;
+    }
+  });
+}
+
+}  // namespace catena

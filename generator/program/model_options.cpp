@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/program/model_options.hpp"
+
+#include "generator/description/input_error.hpp"
+
+namespace catena {
+
+void add_model_options(CLI::App& command, ModelOptions& options) {
+  command.add_option("--description", options.description,
+                     "model description (TOML); the plain chain if absent");
+  command.add_option("--links", options.links, "link counts, instead of the description's");
+  command.add_option("--effect", options.effects,
+                     "effect to add: a built-in id or a TOML file; may be repeated");
+}
+
+Description description_of(const ModelOptions& options) {
+  Description description =
+      options.description.empty() ? plain_chain() : read_description(options.description);
+  for (const std::string& effect : options.effects) {
+    description.effects.push_back(effect.ends_with(".toml") ? read_effect(effect)
+                                                            : built_in_effect(effect));
+    if (options.description.empty()) description.id += "_" + description.effects.back().id;
+  }
+  if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
+    throw InputError("--effect: " + conflict);
+  }
+  if (!options.links.empty()) description.links = options.links;
+  if (description.links.empty()) {
+    throw InputError("no link count: give --links N, or `links = [...]` in the description");
+  }
+  for (const int n : description.links) {
+    if (n < 1) {
+      throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
+    }
+  }
+  return description;
+}
+
+}  // namespace catena

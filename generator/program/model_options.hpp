@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "generator/description/description.hpp"
+
+namespace catena {
+
+/// The options that say which models a command is about.
+struct ModelOptions {
+  std::string description;
+  std::vector<int> links;
+  std::vector<std::string> effects;
+};
+
+void add_model_options(CLI::App& command, ModelOptions& options);
+
+/// The description they give, its link counts not empty. Throws InputError.
+Description description_of(const ModelOptions& options);
+
+}  // namespace catena

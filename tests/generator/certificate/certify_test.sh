@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# certify_test.sh CATENA_DERIVE: a certificate holds for what it was written for, run after run, and
+# for nothing else: not for a changed byte, a changed certificate or another model.
+set -euo pipefail
+derive=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+  echo "$*"
+  exit 1
+}
+
+# certify STATUS TEXT: it ends with this status and says this
+certify() {
+  local wanted=$1 text=$2 status=0
+  "$derive" certify --links 3 --effect load_drag --folder model >said 2>&1 || status=$?
+  [[ $status == "$wanted" ]] || { cat said; fail "status $status instead of $wanted"; }
+  grep -qF -- "$text" said || { cat said; fail "it does not say: $text"; }
+}
+
+name=chain_load_drag_3
+"$derive" derive --links 3 --effect load_drag --output model >/dev/null
+certify 2 "there is no such file; write it with certify --write"
+"$derive" certify --links 3 --effect load_drag --folder model --write >/dev/null
+cp -r model certified
+for run in 1 2 3; do certify 0 "as certified"; done
+
+# a byte of the code, one of a header it includes, a missing file
+sed -i '0,/theta\[2\] - theta\[1\]/s//theta[1] - theta[2]/' "model/$name.hpp"
+cmp -s "model/$name.hpp" "certified/$name.hpp" && fail "the test changed nothing"
+certify 1 "$name.hpp is not what is derived, from line"
+cp "certified/$name.hpp" model/
+printf ' ' >>model/quasiseparable.hpp
+certify 1 "quasiseparable.hpp is not what is derived, from line"
+cp certified/quasiseparable.hpp model/
+rm "model/$name.cpp"
+certify 1 "$name.cpp is not there"
+cp "certified/$name.cpp" model/
+
+# the certificate itself
+sed -i 's/"proved": true/"proved": false/' "model/$name.certificate.json"
+certify 1 "/proofs/0/proved: on file false, now true"
+cp "certified/$name.certificate.json" model/
+sed -i 's/"tolerance_roundings": [0-9.]*/"tolerance_roundings": 1e9/' "model/$name.certificate.json"
+certify 1 "numerical.tolerance_roundings: on file 1000000000.0, now"
+sed -i 's/"lowest_rad_per_s": /"lowest_rad_per_s": 1/' "certified/$name.certificate.json"
+cp "certified/$name.certificate.json" model/
+certify 1 "numerical.natural_frequencies.lowest_rad_per_s: on file"
+echo "{" >"model/$name.certificate.json"
+certify 2 "not valid JSON"
+
+# nothing is written where the code is not what is derived
+"$derive" derive --links 3 --effect load_drag --output model >/dev/null
+rm "model/$name.certificate.json"
+printf ' ' >>"model/$name.hpp"
+"$derive" certify --links 3 --effect load_drag --folder model --write >/dev/null && fail "certified"
+[[ ! -e model/$name.certificate.json ]] || fail "a certificate was written"
+echo "every change was noticed"
