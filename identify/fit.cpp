@@ -153,7 +153,28 @@ Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y) {
   return x;
 }
 
-FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares) {
+namespace {
+
+FitResult fit_once(const Problem& problem, const FitOptions& options,
+                   const LeastSquares& least_squares) {
+  return problem.study().optimiser.method == FitMethod::kLeastSquares
+             ? least_squares(problem, options)
+             : fit_by_nlopt(problem, options);
+}
+
+/// What came before counts too; errors of shorter windows are no errors of the whole.
+void add_effort(FitResult& total, const FitResult& before) {
+  total.evaluations += before.evaluations;
+  total.iterations += before.iterations;
+  total.work += before.work;
+  total.seconds += before.seconds;
+  total.failures += before.failures;
+  total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
+}
+
+}  // namespace
+
+void check_fittable(const Problem& problem) {
   if (problem.unknowns().empty())
     throw InputError(problem.study().file.string() +
                      ": nothing to identify; mark a [[parameter]] with free = true");
@@ -162,12 +183,36 @@ FitResult fit(const Problem& problem, const FitOptions& options, const LeastSqua
   if (!data)
     throw InputError(problem.study().file.string() +
                      ": free parameters without data; add an [[experiment]] with use = \"fit\"");
-  if (problem.study().optimiser.method != FitMethod::kLeastSquares)
-    return fit_by_nlopt(problem, options);
-  if (!least_squares)
+}
+
+FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares) {
+  check_fittable(problem);
+  const OptimiserSpec& spec = problem.study().optimiser;
+  if (spec.method == FitMethod::kLeastSquares && !least_squares)
     throw InputError(problem.study().file.string() +
                      ": optimiser.method: least_squares is not built in here; use another method");
-  return least_squares(problem, options);
+  FitOptions next = options;
+  next.recall = nullptr;  // errors of a part are not those of the whole
+  next.record = nullptr;
+  FitResult before;
+  for (const double seconds : spec.growing_windows) {
+    FitResult shorter = fit_once(problem.shortened(seconds), next, least_squares);
+    add_effort(shorter, before);
+    if (shorter.status == FitStatus::kInterrupted || shorter.status == FitStatus::kTimeLimit ||
+        shorter.status == FitStatus::kFailed)
+      return shorter;
+    next.start = shorter.x;
+    before = std::move(shorter);
+  }
+  next.recall = options.recall;
+  next.record = options.record;
+  FitResult result = fit_once(problem, next, least_squares);
+  add_effort(result, before);
+  if (!spec.growing_windows.empty()) {
+    const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
+    result.start_error = error_of(problem, evaluate(problem, start, false, false), Part::kFit);
+  }
+  return result;
 }
 
 }  // namespace catena

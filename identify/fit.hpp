@@ -26,6 +26,7 @@ const char* name_of(FitStatus status);
 struct HistoryEntry {
   double error = 0;  ///< infinite if the simulation failed
   Eigen::VectorXd x;
+  std::string message;  ///< why it failed
 };
 
 /// Evaluations that failed, with the unknowns that caused it.
@@ -59,8 +60,8 @@ struct FitOptions {
   double time_limit = 0;          ///< s; 0: none
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
-  /// A known error for exactly these unknowns (from the log of an interrupted run), or NaN.
-  std::function<double(const Eigen::VectorXd&)> recall;
+  /// What an interrupted run found for exactly these unknowns; null if it did not come that far.
+  std::function<const HistoryEntry*(const Eigen::VectorXd&)> recall;
   std::function<void(const HistoryEntry&)> record;
 };
 
@@ -68,10 +69,14 @@ struct FitOptions {
 /// that who does not want it need not link it.
 using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
 
-/// Fits the unknowns by the method the case names. Nelder-Mead (chapter 5; reflection 1, expansion 2,
+/// Fits the unknowns by the method the case names; where the case asks for growing windows, first the
+/// beginning of each experiment, then longer parts, each from where the one before ended. Nelder-Mead (chapter 5; reflection 1, expansion 2,
 /// contraction and shrink 1/2) and the bounded gradient methods are NLopt's. Throws InputError for
 /// least squares without a solver.
 FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
+
+/// Throws InputError unless there are unknowns and data to fit them to.
+void check_fittable(const Problem& problem);
 
 /// Logarithmic unknowns become their logarithms, and back.
 Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x);

@@ -42,7 +42,7 @@ void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string&
   ++result_.evaluations;
   result_.work += jacobian ? 1 + static_cast<double>(x.size()) : 1;
   if (result_.history.empty()) result_.start_error = error;
-  result_.history.push_back({error, x});
+  result_.history.push_back({error, x, message});
   if (options_.record) options_.record(result_.history.back());
   if (std::isfinite(error)) {
     if (error < result_.error) {
@@ -62,9 +62,9 @@ double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient)
     return error_and_gradient(problem_, evaluation, *gradient);
   }
   if (options_.recall)
-    if (const double known = options_.recall(x); !std::isnan(known)) {
-      note(x, known, "as recorded", false);
-      return known;
+    if (const HistoryEntry* known = options_.recall(x)) {
+      note(x, known->error, known->message, false);
+      return known->error;
     }
   const Evaluation evaluation = evaluate_residuals(x, false);
   return error_of(problem_, evaluation, Part::kFit);

@@ -37,6 +37,7 @@ class ParameterMap {
 
   /// The values in the case.
   const Eigen::VectorXd& values() const { return values_; }
+  void set_value(Eigen::Index parameter, double value) { values_[parameter] = value; }
 
  private:
   enum class Kind { kModel, kPerSpacing, kLength, kDensity };

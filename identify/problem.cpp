@@ -302,6 +302,37 @@ Case Problem::with(const Eigen::VectorXd& x) const {
   return study;
 }
 
+Problem Problem::shortened(double seconds) const {
+  Problem shorter = *this;
+  for (Experiment& experiment : shorter.experiments_) {
+    const std::vector<double>& time = experiment.recording.time;
+    const double end = experiment.spec.start + seconds + 1e-9;
+    const auto seen = std::upper_bound(time.begin(), time.end(), end) - time.begin();
+    experiment.recording.fit_frames =
+        std::min<Eigen::Index>(experiment.recording.fit_frames, std::max<Eigen::Index>(seen, 2));
+  }
+  return shorter;
+}
+
+Problem Problem::fixed(int unknown, double value) const {
+  Problem other = *this;
+  const int parameter = unknowns_[static_cast<std::size_t>(unknown)].parameter;
+  if (parameter < 0 || unknowns_[static_cast<std::size_t>(unknown)].experiment >= 0)
+    throw std::invalid_argument("only an unknown of the physics can be fixed");
+  other.map_.set_value(parameter, value);
+  other.study_.parameters[static_cast<std::size_t>(parameter)].value = value;
+  other.study_.parameters[static_cast<std::size_t>(parameter)].free = false;
+  other.unknowns_.erase(other.unknowns_.begin() + unknown);
+  return other;
+}
+
+Problem Problem::measured_as(const std::vector<Eigen::MatrixXd>& measured) const {
+  Problem other = *this;
+  for (std::size_t e = 0; e < measured.size(); ++e)
+    other.experiments_[e].recording.measured = measured[e];
+  return other;
+}
+
 Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, bool jacobian,
                     const std::function<bool()>& keep_going) {
   Evaluation evaluation;

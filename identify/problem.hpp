@@ -92,6 +92,13 @@ class Problem {
   /// The case with the values of `x` as its starting values.
   Case with(const Eigen::VectorXd& x) const;
 
+  /// The same problem, only the first `seconds` of each experiment to be fitted.
+  Problem shortened(double seconds) const;
+  /// The same problem with one unknown of the physics at a value, no longer free.
+  Problem fixed(int unknown, double value) const;
+  /// The same problem with other measurements: one matrix (channels x frames) per experiment.
+  Problem measured_as(const std::vector<Eigen::MatrixXd>& measured) const;
+
  private:
   void prepare();
   /// Throws InputError where an experiment (-1: the case alone) cannot begin.

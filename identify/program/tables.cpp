@@ -24,6 +24,29 @@ const Gap* find(const std::vector<Gap>& gaps, const Gap& like) {
 
 }  // namespace
 
+namespace {
+
+/// One line for the fit and one for the validation, over all experiments (of one kind).
+std::string gap_summary(const Problem& problem, const Evaluation* before, const Evaluation& after) {
+  std::string out;
+  for (const Part part : {Part::kFit, Part::kValidation}) {
+    const auto rms = [&](const Evaluation& evaluation) {
+      const Residuals residuals = residuals_of(problem, evaluation, part);
+      return 1e3 * residuals.value.norm() / std::sqrt(static_cast<double>(residuals.value.size()));
+    };
+    const auto count = residuals_of(problem, after, part).value.size();
+    if (count == 0) continue;
+    const char* unit =
+        problem.experiments().front().spec.kind == DataKind::kAngles ? "mrad" : "mm";
+    out += fmt::format("{:<8}  {:>8} values  RMS", part == Part::kFit ? "fit" : "validate", count);
+    if (before) out += fmt::format("  {:.4g} {} before", rms(*before), unit);
+    out += fmt::format("  {:.4g} {}{}\n", rms(after), unit, before ? " after" : "");
+  }
+  return fmt::format("{} experiments\n", problem.experiments().size()) + out;
+}
+
+}  // namespace
+
 std::string simulation_table(const Motion& motion) {
   const Simulation& simulation = motion.simulation;
   const Eigen::Index load = motion.side.rows() - 1, last = motion.side.cols() - 1;
@@ -37,6 +60,8 @@ std::string simulation_table(const Motion& motion) {
 }
 
 std::string gap_table(const Problem& problem, const Evaluation* before, const Evaluation& after) {
+  constexpr std::size_t kMostRows = 8;
+  if (problem.experiments().size() > kMostRows) return gap_summary(problem, before, after);
   const std::vector<Gap> gaps = gaps_of(problem, after);
   const std::vector<Gap> earlier = before ? gaps_of(problem, *before) : std::vector<Gap>{};
   Worst name;
