@@ -2,14 +2,13 @@
 #include "identify/multi_start.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <numeric>
 #include <random>
-#include <thread>
+
+#include "identify/parallel.hpp"
 
 namespace catena {
 namespace {
@@ -56,45 +55,30 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
   const OptimiserSpec& spec = problem.study().optimiser;
   const std::vector<Eigen::VectorXd> starts = start_points(problem, spec.starts, spec.seed);
   std::vector<FitResult> results(starts.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex mutex;
-  std::exception_ptr failure;
   Progress total{0, spec.max_evaluations * spec.starts, std::numeric_limits<double>::infinity()};
-  const auto work = [&] {
-    for (std::size_t i; (i = next++) < starts.size();) {
-      FitOptions own = options;
-      own.start = starts[i];
-      const int start = static_cast<int>(i);
-      if (log) {
-        if (const auto known = log->finished(start)) {
-          results[i] = *known;
-          continue;
-        }
-        own.recall = [log, start](const Eigen::VectorXd& x) { return log->recall(start, x); };
-        own.record = [log, start](const HistoryEntry& entry) { log->record(start, entry); };
-      }
-      if (options.progress)
-        own.progress = [&](const Progress& progress) {
-          const std::scoped_lock lock(mutex);
-          ++total.evaluations;
-          total.error = std::min(total.error, progress.error);
-          options.progress(total);
-        };
-      try {
-        results[i] = fit(problem, own, least_squares);
-        if (log) log->finish(start, results[i]);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        failure = std::current_exception();
+  in_parallel(starts.size(), threads, [&](std::size_t i) {
+    FitOptions own = options;
+    own.start = starts[i];
+    const int start = static_cast<int>(i);
+    if (log) {
+      if (const auto known = log->finished(start)) {
+        results[i] = *known;
         return;
       }
+      own.recall = [log, start](const Eigen::VectorXd& x) { return log->recall(start, x); };
+      own.record = [log, start](const HistoryEntry& entry) { log->record(start, entry); };
     }
-  };
-  std::vector<std::thread> helpers;
-  for (int t = 1; t < std::min<int>(threads, spec.starts); ++t) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  if (failure) std::rethrow_exception(failure);
+    if (options.progress)
+      own.progress = [&](const Progress& progress) {
+        const std::scoped_lock lock(mutex);
+        ++total.evaluations;
+        total.error = std::min(total.error, progress.error);
+        options.progress(total);
+      };
+    results[i] = fit(problem, own, least_squares);
+    if (log) log->finish(start, results[i]);
+  });
   return results;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/result_writer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -247,6 +248,56 @@ Json parameters_json(const Problem& problem, const Eigen::VectorXd& x) {
   return out;
 }
 
+void put_uncertainty(Json& json, const Problem& problem, const Identification& found) {
+  const Uncertainty& uncertainty = *found.uncertainty;
+  Json& parameters = json["parameters"];
+  for (std::size_t j = 0; j < uncertainty.estimates.size(); ++j) {
+    const Estimate& estimate = uncertainty.estimates[j];
+    parameters[j]["standard_error"] = number(estimate.standard_error);
+    parameters[j]["interval"] = {number(estimate.lower), number(estimate.upper)};
+    parameters[j]["verdict"] = name_of(estimate.verdict);
+  }
+  if (found.bootstrap.rows() > 0)
+    for (Eigen::Index j = 0; j < found.bootstrap.cols(); ++j) {
+      Eigen::VectorXd column = found.bootstrap.col(j);
+      std::sort(column.begin(), column.end());
+      const auto at = [&](double share) {
+        return column[static_cast<Eigen::Index>(share * static_cast<double>(column.size() - 1) + 0.5)];
+      };
+      parameters[static_cast<std::size_t>(j)]["bootstrap_interval"] = {at(0.025), at(0.975)};
+    }
+  json["correlation"] = rows(uncertainty.correlation);
+  Json& noise = json["residuals"];
+  noise = {{"deviation", number(uncertainty.noise)},
+           {"lag_one_correlation", number(uncertainty.colour)},
+           {"coloured", uncertainty.coloured},
+           {"singular_values", numbers(uncertainty.singular_values)}};
+  noise["weak_directions"] = Json::array();
+  for (const WeakDirection& weak : uncertainty.weak)
+    noise["weak_directions"].push_back(
+        {{"deviation", number(weak.deviation)}, {"direction", weak.text}});
+  json["profiles"] = Json::array();
+  for (const Profile& profile : found.profiles)
+    json["profiles"].push_back(
+        {{"parameter", problem.unknowns()[static_cast<std::size_t>(profile.unknown)].name},
+         {"value", numbers(profile.value)},
+         {"cost", numbers(profile.cost)},
+         {"threshold", profile.threshold},
+         {"verdict", name_of(profile.verdict)}});
+}
+
+Json starts_json(const std::vector<FitResult>& starts) {
+  Json out = Json::array();
+  for (const FitResult& start : starts)
+    out.push_back({{"error", number(start.error)},
+                   {"status", name_of(start.status)},
+                   {"start", start.history.empty() ? Json::array() : numbers(start.history.front().x)},
+                   {"start_error", number(start.start_error)},
+                   {"evaluations", start.evaluations},
+                   {"parameters", numbers(start.x)}});
+  return out;
+}
+
 Json optimiser_json(const Problem& problem, const FitResult& fit) {
   const OptimiserSpec& spec = problem.study().optimiser;
   Json history;
@@ -300,6 +351,23 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
   return text(json);
 }
 
+std::string links_study_result_text(const Case& study, const std::vector<LinksResult>& results) {
+  Json json = {{"format", 1}, {"kind", "result"}, {"command", "identify"}, {"title", study.title}};
+  json["links_study"] = Json::array();
+  for (const LinksResult& result : results) {
+    Json parameters;
+    for (std::size_t j = 0; j < result.names.size(); ++j)
+      parameters[result.names[j]] = number(result.fit.x[static_cast<Eigen::Index>(j)]);
+    json["links_study"].push_back({{"links", result.links},
+                                   {"status", name_of(result.fit.status)},
+                                   {"error", number(result.fit.error)},
+                                   {"validation_error", number(result.validation_error)},
+                                   {"evaluations", result.fit.evaluations},
+                                   {"parameters", parameters}});
+  }
+  return text(json);
+}
+
 std::string identification_result_text(const Problem& problem, const Identification& found) {
   Json json = head(problem, "identify");
   json["status"] = found.fit.status == FitStatus::kConverged ? "success" : name_of(found.fit.status);
@@ -308,6 +376,8 @@ std::string identification_result_text(const Problem& problem, const Identificat
   json["measure"] = measure_json(problem, found.after);
   json["parameters"] = parameters_json(problem, found.fit.x);
   json["optimiser"] = optimiser_json(problem, found.fit);
+  if (found.starts.size() > 1) json["starts"] = starts_json(found.starts);
+  if (found.uncertainty) put_uncertainty(json, problem, found);
   return text(json);
 }
 

@@ -7,7 +7,9 @@
 
 #include "identify/error.hpp"
 #include "identify/fit.hpp"
+#include "identify/links_study.hpp"
 #include "identify/motion.hpp"
+#include "identify/uncertainty.hpp"
 
 namespace catena {
 
@@ -16,6 +18,10 @@ struct Identification {
   FitResult fit;
   Evaluation before, after;      ///< all frames, at the start and at the best
   std::vector<Motion> motions;   ///< one per experiment, at the best
+  std::vector<FitResult> starts;           ///< of a multi-start, in their order
+  std::optional<Uncertainty> uncertainty;  ///< nothing where it could not be had
+  std::vector<Profile> profiles;
+  Eigen::MatrixXd bootstrap;  ///< one row per refit
 };
 
 /// result.json of `catena simulate`: a motion without data.
@@ -25,5 +31,7 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
                                    const Evaluation& evaluation, const std::vector<Motion>& motions);
 /// result.json of `catena identify`.
 std::string identification_result_text(const Problem& problem, const Identification& found);
+/// links_study.json of `catena identify --links-study`.
+std::string links_study_result_text(const Case& study, const std::vector<LinksResult>& results);
 
 }  // namespace catena

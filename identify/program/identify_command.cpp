@@ -3,10 +3,14 @@
 
 #include <cmath>
 #include <iostream>
+#include <thread>
 
+#include "generator/description/description.hpp"
 #include "generator/description/input_error.hpp"
 #include "identify/case_words.hpp"
 #include "identify/ceres/least_squares.hpp"
+#include "identify/links_study.hpp"
+#include "identify/multi_start.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
@@ -17,6 +21,13 @@ namespace {
 
 struct IdentifyOptions : CommonOptions {
   double time_limit = 0;
+  bool resume = false;
+  bool check = false;
+  bool profiles = false;
+  int bootstrap = 0;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::vector<int> links_study;
+  double error_budget = 0.05;
 };
 
 OutputFiles files_of(const Problem& problem, const Identification& found,
@@ -34,41 +45,124 @@ OutputFiles files_of(const Problem& problem, const Identification& found,
   return files;
 }
 
-int identify_case(const IdentifyOptions& options) {
-  Case study = read_case(options.case_file);
-  const Model model = model_of(study, options);
-  const Problem problem(std::move(study), model);
-  watch_for_interruption();
+/// Everything that decides a run: the case, its numbers, the data, the model.
+std::string run_key(const Problem& problem) {
+  std::string all = case_text(problem.study(), std::filesystem::current_path());
+  all += problem.model().table().description_hash;
+  const auto add = [&](const double* values, std::size_t count) {
+    all.append(reinterpret_cast<const char*>(values), count * sizeof(double));
+  };
+  for (const Experiment& experiment : problem.experiments()) {
+    add(experiment.recording.time.data(), experiment.recording.time.size());
+    const Eigen::MatrixXd& measured = experiment.recording.measured;
+    add(measured.data(), static_cast<std::size_t>(measured.size()));
+  }
+  return sha256_hex(all);
+}
 
+FitOptions fit_options_of(const IdentifyOptions& options, ProgressLine& line) {
   FitOptions fit_options;
   fit_options.time_limit = options.time_limit;
   fit_options.stop = &interrupted();
-  ProgressLine line(!options.quiet);
-  fit_options.progress = [&](const Progress& progress) {
+  fit_options.progress = [&line](const Progress& progress) {
     line.show(static_cast<double>(progress.evaluations) / progress.limit,
               fmt::format("evaluation {} of at most {}, error {:.6g}", progress.evaluations,
                           progress.limit, progress.error));
   };
-  Identification found;
-  found.fit = fit(problem, fit_options, fit_least_squares);
-  if (found.fit.status == FitStatus::kFailed) throw std::runtime_error(found.fit.message);
-  const bool stopped = found.fit.status == FitStatus::kInterrupted;
-  if (!std::isfinite(found.fit.error)) {
-    if (stopped) return kExitInterrupted;  // nothing was found yet
-    throw std::runtime_error("no simulation was finished within --time-limit");
+  return fit_options;
+}
+
+/// What the data can determine, before any fit.
+int check_case(const Problem& problem, const IdentifyOptions& options) {
+  check_fittable(problem);
+  double noise = 1;  // where the experiments state theirs, residuals are counted in it
+  for (const Experiment& experiment : problem.experiments())
+    if (std::isnan(experiment.spec.noise)) noise = 1e-3;
+  const Uncertainty uncertainty = uncertainty_of(problem, problem.start(), noise);
+  if (!options.quiet) {
+    if (noise < 1)
+      std::cout << "noise taken as 1 mm or 1 mrad (state it as `noise` in [[experiment]])\n";
+    std::cout << identifiability_table(problem, uncertainty);
   }
+  return kExitSuccess;
+}
+
+int study_links(const Case& study, const IdentifyOptions& options) {
+  std::vector<LinksResult> results;
+  {
+    ProgressLine line(!options.quiet);
+    results = links_study(study, options.links_study,
+                          [&](const Case& other) { return model_of(other, options); },
+                          fit_options_of(options, line), fit_least_squares);
+  }
+  const std::string text = links_study_result_text(study, results);
+  write_output(output_folder(options), {{"links_study.json", text}});
+  if (options.json) std::cout << text;
+  if (!options.quiet && !options.json)
+    std::cout << links_table(results)
+              << fmt::format("fewest links within {:.3g} % of the least error: {}\n",
+                             100 * options.error_budget,
+                             recommended_links(results, options.error_budget))
+              << "written to " << output_folder(options).string() << "\n";
+  return interrupted() ? kExitInterrupted : kExitSuccess;
+}
+
+/// Before and after, motions and errors of what was found.
+void complete(const Problem& problem, const IdentifyOptions& options, Identification& found) {
   found.before = evaluate(problem, problem.start(), true, false);
   found.after = evaluate(problem, found.fit.x, true, false);
   for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e)
     found.motions.push_back(motion_of(problem, found.fit.x, e));
+  try {
+    found.uncertainty = uncertainty_of(problem, found.fit.x);
+  } catch (const std::runtime_error&) {
+    return;  // sensitivities that fail leave the estimates without errors
+  }
+  if (options.profiles && !interrupted())
+    found.profiles = profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares,
+                                 options.threads);
+  if (options.bootstrap > 0 && !interrupted())
+    found.bootstrap = bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares,
+                                options.bootstrap, problem.study().optimiser.seed, options.threads);
+}
+
+int identify_case(const IdentifyOptions& options) {
+  Case study = read_case(options.case_file);
+  watch_for_interruption();
+  if (!options.links_study.empty()) return study_links(study, options);
+  const Model model = model_of(study, options);
+  const Problem problem(std::move(study), model);
+  if (options.check) return check_case(problem, options);
+  check_fittable(problem);
+
   const std::filesystem::path folder = output_folder(options);
+  Identification found;
+  {
+    ProgressLine line(!options.quiet);
+    RunLog log(folder / "run.log", run_key(problem), options.resume);
+    found.starts = fit_from_many(problem, fit_options_of(options, line), fit_least_squares,
+                                 options.threads, &log);
+  }
+  found.fit = found.starts[best_of(found.starts)];
+  if (found.fit.status == FitStatus::kFailed) throw std::runtime_error(found.fit.message);
+  if (!std::isfinite(found.fit.error)) {
+    if (interrupted()) return kExitInterrupted;  // nothing was found yet
+    throw std::runtime_error("no simulation was finished within --time-limit");
+  }
+  const bool stopped = interrupted();
+  complete(problem, options, found);
   const std::string result = identification_result_text(problem, found);
   write_output(folder, files_of(problem, found, folder, result));
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json) {
-    std::cout << parameter_table(problem, found.fit) << "\n"
-              << gap_table(problem, &found.before, found.after)
-              << fmt::format("\nerror ({}) {} before, {} after; {} evaluations, {} failed, {:.1f} s; {}\n",
+    std::cout << parameter_table(problem, found.fit, found.uncertainty) << "\n"
+              << gap_table(problem, &found.before, found.after) << "\n";
+    if (found.starts.size() > 1) std::cout << waterfall(problem, found.starts);
+    std::cout << profile_table(problem, found.profiles);
+    for (const Experiment& experiment : problem.experiments())
+      for (const std::string& warning : experiment.recording.warnings)
+        std::cout << "warning: " << experiment.spec.name << ": " << warning << "\n";
+    std::cout << fmt::format("error ({}) {} before, {} after; {} evaluations, {} failed, {:.1f} s; {}\n",
                              kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
                              measured_error(problem, found.fit.start_error),
                              measured_error(problem, found.fit.error), found.fit.evaluations,
@@ -86,9 +180,22 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       program.add_subcommand("identify", "fit the free parameters of a case file to its data");
   command->footer("Example:\n  catena identify cable.toml --output fit\n"
                   "writes fit/result.json, fitted.toml (the case with what was found), residuals.csv,\n"
-                  "positions.csv, angles.csv and energy.csv. Ctrl-C ends with the best so far.");
+                  "positions.csv, angles.csv, energy.csv and run.log. Ctrl-C ends with the best so far.");
   add_common_options(*command, options);
+  command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
+  command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
+  command->add_option("--bootstrap", options.bootstrap, "so many refits of resampled residuals")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--links-study", options.links_study, "refit with these numbers of links: 6,12,24")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  command->add_option("--error-budget", options.error_budget,
+                      "of the study: so much above the least error is near enough; 0.05")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--resume", options.resume, "go on where a run that was killed stopped");
   command->add_option("--time-limit", options.time_limit, "stop after so many seconds, with the best so far")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
       ->check(CLI::PositiveNumber);
   command->callback([&exit_status] { exit_status = identify_case(options); });
 }

@@ -99,20 +99,90 @@ std::string measured_error(const Problem& problem, double error) {
   return fmt::format("{:.4g} {}", 1e3 * error, angles ? "mrad" : "mm");
 }
 
-std::string parameter_table(const Problem& problem, const FitResult& fit) {
+std::string parameter_table(const Problem& problem, const FitResult& fit,
+                            const std::optional<Uncertainty>& uncertainty) {
+  Worst name;
+  name.see("parameter");
+  for (const Unknown& unknown : problem.unknowns())
+    if (unknown.group != Unknown::Group::kInitial) name.see(unknown.name);
+  std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>25}  unit\n", "parameter", name.width,
+                                "start", "identified", "95 % interval");
+  std::size_t initial = 0;
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[j];
+    if (unknown.group == Unknown::Group::kInitial) {
+      ++initial;
+      continue;
+    }
+    std::string interval, remark;
+    if (uncertainty) {
+      const Estimate& estimate = uncertainty->estimates[j];
+      interval = fmt::format("{:.5g} .. {:.5g}", estimate.lower, estimate.upper);
+      if (estimate.verdict != Verdict::kIdentifiable)
+        remark = fmt::format("  ({})", name_of(estimate.verdict));
+    }
+    out += fmt::format("{:<{}}  {:>12.6g}  {:>12.6g}  {:>25}  {}{}\n", unknown.name, name.width,
+                       unknown.start, fit.x[static_cast<Eigen::Index>(j)], interval, unknown.unit,
+                       remark);
+  }
+  if (initial > 0) out += fmt::format("and {} numbers of the initial state\n", initial);
+  return out;
+}
+
+std::string identifiability_table(const Problem& problem, const Uncertainty& uncertainty) {
   Worst name;
   name.see("parameter");
   for (const Unknown& unknown : problem.unknowns()) name.see(unknown.name);
-  std::string out = fmt::format("{:<{}}  {:>13}  {:>13}  unit\n", "parameter", name.width, "start",
-                                "identified");
+  std::string out = fmt::format("{:<{}}  {:>12}  {:>14}  verdict\n", "parameter", name.width, "value",
+                                "expected error");
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
-    if (unknown.group == Unknown::Group::kInitial) continue;
-    const double value = fit.x[static_cast<Eigen::Index>(j)];
-    const bool at_bound = value <= unknown.lower || value >= unknown.upper;
-    out += fmt::format("{:<{}}  {:>13.6g}  {:>13.6g}  {}{}\n", unknown.name, name.width,
-                       unknown.start, value, unknown.unit, at_bound ? "  (at its bound)" : "");
+    const Estimate& estimate = uncertainty.estimates[j];
+    out += fmt::format("{:<{}}  {:>12.6g}  {:>14.4g}  {}\n", unknown.name, name.width, unknown.start,
+                       estimate.standard_error, name_of(estimate.verdict));
   }
+  for (std::size_t i = 0; i < uncertainty.weak.size(); ++i)
+    out += fmt::format("not determined ({}): {}\n  {}\n",
+                       std::isfinite(uncertainty.weak[i].deviation)
+                           ? fmt::format("to {:.2g}", uncertainty.weak[i].deviation)
+                           : "at all",
+                       uncertainty.weak[i].text, uncertainty.suggestions[i]);
+  if (uncertainty.weak.empty()) out += "every unknown can be determined from this data\n";
+  return out;
+}
+
+std::string profile_table(const Problem& problem, const std::vector<Profile>& profiles) {
+  std::string out;
+  for (const Profile& profile : profiles)
+    out += fmt::format("profile of {}: {} from {:.6g} to {:.6g}\n",
+                       problem.unknowns()[static_cast<std::size_t>(profile.unknown)].name,
+                       name_of(profile.verdict), profile.value.front(), profile.value.back());
+  return out;
+}
+
+std::string links_table(const std::vector<LinksResult>& results) {
+  std::string out = fmt::format("{:>5}  {:>10}  {:>10}  {:>8}", "links", "error", "held out", "seconds");
+  constexpr std::size_t kMostColumns = 6;
+  const std::size_t columns = results.empty() ? 0 : std::min(kMostColumns, results[0].names.size());
+  for (std::size_t j = 0; j < columns; ++j) out += fmt::format("  {:>14}", results[0].names[j]);
+  out += "\n";
+  for (const LinksResult& result : results) {
+    out += fmt::format("{:>5}  {:>10.4g}  {:>10.4g}  {:>8.1f}", result.links, result.fit.error,
+                       result.validation_error, result.fit.seconds);
+    for (std::size_t j = 0; j < columns; ++j)
+      out += fmt::format("  {:>14.6g}", result.fit.x[static_cast<Eigen::Index>(j)]);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string waterfall(const Problem& problem, const std::vector<FitResult>& starts) {
+  std::vector<double> errors;
+  for (const FitResult& start : starts) errors.push_back(start.error);
+  std::sort(errors.begin(), errors.end());
+  std::string out = fmt::format("{} starts, best first:", starts.size());
+  for (const double error : errors) out += " " + measured_error(problem, error) + ",";
+  out.back() = '\n';
   return out;
 }
 
