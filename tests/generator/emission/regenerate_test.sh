@@ -11,7 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 for run in 1 2 3 4 5; do
   "$derive" derive --description "$checkout/generator/models.toml" --library \
     --output "$scratch/$run" >/dev/null
-  if ! diff -ruN "$checkout/generated" "$scratch/$run"; then
+  if ! diff -ruN --exclude="*.certificate.json" "$checkout/generated" "$scratch/$run"; then
     echo "generated/ differs from what catena-derive writes. To update it: scripts/regenerate"
     exit 1
   fi
