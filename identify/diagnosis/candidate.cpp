@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace catena {
+namespace {
+
+/// "side" of "side_phase" and "side_amplitude"; the whole name if it has no underscore.
+std::string_view stem(std::string_view name) { return name.substr(0, name.rfind('_')); }
+
+ParameterRole role_of(const EffectParameter& parameter) {
+  if (std::isfinite(parameter.neutral)) return ParameterRole::kAmplitude;
+  if (std::isinf(parameter.neutral)) return ParameterRole::kLimit;
+  const bool full_turn = parameter.unit == "rad" && parameter.lower < -3 && parameter.upper > 3;
+  return full_turn ? ParameterRole::kPhase : ParameterRole::kShape;
+}
+
+Candidate candidate_of(Effect effect) {
+  Candidate candidate;
+  candidate.id = effect.id;
+  candidate.title = effect.title;
+  candidate.sensor = effect.sensor.given();
+  candidate.own_model = !effect.coordinates.empty();
+  for (const EffectParameter& parameter : effect.parameters) {
+    CandidateParameter entry;
+    entry.name = effect.id + "." + parameter.name;
+    entry.unit = parameter.unit;
+    entry.description = parameter.description;
+    entry.lower = parameter.lower;
+    entry.upper = parameter.upper;
+    entry.role = role_of(parameter);
+    entry.neutral = parameter.neutral;
+    entry.value =
+        entry.role == ParameterRole::kAmplitude ? parameter.neutral : parameter.default_value;
+    candidate.parameters.push_back(entry);
+  }
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
+    if (candidate.parameters[i].role != ParameterRole::kPhase) continue;
+    const auto amplitudes = candidate.with_role(ParameterRole::kAmplitude);
+    for (const int j : amplitudes)
+      if (amplitudes.size() == 1 ||
+          stem(effect.parameters[i].name) ==
+              stem(effect.parameters[static_cast<std::size_t>(j)].name))
+        candidate.parameters[i].amplitude = j;
+    if (candidate.parameters[i].amplitude < 0)
+      candidate.parameters[i].role = ParameterRole::kShape;
+  }
+  if (!effect.signals.empty())
+    candidate.unavailable = "needs a measured series as its input";
+  else if (candidate.with_role(ParameterRole::kAmplitude).empty() &&
+           candidate.with_role(ParameterRole::kLimit).empty())
+    candidate.unavailable = "no parameter has a value at which it vanishes";
+  candidate.effect = std::move(effect);
+  return candidate;
+}
+
+}  // namespace
+
+std::vector<int> Candidate::with_role(ParameterRole role) const {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].role == role) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
+                                             const Description& present) {
+  std::vector<Candidate> library;
+  const auto add = [&](Effect effect) {
+    for (const Effect& other : present.effects)
+      if (other.id == effect.id) return;
+    // A file of the user's own comes before the built-in effect of the same name.
+    std::erase_if(library, [&](const Candidate& known) { return known.id == effect.id; });
+    library.push_back(candidate_of(std::move(effect)));
+  };
+  for (const std::string& id : built_in_effect_ids()) add(built_in_effect(id));
+  for (const auto& file : files) add(read_effect(file));
+  std::sort(library.begin(), library.end(),
+            [](const Candidate& a, const Candidate& b) { return a.id < b.id; });
+  return library;
+}
+
+std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
+                                        const std::vector<double>& strongest_frequencies) {
+  std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
+  for (const int index : candidate.with_role(ParameterRole::kShape)) {
+    const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(index)];
+    std::vector<double> values;
+    if (parameter.unit == "Hz") {
+      values = strongest_frequencies;
+    } else if (parameter.lower < 0 && parameter.upper > 0) {
+      for (const double share : {1.0 / 60, 1.0 / 20, 1.0 / 6}) {
+        values.push_back(share * parameter.upper);
+        values.push_back(share * parameter.lower);
+      }
+    } else {
+      for (const double factor : {0.25, 1.0, 4.0}) values.push_back(factor * parameter.value);
+    }
+    std::erase_if(values, [&](double value) {
+      return !std::isfinite(value) || value < parameter.lower || value > parameter.upper;
+    });
+    if (values.empty()) values.push_back(parameter.value);
+    std::vector<Eigen::VectorXd> finer;
+    for (const Eigen::VectorXd& point : grid)
+      for (const double value : values) {
+        finer.emplace_back(point.size() + 1);
+        finer.back() << point, value;
+      }
+    grid = std::move(finer);
+  }
+  return grid;
+}
+
+}  // namespace catena

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/description/description.hpp"
+#include "generator/description/effect.hpp"
+#include "identify/case.hpp"
+#include "identify/problem.hpp"
+
+namespace catena {
+
+/// What a parameter of an effect is to the search for it.
+enum class ParameterRole {
+  kAmplitude,  ///< has a finite neutral value: the trajectory has a slope there
+  kShape,      ///< has none (a frequency, a wind speed): means nothing without an amplitude
+  kPhase,      ///< a shape of which only sine and cosine matter: found with the amplitude it belongs to
+  kLimit,      ///< vanishes at infinity: the slope is taken by its inverse
+};
+
+struct CandidateParameter {
+  std::string name;  ///< "air_drag_quadratic.normal", as in the model's parameter table
+  std::string unit, description;
+  double lower = 0, upper = 0;
+  double neutral = 0;  ///< kAmplitude only
+  double value = 0;    ///< where the search for it starts: the default or the neutral value
+  ParameterRole role = ParameterRole::kAmplitude;
+  int amplitude = -1;  ///< kPhase: the amplitude it belongs to
+};
+
+/// One effect that may be missing.
+struct Candidate {
+  std::string id, title;
+  Effect effect;
+  bool sensor = false;  ///< changes what is reported, not the motion
+  /// Brings further coordinates: cannot share a model with the others at its neutral value.
+  bool own_model = false;
+  std::vector<CandidateParameter> parameters;
+  std::string unavailable;  ///< why it cannot be tried here; empty: it can
+
+  std::vector<int> with_role(ParameterRole role) const;
+};
+
+/// The built-in effects and those of the files given, less what `study` has in its model already
+/// (`present`): in the order of their ids. What cannot be tried says why.
+std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
+                                             const Description& present);
+
+/// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which the
+/// score is taken: frequencies where the residuals have their strongest lines, velocities of both
+/// signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their default.
+/// One empty vector if the candidate has no shape.
+std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
+                                        const std::vector<double>& strongest_frequencies);
+
+}  // namespace catena

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identify/diagnosis/fitted_model.hpp"
+
+namespace catena {
+
+/// How much better one fitted model explains the same data than another. Residuals are weighted with
+/// the noise floors. They are not independent where something is still missing, so that both the
+/// likelihood and the counts are divided by the colour factor of the better model's residuals.
+struct Comparison {
+  double removed = 0;       ///< fall of the sum of squares, in units of the noise squared
+  int added = 0;            ///< further unknowns
+  double colour = 1;        ///< colour factor of the larger model's residuals
+  double criterion = 0;     ///< change of the Bayesian information criterion; negative: better
+  double log10_p = 0;       ///< of so large a fall by chance, for one model tried
+  double misfit_share = 0;  ///< fall of the squared misfit, as a share of what it was
+};
+
+/// From `base` to `larger`, which has `base` as a special case.
+Comparison compare(const FittedModel& base, const FittedModel& larger,
+                   const std::vector<double>& floors);
+
+/// Sum of squares of the fitted part in units of the noise squared.
+double sum_of_squares(const FittedModel& model, const std::vector<double>& floors);
+
+/// Whether the data decide between two models that stand for different explanations, `better` being
+/// the one with the smaller sum of squares. If the worse one were right but for an error of rms
+/// s noise that both share (what even the better one leaves, at least a tenth), that error could put
+/// the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the noise.
+/// Decided is a lead larger than that by what chance explains at odds of one in a thousand.
+struct Decision {
+  bool decided = false;
+  double difference = 0;  ///< d, fitted and held-out parts
+  double lead = 0;        ///< fall of the sum of squares from the worse to the better
+};
+Decision decide(const FittedModel& better, const FittedModel& worse,
+                const std::vector<double>& floors);
+
+}  // namespace catena

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/fitted_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x) {
+  FittedModel model;
+  model.x = x;
+  const Evaluation evaluation = evaluate(*problem, x, true, false);
+  model.ok = evaluation.ok;
+  model.message = evaluation.message;
+  for (std::size_t e = 0; e < problem->experiments().size(); ++e) {
+    const Experiment& experiment = problem->experiments()[e];
+    const MatrixXd& measured = experiment.recording.measured;
+    MatrixXd predicted = evaluation.predictions[e].simulated;
+    if (predicted.cols() != measured.cols()) {
+      predicted = MatrixXd::Constant(measured.rows(), measured.cols(), kNotGiven);
+      model.ok = false;
+    }
+    const MatrixXd residual = predicted - measured;
+    const Index fitted = experiment.fitted() ? experiment.recording.fit_frames : 0;
+    model.fit_residual.push_back(residual.leftCols(fitted));
+    model.held_out_residual.push_back(residual.rightCols(residual.cols() - fitted));
+    model.predicted.push_back(std::move(predicted));
+  }
+  model.problem = std::move(problem);
+  return model;
+}
+
+FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& start,
+                      const LeastSquares& least_squares, const std::atomic<bool>* stop) {
+  FitOptions options;
+  options.start = start;
+  options.stop = stop;
+  const FitResult result = least_squares(*problem, options);
+  if (result.status == FitStatus::kFailed || result.x.size() == 0) {
+    FittedModel failed;
+    failed.problem = std::move(problem);
+    failed.x = start;
+    failed.status = result.status;
+    failed.message = result.message;
+    return failed;
+  }
+  FittedModel model = assess(std::move(problem), result.x);
+  model.status = result.status;
+  if (model.message.empty()) model.message = result.message;
+  return model;
+}
+
+std::vector<NoiseFloor> noise_floors(const FittedModel& model) {
+  std::vector<NoiseFloor> floors;
+  for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
+    const Experiment& experiment = model.problem->experiments()[e];
+    const bool fitted = model.fit_residual[e].cols() > 0;
+    const MatrixXd& residual = fitted ? model.fit_residual[e] : model.held_out_residual[e];
+    std::vector<double> time = experiment.recording.time;
+    if (fitted) time.resize(static_cast<std::size_t>(residual.cols()));
+    NoiseFloor floor = noise_floor(residual, time);
+    if (experiment.spec.noise > 0 && !(floor.sigma >= experiment.spec.noise))
+      floor.sigma = experiment.spec.noise;
+    floors.push_back(floor);
+  }
+  return floors;
+}
+
+namespace {
+
+GapTest gap_of(const std::vector<MatrixXd>& residuals, const std::vector<double>& floors) {
+  std::vector<MatrixXd> present;
+  std::vector<double> present_floors;
+  for (std::size_t e = 0; e < residuals.size(); ++e) {
+    if (residuals[e].cols() == 0) continue;
+    present.push_back(residuals[e]);
+    present_floors.push_back(floors[e]);
+  }
+  return test_gap(present, present_floors);
+}
+
+}  // namespace
+
+GapTest fit_gap(const FittedModel& model, const std::vector<double>& floors) {
+  return gap_of(model.fit_residual, floors);
+}
+
+GapTest held_out_gap(const FittedModel& model, const std::vector<double>& floors) {
+  return gap_of(model.held_out_residual, floors);
+}
+
+VectorXd stacked(const std::vector<MatrixXd>& matrices, const std::vector<MatrixXd>& measured_where,
+                 const std::vector<double>& floors) {
+  std::vector<double> values;
+  for (std::size_t e = 0; e < measured_where.size(); ++e)
+    for (Index k = 0; k < measured_where[e].cols(); ++k)
+      for (Index c = 0; c < measured_where[e].rows(); ++c)
+        if (!std::isnan(measured_where[e](c, k)))
+          values.push_back(matrices[e].size() ? matrices[e](c, k) / floors[e] : 0.0);
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+double prediction_distance(const FittedModel& a, const FittedModel& b,
+                           const std::vector<double>& floors) {
+  double sum = 0, count = 0;
+  for (std::size_t e = 0; e < a.predicted.size(); ++e)
+    for (Index k = 0; k < a.predicted[e].cols(); ++k)
+      for (Index c = 0; c < a.predicted[e].rows(); ++c) {
+        if (std::isnan(a.problem->experiments()[e].recording.measured(c, k))) continue;
+        const double difference = (a.predicted[e](c, k) - b.predicted[e](c, k)) / floors[e];
+        sum += difference * difference;
+        count += 1;
+      }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+}  // namespace catena

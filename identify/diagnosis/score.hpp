@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace catena {
+
+/// The score test. At a fitted model the residuals r (in units of the noise) have no part left along
+/// the columns J of what the fit may change. A further parameter with column c would remove from
+/// them what lies along the part of c that J cannot imitate:
+///
+///     c' = (I - Q Q^T) c,   J = Q R;   estimate = -(c'.r)/(c'.c'),   removed = (c'.r)^2/(c'.c')
+///
+/// and likewise for several columns together. Only a few per cent of c may survive the projection;
+/// therefore it is done twice with an orthogonal Q, never through normal equations.
+
+/// One column that may be added: the derivative of all residuals by one parameter, and how far that
+/// parameter may go from its present value.
+struct ScoreColumn {
+  Eigen::VectorXd derivative;  ///< in units of the noise per unit of the parameter
+  double lowest = 0, highest = 0;
+};
+
+struct Score {
+  Eigen::VectorXd estimate;  ///< change of each parameter
+  double removed = 0;        ///< fall of the sum of squares, in units of the noise squared
+  double share = 0;          ///< removed / sum of squares now
+  double survives = 0;       ///< |c'| / |c| of the columns at the estimate: what the fit cannot imitate
+  bool admissible = false;   ///< some parameter moves, and to its allowed side
+  bool beyond = false;       ///< the estimate went past the far bound and was cut back to it
+};
+
+class ScoreTest {
+ public:
+  /// `residual`: stacked; `jacobian`: its derivative by everything that is fitted.
+  ScoreTest(Eigen::VectorXd residual, const Eigen::MatrixXd& jacobian);
+
+  /// Adds a column; returns its number.
+  int add(const ScoreColumn& column);
+
+  /// Fit of a set of columns together, each within its bounds: of all subsets whose own least-squares
+  /// solution is within bounds, the one that removes most.
+  Score score(const std::vector<int>& columns) const;
+
+  /// What would be left after moving the columns by `estimate`, first order.
+  Eigen::VectorXd residual_after(const std::vector<int>& columns,
+                                 const Eigen::VectorXd& estimate) const;
+
+  /// The part of a column (or of any difference of trajectories) that the fit cannot imitate.
+  Eigen::VectorXd project(const Eigen::VectorXd& column) const;
+
+  const Eigen::VectorXd& residual() const { return residual_; }
+
+ private:
+  struct Kept {
+    Eigen::VectorXd projected;  // divided by `size`
+    double size = 0;            // |c'|
+    double whole = 0;           // |c|
+    double lowest = 0, highest = 0;
+    double along = 0;  // projected . r
+  };
+  Eigen::VectorXd residual_;  // projected as well
+  double squares_ = 0;
+  Eigen::MatrixXd orthogonal_;  // Q
+  std::vector<Kept> columns_;
+};
+
+}  // namespace catena

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <thread>
+
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kMoreTerms = 4;  // of the start's shape, tried as a rival
+constexpr int kRateTerms = 3;  // of its velocity
+constexpr int kFrequencies = 8;
+
+double angle_of_frequency(double frequency, double t) { return 2 * std::numbers::pi * frequency * t; }
+
+}  // namespace
+
+void run_parallel(int threads, int count, const std::function<void(int)>& f) {
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) {
+      try {
+        f(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(work);
+  work();
+  for (std::thread& thread : others) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<double> strongest_frequencies(const FittedModel& model,
+                                          const std::vector<double>& floors, int count) {
+  double duration = 0, rate = 0;
+  for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
+    const Index frames = model.fit_residual[e].cols();
+    if (frames < 8) continue;
+    const auto& time = model.problem->experiments()[e].recording.time;
+    const double span = time[static_cast<std::size_t>(frames - 1)] - time.front();
+    if (span <= duration) continue;
+    duration = span;
+    rate = static_cast<double>(frames - 1) / span;
+  }
+  if (duration == 0) return {};
+  // The power of the residuals at a quarter of the resolution, up to a quarter of the frame rate.
+  const double step = 0.25 / duration, highest = std::min(rate / 4, 12.0);
+  std::vector<std::pair<double, double>> lines;  // power, frequency
+  std::vector<double> power;
+  for (double f = 2 * step; f <= highest; f += step) {
+    double sum = 0;
+    for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
+      const MatrixXd& r = model.fit_residual[e];
+      const auto& time = model.problem->experiments()[e].recording.time;
+      VectorXd cosine(r.cols()), sine(r.cols());
+      for (Index k = 0; k < r.cols(); ++k) {
+        const double angle = angle_of_frequency(f, time[static_cast<std::size_t>(k)]);
+        cosine[k] = std::cos(angle);
+        sine[k] = std::sin(angle);
+      }
+      for (Index c = 0; c < r.rows(); ++c) {
+        double a = 0, b = 0;
+        for (Index k = 0; k < r.cols(); ++k) {
+          if (std::isnan(r(c, k))) continue;
+          a += r(c, k) * cosine[k];
+          b += r(c, k) * sine[k];
+        }
+        sum += (a * a + b * b) / (floors[e] * floors[e]);
+      }
+    }
+    power.push_back(sum);
+  }
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const bool left = i == 0 || power[i] >= power[i - 1];
+    const bool right = i + 1 == power.size() || power[i] >= power[i + 1];
+    if (left && right) lines.emplace_back(power[i], (2 + static_cast<double>(i)) * step);
+  }
+  std::sort(lines.rbegin(), lines.rend());
+  std::vector<double> frequencies;
+  for (const auto& [strength, frequency] : lines)
+    if (static_cast<int>(frequencies.size()) < count) frequencies.push_back(frequency);
+  return frequencies;
+}
+
+Search::Search(const SearchContext& context, const std::vector<Candidate>& library,
+               FittedModel base, std::vector<double> floors)
+    : context_(context), library_(library), base_(std::move(base)), floors_(std::move(floors)) {
+  for (const Candidate& candidate : library_)
+    if (candidate.unavailable.empty() && !candidate.own_model) together_.push_back(candidate);
+  const Case& study = base_.problem->study();
+  description_ = context_.work / ("all_effects_" + std::to_string(study.links) + "_links.toml");
+  const Case freer = with_freer_start(study, kMoreTerms, kRateTerms).value_or(study);
+  Case all = with_effects(freer, together_, true, description_);
+  all_ = std::make_shared<const Problem>(
+      all, provide_model(description_, study.links, context_.provider));
+  x_ = transfer(*base_.problem, base_.x, *all_);
+  frequencies_ = strongest_frequencies(base_, floors_, kFrequencies);
+}
+
+MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
+                         const std::vector<Index>& unknowns) const {
+  std::vector<std::vector<MatrixXd>> derivatives(unknowns.size());
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const int index = static_cast<int>(e);
+    if (!problem.experiments()[e].fitted()) {
+      for (auto& derivative : derivatives) derivative.emplace_back();
+      continue;
+    }
+    const std::vector<Direction> every = problem.directions(x, index);
+    std::vector<Direction> along;
+    for (const Index j : unknowns) along.push_back(every[static_cast<std::size_t>(j)]);
+    Prediction prediction = problem.predict(x, index, false, along);
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      derivatives[j].push_back(prediction.ok() ? prediction.sensitivity[j] : MatrixXd());
+  }
+  MatrixXd result;
+  for (std::size_t j = 0; j < unknowns.size(); ++j) {
+    const VectorXd column = stacked(derivatives[j], base_.fit_residual, floors_);
+    if (result.size() == 0) result.resize(column.size(), static_cast<Index>(unknowns.size()));
+    result.col(static_cast<Index>(j)) = column;
+  }
+  return result;
+}
+
+double Search::significance(const ScoreTest& test, const std::vector<int>& columns,
+                            const Score& score) const {
+  const VectorXd rest = test.residual_after(columns, score.estimate);
+  // Back into channels x frames, for the correlations of what would be left.
+  std::vector<MatrixXd> left;
+  Index next = 0;
+  for (const MatrixXd& shape : base_.fit_residual) {
+    if (shape.cols() == 0) continue;
+    MatrixXd part = shape;
+    for (Index k = 0; k < part.cols(); ++k)
+      for (Index c = 0; c < part.rows(); ++c)
+        if (!std::isnan(part(c, k))) part(c, k) = rest[next++];
+    left.push_back(std::move(part));
+  }
+  const double variance =
+      std::max(1.0, rest.squaredNorm() / static_cast<double>(std::max<Index>(1, rest.size())));
+  return log10_chi_square_tail(score.removed / (variance * colour_factor(left)),
+                               static_cast<int>(columns.size()));
+}
+
+void Search::score_start(ScoreTest& test, const MatrixXd& derivatives,
+                         std::vector<Explanation>& out) const {
+  if (derivatives.cols() == 0) return;
+  Explanation rival;
+  rival.id = kStartShape;
+  rival.title = "A start that bends more, or moves";
+  std::vector<int> columns;
+  for (Index j = 0; j < derivatives.cols(); ++j)
+    columns.push_back(test.add({derivatives.col(j), -std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::infinity()}));
+  rival.score = test.score(columns);
+  if (rival.score.admissible) rival.log10_p = significance(test, columns, rival.score);
+  out.push_back(std::move(rival));
+}
+
+std::vector<Explanation> Search::score() {
+  // One run with everything that has a slope at the base: what is fitted, a freer start, and the
+  // amplitudes of the effects without a shape.
+  std::vector<Index> fitted, start, amplitudes;
+  for (std::size_t j = 0; j < all_->unknowns().size(); ++j) {
+    const Unknown& unknown = all_->unknowns()[j];
+    if (unknown_index(*base_.problem, unknown.name) >= 0)
+      fitted.push_back(static_cast<Index>(j));
+    else if (unknown.group == Unknown::Group::kInitial)
+      start.push_back(static_cast<Index>(j));
+  }
+  struct Run {
+    int candidate = -1;
+    VectorXd x;
+    std::vector<Index> unknowns;
+    VectorXd shape;
+    MatrixXd columns;
+  };
+  std::vector<Run> runs(1);
+  runs[0].x = x_;
+  for (const Index j : fitted) runs[0].unknowns.push_back(j);
+  for (const Index j : start) runs[0].unknowns.push_back(j);
+  const auto place = [&](const CandidateParameter& parameter) {
+    return unknown_index(*all_, parameter.name);
+  };
+  for (std::size_t i = 0; i < library_.size(); ++i) {
+    const Candidate& candidate = library_[i];
+    if (!candidate.unavailable.empty() || candidate.own_model) continue;
+    std::vector<Index> own;
+    for (const int p : candidate.with_role(ParameterRole::kAmplitude))
+      own.push_back(place(candidate.parameters[static_cast<std::size_t>(p)]));
+    const auto shapes = candidate.with_role(ParameterRole::kShape);
+    const auto phases = candidate.with_role(ParameterRole::kPhase);
+    if (shapes.empty() && phases.empty()) {
+      runs[0].unknowns.insert(runs[0].unknowns.end(), own.begin(), own.end());
+      continue;
+    }
+    for (const VectorXd& shape : shape_grid(candidate, frequencies_))
+      for (const double phase : {0.0, std::numbers::pi / 2}) {
+        if (phase > 0 && phases.empty()) continue;
+        Run run{static_cast<int>(i), x_, own, shape, {}};
+        for (std::size_t s = 0; s < shapes.size(); ++s)
+          run.x[place(candidate.parameters[static_cast<std::size_t>(shapes[s])])] =
+              shape[static_cast<Index>(s)];
+        for (const int p : phases)
+          run.x[place(candidate.parameters[static_cast<std::size_t>(p)])] = phase;
+        runs.push_back(std::move(run));
+      }
+  }
+  run_parallel(context_.threads, static_cast<int>(runs.size()), [&](int r) {
+    if (context_.stopped()) return;
+    Run& run = runs[static_cast<std::size_t>(r)];
+    run.columns = columns(*all_, run.x, run.unknowns);
+  });
+
+  const auto fitted_count = static_cast<Index>(fitted.size());
+  const auto start_count = static_cast<Index>(start.size());
+  ScoreTest test(stacked(base_.fit_residual, base_.fit_residual, floors_),
+                 runs[0].columns.leftCols(fitted_count));
+  std::vector<Explanation> found;
+  score_start(test, runs[0].columns.middleCols(fitted_count, start_count), found);
+
+  Index next = fitted_count + start_count;
+  std::size_t next_run = 1;
+  for (std::size_t i = 0; i < library_.size(); ++i) {
+    const Candidate& candidate = library_[i];
+    Explanation explanation;
+    explanation.id = candidate.id;
+    explanation.title = candidate.title;
+    explanation.candidate = static_cast<int>(i);
+    explanation.note = candidate.unavailable;
+    if (!candidate.unavailable.empty()) {
+      found.push_back(std::move(explanation));
+      continue;
+    }
+    if (candidate.own_model) {
+      found.push_back(score_limit(test, static_cast<int>(i)));
+      continue;
+    }
+    const auto amplitudes_of = candidate.with_role(ParameterRole::kAmplitude);
+    const auto parameter = [&](int p) -> const CandidateParameter& {
+      return candidate.parameters[static_cast<std::size_t>(p)];
+    };
+    const auto phases = candidate.with_role(ParameterRole::kPhase);
+    const auto shapes = candidate.with_role(ParameterRole::kShape);
+    const auto consider = [&](const MatrixXd& at_zero, const MatrixXd* at_quarter,
+                              const VectorXd& shape) {
+      std::vector<int> columns;
+      for (std::size_t a = 0; a < amplitudes_of.size(); ++a) {
+        const CandidateParameter& p = parameter(amplitudes_of[a]);
+        const double low = p.lower - p.neutral, high = p.upper - p.neutral;
+        columns.push_back(test.add({at_zero.col(static_cast<Index>(a)), low, high}));
+        if (at_quarter) columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));
+      }
+      const Score score = test.score(columns);
+      if (!score.admissible || score.removed <= explanation.score.removed) return;
+      explanation.score = score;
+      explanation.log10_p = significance(test, columns, score);
+      explanation.start.clear();
+      for (std::size_t a = 0; a < amplitudes_of.size(); ++a) {
+        const CandidateParameter& p = parameter(amplitudes_of[a]);
+        if (!at_quarter) {
+          explanation.start.emplace_back(p.name, p.neutral + score.estimate[static_cast<Index>(a)]);
+          continue;
+        }
+        // a sin(w t) + b cos(w t) = sqrt(a^2 + b^2) sin(w t + atan2(b, a))
+        const double sine = score.estimate[static_cast<Index>(2 * a)];
+        const double cosine = score.estimate[static_cast<Index>(2 * a + 1)];
+        explanation.start.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
+        for (const int q : phases)
+          if (parameter(q).amplitude == amplitudes_of[a])
+            explanation.start.emplace_back(parameter(q).name, std::atan2(cosine, sine));
+      }
+      for (std::size_t s = 0; s < shapes.size(); ++s)
+        explanation.start.emplace_back(parameter(shapes[s]).name, shape[static_cast<Index>(s)]);
+    };
+    if (shapes.empty() && phases.empty()) {
+      consider(runs[0].columns.middleCols(next, static_cast<Index>(amplitudes_of.size())), nullptr,
+               {});
+      next += static_cast<Index>(amplitudes_of.size());
+    } else {
+      while (next_run < runs.size() && runs[next_run].candidate == static_cast<int>(i)) {
+        const Run& at_zero = runs[next_run];
+        const MatrixXd* quarter = phases.empty() ? nullptr : &runs[next_run + 1].columns;
+        consider(at_zero.columns, quarter, at_zero.shape);
+        next_run += phases.empty() ? 1 : 2;
+      }
+    }
+    if (!explanation.score.admissible) explanation.note = "would have to act the other way round";
+    found.push_back(std::move(explanation));
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Explanation& a, const Explanation& b) {
+    return a.score.removed > b.score.removed;
+  });
+  return found;
+}
+
+Explanation Search::score_limit(ScoreTest& test, int index) const {
+  const Candidate& candidate = library_[static_cast<std::size_t>(index)];
+  Explanation explanation;
+  explanation.id = candidate.id;
+  explanation.title = candidate.title;
+  explanation.candidate = index;
+  const auto limits = candidate.with_role(ParameterRole::kLimit);
+  if (limits.size() != 1) {
+    explanation.note = "not one parameter whose limit is the plain model";
+    return explanation;
+  }
+  const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(limits[0])];
+  const auto description = context_.work / (candidate.id + ".model.toml");
+  Candidate start = candidate;
+  start.parameters[static_cast<std::size_t>(limits[0])].value = 1e6;
+  const Case study = with_effects(base_.problem->study(), {start}, false, description);
+  const Problem problem(study, provide_model(description, study.links, context_.provider));
+  VectorXd x = transfer(*base_.problem, base_.x, problem);
+  const Index unknown = unknown_index(problem, parameter.name);
+  // The slope by 1/value, from the first value that moves the trajectory by a third of the noise.
+  for (double value = 1e6; value > std::max(parameter.lower, 1.0); value /= 10) {
+    x[unknown] = value;
+    std::vector<MatrixXd> difference(problem.experiments().size());
+    bool ok = true;
+    for (std::size_t e = 0; e < difference.size(); ++e) {
+      if (base_.fit_residual[e].cols() == 0) continue;
+      const Prediction prediction = problem.predict(x, static_cast<int>(e), false);
+      ok = ok && prediction.ok();
+      if (ok) difference[e] = prediction.simulated - base_.predicted[e].leftCols(base_.fit_residual[e].cols());
+    }
+    if (!ok) continue;
+    VectorXd column = stacked(difference, base_.fit_residual, floors_);
+    if (column.norm() < 0.33 * std::sqrt(static_cast<double>(column.size()))) continue;
+    column *= value;
+    const std::vector<int> columns = {test.add({column, 0.0, 1 / std::max(parameter.lower, 1e-3)})};
+    explanation.score = test.score(columns);
+    if (explanation.score.admissible) {
+      explanation.log10_p = significance(test, columns, explanation.score);
+      explanation.start.emplace_back(parameter.name, 1 / explanation.score.estimate[0]);
+    }
+    break;
+  }
+  if (!explanation.score.admissible) explanation.note = "would have to act the other way round";
+  return explanation;
+}
+
+void Search::refit(Explanation& explanation, bool far) const {
+  const Case& study = base_.problem->study();
+  std::shared_ptr<const Problem> problem;
+  std::vector<double> shares = {1.0};
+  if (far) shares.push_back(0.25);
+  if (explanation.candidate < 0) {
+    const auto freer = with_freer_start(study, kMoreTerms, kRateTerms);
+    if (!freer) return;
+    problem = std::make_shared<const Problem>(*freer, base_.problem->model());
+    shares = {1.0};
+  } else {
+    const Candidate& candidate = library_[static_cast<std::size_t>(explanation.candidate)];
+    const auto description = context_.work / (candidate.id + ".model.toml");
+    Candidate started = candidate;
+    for (CandidateParameter& parameter : started.parameters)
+      for (const auto& [name, value] : explanation.start)
+        if (parameter.name == name) parameter.value = value;
+    Case larger = with_effects(study, {started}, true, description);
+    if (candidate.own_model) {
+      problem = std::make_shared<const Problem>(
+          larger, provide_model(description, study.links, context_.provider));
+    } else {
+      larger.description = description_;  // the model with all effects, the others neutral
+      problem = std::make_shared<const Problem>(larger, all_->model());
+    }
+  }
+  for (const double share : shares) {
+    if (context_.stopped()) return;
+    VectorXd start = transfer(*base_.problem, base_.x, *problem);
+    if (explanation.candidate >= 0)
+      for (const CandidateParameter& parameter :
+           library_[static_cast<std::size_t>(explanation.candidate)].parameters) {
+        const Index j = unknown_index(*problem, parameter.name);
+        if (j < 0) continue;
+        if (parameter.role == ParameterRole::kAmplitude)
+          start[j] = parameter.neutral + share * (start[j] - parameter.neutral);
+        start[j] = std::clamp(start[j], parameter.lower, parameter.upper);
+      }
+    FittedModel model = fit_model(problem, start, context_.least_squares, context_.stop);
+    if (!model.ok) continue;
+    if (explanation.refitted && sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_))
+      continue;
+    explanation.refitted = true;
+    explanation.model = std::move(model);
+  }
+  if (!explanation.refitted) {
+    explanation.note = "the refit failed";
+    return;
+  }
+  explanation.comparison = compare(base_, explanation.model, floors_);
+  explanation.fit = fit_gap(explanation.model, floors_);
+  explanation.held_out = held_out_gap(explanation.model, floors_);
+}
+
+void Search::refit_best(std::vector<Explanation>& explanations, int count, bool far) const {
+  std::vector<Explanation*> chosen;
+  double best = 0;
+  for (Explanation& explanation : explanations) {
+    if (!explanation.score.admissible || explanation.refitted) continue;
+    best = std::max(best, explanation.score.removed);
+    if (static_cast<int>(chosen.size()) < count && explanation.score.removed > 0.03 * best &&
+        explanation.log10_p < -2)
+      chosen.push_back(&explanation);
+  }
+  run_parallel(context_.threads, static_cast<int>(chosen.size()), [&](int i) {
+    Explanation& explanation = *chosen[static_cast<std::size_t>(i)];
+    context_.say("refitting with " + explanation.id);
+    refit(explanation, far);
+  });
+}
+
+}  // namespace catena

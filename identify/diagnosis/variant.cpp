@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/variant.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "generator/description/description.hpp"
+
+namespace catena {
+namespace {
+
+/// "stiffness", "stiffness_3" or "stiffness_2..12" taken apart.
+struct JointFamily {
+  std::string family;
+  int first = 0, last = 0;  // 0: all
+};
+
+std::optional<JointFamily> joint_family(const std::string& sets) {
+  for (const std::string family : {"stiffness", "damping"}) {
+    if (sets == family) return JointFamily{family};
+    if (!sets.starts_with(family + "_")) continue;
+    JointFamily result{family};
+    const char* at = sets.data() + family.size() + 1;
+    const char* end = sets.data() + sets.size();
+    auto parsed = std::from_chars(at, end, result.first);
+    if (parsed.ec != std::errc()) return std::nullopt;  // "damping_length"
+    result.last = result.first;
+    if (parsed.ptr != end) {
+      if (!std::string_view(parsed.ptr, end).starts_with("..")) return std::nullopt;
+      parsed = std::from_chars(parsed.ptr + 2, end, result.last);
+      if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
+    }
+    return result;
+  }
+  return std::nullopt;
+}
+
+bool names_one_link(const std::string& sets) {
+  for (const char* family : {"length", "mass", "inertia", "torque"})
+    if (sets == family || sets.starts_with(std::string(family) + "_")) return true;
+  // an effect's parameter of one joint or link: "effect.name_3"
+  const std::size_t dot = sets.find('.'), bar = sets.rfind('_');
+  return dot != std::string::npos && bar != std::string::npos && bar > dot &&
+         bar + 1 < sets.size() && std::isdigit(static_cast<unsigned char>(sets[bar + 1]));
+}
+
+void free_start(InitialSpec& initial, int more_terms, int rate_terms) {
+  if (initial.shape == Shape::kStraight) {  // the first of the polynomials
+    initial.shape = Shape::kSmooth;
+    initial.terms = 1;
+  }
+  initial.terms += more_terms;
+  initial.coefficients.resize(initial.coefficients.empty() ? 0
+                                                           : static_cast<std::size_t>(initial.terms));
+  initial.free = true;
+  if (rate_terms == 0) return;
+  if (initial.at_rest) {
+    initial.velocity_shape = Shape::kSmooth;
+    initial.velocity_terms = rate_terms;
+    initial.velocity_coefficients.assign(static_cast<std::size_t>(rate_terms), 0.0);
+  }
+  initial.at_rest = false;
+  initial.velocity_free = true;
+}
+
+bool polynomial(const InitialSpec& initial) {
+  return initial.shape == Shape::kSmooth || initial.shape == Shape::kStraight;
+}
+
+}  // namespace
+
+Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes,
+                  const std::filesystem::path& description_file) {
+  Description description =
+      study.description.empty() ? plain_chain() : read_description(study.description);
+  Case result = study;
+  for (const Candidate& candidate : candidates) {
+    description.effects.push_back(candidate.effect);
+    for (const CandidateParameter& parameter : candidate.parameters) {
+      ParameterSpec spec;
+      spec.name = spec.sets = parameter.name;
+      spec.unit = parameter.unit;
+      spec.value = parameter.value;
+      spec.lower = parameter.lower;
+      spec.upper = parameter.upper;
+      spec.free = parameter.role == ParameterRole::kAmplitude ||
+                  parameter.role == ParameterRole::kLimit || shapes;
+      spec.where = "effect " + candidate.id;
+      if (parameter.role == ParameterRole::kLimit) spec.scale = Scale::kLogarithmic;
+      result.parameters.push_back(spec);
+    }
+  }
+  description.links = {study.links};
+  write_description(description, description_file);
+  result.description = description_file;
+  return result;
+}
+
+std::optional<Case> with_links(const Case& study, int links, std::string& why_not) {
+  const auto refuse = [&](const std::string& reason) -> std::optional<Case> {
+    why_not = reason;
+    return std::nullopt;
+  };
+  if (links % study.links != 0) return refuse("the number of links is no multiple");
+  if (!study.cable.link_lengths.empty() || !study.cable.link_masses.empty() ||
+      !study.cable.link_inertias.empty())
+    return refuse("the links are real parts, given one by one");
+  const int ratio = links / study.links;
+  Case result = study;
+  result.links = links;
+  for (ParameterSpec& parameter : result.parameters) {
+    if (names_one_link(parameter.sets))
+      return refuse("parameter " + parameter.name + " belongs to single links");
+    const auto family = joint_family(parameter.sets);
+    if (!family) continue;
+    parameter.factor *= ratio;  // stiffness and damping of a joint go with 1 / spacing
+    if (family->first == 0) continue;
+    const int first = family->first <= 2 ? family->first : (family->first - 1) * ratio + 1;
+    const int last = family->last == 1 ? 1 : family->last * ratio;
+    parameter.sets = family->family + "_" + std::to_string(first);
+    if (last > first) parameter.sets += ".." + std::to_string(last);
+  }
+  const auto refit_start = [](InitialSpec& initial, int old_links) {
+    if (initial.shape == Shape::kAngles) {
+      initial.shape = Shape::kSmooth;
+      initial.terms = std::min(old_links, 8);
+      initial.coefficients.clear();
+    }
+    if (initial.velocity_shape == Shape::kAngles) {
+      initial.velocity_shape = Shape::kSmooth;
+      initial.velocity_terms = std::min(old_links, 4);
+      initial.velocity_coefficients.clear();
+    }
+  };
+  refit_start(result.initial, study.links);
+  for (ExperimentSpec& experiment : result.experiments) {
+    if (experiment.kind == DataKind::kAngles) return refuse("the data are angles of links");
+    if (experiment.initial) refit_start(*experiment.initial, study.links);
+    for (PointSpec& point : experiment.points)
+      if (point.joint > 0) point.joint *= ratio;
+  }
+  return result;
+}
+
+std::optional<Case> with_freer_start(const Case& study, int more_terms, int rate_terms) {
+  if (study.links < 2) return std::nullopt;
+  Case result = study;
+  if (!polynomial(result.initial)) return std::nullopt;
+  free_start(result.initial, more_terms, rate_terms);
+  for (ExperimentSpec& experiment : result.experiments) {
+    if (!experiment.initial) continue;
+    if (!polynomial(*experiment.initial)) return std::nullopt;
+    free_start(*experiment.initial, more_terms, rate_terms);
+  }
+  return result;
+}
+
+Eigen::VectorXd transfer(const Problem& from, const Eigen::VectorXd& x, const Problem& to) {
+  Eigen::VectorXd result = to.start();
+  for (std::size_t j = 0; j < to.unknowns().size(); ++j) {
+    const Unknown& unknown = to.unknowns()[j];
+    const Eigen::Index known = unknown_index(from, unknown.name);
+    if (known >= 0)
+      result[static_cast<Eigen::Index>(j)] = x[known];
+    else if (unknown.group == Unknown::Group::kInitial)
+      result[static_cast<Eigen::Index>(j)] = 0;
+  }
+  return result;
+}
+
+Eigen::Index unknown_index(const Problem& problem, const std::string& name) {
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j)
+    if (problem.unknowns()[j].name == name) return static_cast<Eigen::Index>(j);
+  return -1;
+}
+
+}  // namespace catena
