@@ -99,19 +99,34 @@ std::vector<double> strongest_frequencies(const FittedModel& model,
   return frequencies;
 }
 
-Search::Search(const SearchContext& context, const std::vector<Candidate>& library,
-               FittedModel base, std::vector<double> floors)
-    : context_(context), library_(library), base_(std::move(base)), floors_(std::move(floors)) {
-  for (const Candidate& candidate : library_)
-    if (candidate.unavailable.empty() && !candidate.own_model) together_.push_back(candidate);
+Search::Search(Workshop& workshop, FittedModel base, std::vector<std::string> effects,
+               std::vector<double> floors)
+    : workshop_(workshop),
+      base_(std::move(base)),
+      effects_(std::move(effects)),
+      floors_(std::move(floors)) {
+  std::vector<Candidate> others;
+  for (const Candidate& candidate : workshop_.library())
+    if (candidate.unavailable.empty() && !candidate.own_model && !in_base(candidate.id))
+      others.push_back(candidate);
   const Case& study = base_.problem->study();
-  description_ = context_.work / ("all_effects_" + std::to_string(study.links) + "_links.toml");
   const Case freer = with_freer_start(study, kMoreTerms, kRateTerms).value_or(study);
-  Case all = with_effects(freer, together_, true, description_);
   all_ = std::make_shared<const Problem>(
-      all, provide_model(description_, study.links, context_.provider));
+      with_effects(freer, others, true),
+      workshop_.model_with_all(study.links, own_models_in_base()));
   x_ = transfer(*base_.problem, base_.x, *all_);
   frequencies_ = strongest_frequencies(base_, floors_, kFrequencies);
+}
+
+bool Search::in_base(const std::string& id) const {
+  return std::find(effects_.begin(), effects_.end(), id) != effects_.end();
+}
+
+std::vector<std::string> Search::own_models_in_base() const {
+  std::vector<std::string> own;
+  for (const std::string& id : effects_)
+    if (workshop_.find(id)->own_model) own.push_back(id);
+  return own;
 }
 
 MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
@@ -199,9 +214,10 @@ std::vector<Explanation> Search::score() {
   const auto place = [&](const CandidateParameter& parameter) {
     return unknown_index(*all_, parameter.name);
   };
-  for (std::size_t i = 0; i < library_.size(); ++i) {
-    const Candidate& candidate = library_[i];
-    if (!candidate.unavailable.empty() || candidate.own_model) continue;
+  const std::vector<Candidate>& library = workshop_.library();
+  for (std::size_t i = 0; i < library.size(); ++i) {
+    const Candidate& candidate = library[i];
+    if (!candidate.unavailable.empty() || candidate.own_model || in_base(candidate.id)) continue;
     std::vector<Index> own;
     for (const int p : candidate.with_role(ParameterRole::kAmplitude))
       own.push_back(place(candidate.parameters[static_cast<std::size_t>(p)]));
@@ -223,8 +239,8 @@ std::vector<Explanation> Search::score() {
         runs.push_back(std::move(run));
       }
   }
-  run_parallel(context_.threads, static_cast<int>(runs.size()), [&](int r) {
-    if (context_.stopped()) return;
+  run_parallel(workshop_.threads, static_cast<int>(runs.size()), [&](int r) {
+    if (workshop_.stopped()) return;
     Run& run = runs[static_cast<std::size_t>(r)];
     run.columns = columns(*all_, run.x, run.unknowns);
   });
@@ -238,8 +254,9 @@ std::vector<Explanation> Search::score() {
 
   Index next = fitted_count + start_count;
   std::size_t next_run = 1;
-  for (std::size_t i = 0; i < library_.size(); ++i) {
-    const Candidate& candidate = library_[i];
+  for (std::size_t i = 0; i < library.size(); ++i) {
+    const Candidate& candidate = library[i];
+    if (in_base(candidate.id)) continue;
     Explanation explanation;
     explanation.id = candidate.id;
     explanation.title = candidate.title;
@@ -312,7 +329,7 @@ std::vector<Explanation> Search::score() {
 }
 
 Explanation Search::score_limit(ScoreTest& test, int index) const {
-  const Candidate& candidate = library_[static_cast<std::size_t>(index)];
+  const Candidate& candidate = workshop_.library()[static_cast<std::size_t>(index)];
   Explanation explanation;
   explanation.id = candidate.id;
   explanation.title = candidate.title;
@@ -323,11 +340,12 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
     return explanation;
   }
   const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(limits[0])];
-  const auto description = context_.work / (candidate.id + ".model.toml");
   Candidate start = candidate;
   start.parameters[static_cast<std::size_t>(limits[0])].value = 1e6;
-  const Case study = with_effects(base_.problem->study(), {start}, false, description);
-  const Problem problem(study, provide_model(description, study.links, context_.provider));
+  std::vector<std::string> effects = effects_;
+  effects.push_back(candidate.id);
+  const Case study = with_effects(base_.problem->study(), {start}, false);
+  const Problem problem(study, workshop_.model_with(effects, study.links));
   VectorXd x = transfer(*base_.problem, base_.x, problem);
   const Index unknown = unknown_index(problem, parameter.name);
   // The slope by 1/value, from the first value that moves the trajectory by a third of the noise.
@@ -368,34 +386,30 @@ void Search::refit(Explanation& explanation, bool far) const {
     problem = std::make_shared<const Problem>(*freer, base_.problem->model());
     shares = {1.0};
   } else {
-    const Candidate& candidate = library_[static_cast<std::size_t>(explanation.candidate)];
-    const auto description = context_.work / (candidate.id + ".model.toml");
+    const Candidate& candidate = workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
     Candidate started = candidate;
     for (CandidateParameter& parameter : started.parameters)
       for (const auto& [name, value] : explanation.start)
         if (parameter.name == name) parameter.value = value;
-    Case larger = with_effects(study, {started}, true, description);
-    if (candidate.own_model) {
-      problem = std::make_shared<const Problem>(
-          larger, provide_model(description, study.links, context_.provider));
-    } else {
-      larger.description = description_;  // the model with all effects, the others neutral
-      problem = std::make_shared<const Problem>(larger, all_->model());
-    }
+    std::vector<std::string> effects = effects_;
+    effects.push_back(candidate.id);
+    problem = std::make_shared<const Problem>(
+        with_effects(study, {started}, true),
+        candidate.own_model ? workshop_.model_with(effects, study.links) : all_->model());
   }
   for (const double share : shares) {
-    if (context_.stopped()) return;
+    if (workshop_.stopped()) return;
     VectorXd start = transfer(*base_.problem, base_.x, *problem);
     if (explanation.candidate >= 0)
       for (const CandidateParameter& parameter :
-           library_[static_cast<std::size_t>(explanation.candidate)].parameters) {
+           workshop_.library()[static_cast<std::size_t>(explanation.candidate)].parameters) {
         const Index j = unknown_index(*problem, parameter.name);
         if (j < 0) continue;
         if (parameter.role == ParameterRole::kAmplitude)
           start[j] = parameter.neutral + share * (start[j] - parameter.neutral);
         start[j] = std::clamp(start[j], parameter.lower, parameter.upper);
       }
-    FittedModel model = fit_model(problem, start, context_.least_squares, context_.stop);
+    FittedModel model = fit_model(problem, start, workshop_.least_squares, workshop_.stop);
     if (!model.ok) continue;
     if (explanation.refitted && sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_))
       continue;
@@ -421,9 +435,9 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
         explanation.log10_p < -2)
       chosen.push_back(&explanation);
   }
-  run_parallel(context_.threads, static_cast<int>(chosen.size()), [&](int i) {
+  run_parallel(workshop_.threads, static_cast<int>(chosen.size()), [&](int i) {
     Explanation& explanation = *chosen[static_cast<std::size_t>(i)];
-    context_.say("refitting with " + explanation.id);
+    workshop_.say("refitting with " + explanation.id);
     refit(explanation, far);
   });
 }

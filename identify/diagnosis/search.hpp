@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <atomic>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,24 +11,9 @@
 #include "identify/diagnosis/compare.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
 #include "identify/diagnosis/score.hpp"
-#include "identify/model_provider.hpp"
+#include "identify/diagnosis/workshop.hpp"
 
 namespace catena {
-
-/// What every part of a diagnosis needs from outside.
-struct SearchContext {
-  std::filesystem::path work;  ///< folder for descriptions
-  LeastSquares least_squares;
-  ProviderOptions provider;
-  const std::atomic<bool>* stop = nullptr;
-  int threads = 2;
-  std::function<void(const std::string&)> notice;  ///< one line on what is being done
-
-  void say(const std::string& text) const {
-    if (notice) notice(text);
-  }
-  bool stopped() const { return stop && stop->load(); }
-};
 
 /// One explanation held against a fitted model: an effect, or a rival that is none.
 struct Explanation {
@@ -55,7 +38,8 @@ inline constexpr const char* kTooFewLinks = "too_few_links";
 /// model that contains them all at their neutral values.
 class Search {
  public:
-  Search(const SearchContext& context, const std::vector<Candidate>& library, FittedModel base,
+  /// `effects`: those of the library that are in the base already; they are not tried again.
+  Search(Workshop& workshop, FittedModel base, std::vector<std::string> effects,
          std::vector<double> floors);
 
   /// Scores of all candidates and of a freer start, the most promising first.
@@ -71,27 +55,25 @@ class Search {
   const FittedModel& base() const { return base_; }
 
  private:
-  struct Columns {
-    std::vector<Eigen::VectorXd> value;  // one per direction, stacked over the fitted experiments
-  };
+  /// Derivatives of the stacked residuals by some unknowns.
   Eigen::MatrixXd columns(const Problem& problem, const Eigen::VectorXd& x,
                           const std::vector<Eigen::Index>& unknowns) const;
   void score_start(ScoreTest& test, const Eigen::MatrixXd& derivatives,
                    std::vector<Explanation>& out) const;
-  Explanation score_candidate(ScoreTest& test, int index) const;
   Explanation score_limit(ScoreTest& test, int index) const;
   double significance(const ScoreTest& test, const std::vector<int>& columns,
                       const Score& score) const;
 
-  const SearchContext& context_;
-  const std::vector<Candidate>& library_;
+  bool in_base(const std::string& id) const;
+  std::vector<std::string> own_models_in_base() const;
+
+  Workshop& workshop_;
   FittedModel base_;
+  std::vector<std::string> effects_;
   std::vector<double> floors_;
-  std::vector<Candidate> together_;  // those that share the model
-  std::shared_ptr<const Problem> all_;  // the model with all of them, everything free
-  std::filesystem::path description_;
-  Eigen::VectorXd x_;  // the base in it
-  std::vector<double> frequencies_;
+  std::shared_ptr<const Problem> all_;  // the model with all effects, everything free
+  Eigen::VectorXd x_;                   // the base in it
+  std::vector<double> frequencies_;     // Hz, where the residuals have lines
 };
 
 /// Runs f(0) .. f(count - 1) on so many threads.

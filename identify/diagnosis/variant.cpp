@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "generator/description/description.hpp"
-
 namespace catena {
 namespace {
 
@@ -69,13 +67,9 @@ bool polynomial(const InitialSpec& initial) {
 
 }  // namespace
 
-Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes,
-                  const std::filesystem::path& description_file) {
-  Description description =
-      study.description.empty() ? plain_chain() : read_description(study.description);
+Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes) {
   Case result = study;
   for (const Candidate& candidate : candidates) {
-    description.effects.push_back(candidate.effect);
     for (const CandidateParameter& parameter : candidate.parameters) {
       ParameterSpec spec;
       spec.name = spec.sets = parameter.name;
@@ -90,9 +84,6 @@ Case with_effects(const Case& study, const std::vector<Candidate>& candidates, b
       result.parameters.push_back(spec);
     }
   }
-  description.links = {study.links};
-  write_description(description, description_file);
-  result.description = description_file;
   return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,10 +15,9 @@ namespace catena {
 /// Cases made from cases: with effects, with more links, with a freer start.
 
 /// The case with every parameter of the candidates added as a free quantity, at its neutral or default
-/// value. Phases and shapes are free only if `shapes`. The description (that of the case, plus the
-/// candidates' effects) is written to `description_file`, which the new case names.
-Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes,
-                  const std::filesystem::path& description_file);
+/// value; phases and shapes are free only if `shapes`. The description is left as it is: the model that
+/// has these effects is chosen where the problem is made (Workshop).
+Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes);
 
 /// The same case with another number of links, all physical quantities kept: per-joint stiffness and
 /// damping change with the spacing. Empty, with the reason in `why_not`, where links are real parts

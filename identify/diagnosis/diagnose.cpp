@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/diagnose.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "generator/description/input_error.hpp"
+#include "identify/diagnosis/final_model.hpp"
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kFarGap = 4;            // times the noise: the linear score may rank wrongly
+constexpr double kCertain = -3;          // log10 of the probability of a false name
+constexpr double kWorthwhile = 0.1;      // share of the squared misfit an effect must explain
+constexpr double kClosed = 1.2;          // times the noise, fitted part
+constexpr double kClosedHeldOut = 1.35;  // times the noise, held-out part
+constexpr double kTooSmallToName = 0.6;  // misfit over noise below which nothing is called missing
+constexpr double kHeldOutShare = 0.3;    // of a recording, where the case holds nothing out
+
+/// A diagnosis needs data that no fit has seen.
+void hold_out(Case& study, std::vector<std::string>& notes) {
+  bool held = false;
+  for (const ExperimentSpec& experiment : study.experiments)
+    held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
+  if (held) return;
+  const Problem problem(study, provide_model(study.description, study.links));
+  for (std::size_t e = 0; e < study.experiments.size(); ++e) {
+    const auto& time = problem.experiments()[e].recording.time;
+    ExperimentSpec& experiment = study.experiments[e];
+    if (problem.experiments().size() == study.experiments.size())
+      experiment.fit_until = time.back() - kHeldOutShare * (time.back() - time.front());
+  }
+  notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
+}
+
+class Physician {
+ public:
+  Physician(Workshop& workshop, const DiagnosisOptions& options)
+      : workshop_(workshop), options_(options) {}
+
+  Diagnosis examine(Case study) {
+    const auto begin = std::chrono::steady_clock::now();
+    hold_out(study, result_.notes);
+    fit_baseline(std::move(study));
+    look_for_effects();
+    if (!result_.effects.empty()) look_back();
+    conclude();
+    result_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(result_);
+  }
+
+ private:
+  Stage& stage() { return result_.stages.back(); }
+
+  void fit_baseline(Case study) {
+    if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
+    workshop_.say("fitting the baseline");
+    const auto problem =
+        std::make_shared<const Problem>(study, workshop_.model_with({}, study.links));
+    FittedModel model =
+        fit_model(problem, problem->start(), workshop_.least_squares, workshop_.stop);
+    if (!model.ok)
+      throw std::runtime_error("the baseline could not be fitted: " + model.message);
+    enter(std::move(model), {}, "");
+  }
+
+  /// A new stage; the noise floor follows the best model so far.
+  void enter(FittedModel model, std::vector<std::string> effects, const std::string& added,
+             const std::string& removed = "") {
+    const std::vector<NoiseFloor> noise = noise_floors(model);
+    if (result_.floors.empty()) {
+      result_.noise = noise;
+      for (const NoiseFloor& floor : noise) {
+        if (!(floor.sigma > 0))
+          throw InputError("too few neighbouring frames to estimate the noise: give `noise` in the "
+                           "experiment");
+        result_.floors.push_back(floor.sigma);
+      }
+    }
+    for (std::size_t e = 0; e < noise.size(); ++e)
+      if (noise[e].sigma < result_.floors[e]) {
+        result_.noise[e] = noise[e];
+        result_.floors[e] = noise[e].sigma;
+      }
+    Stage next;
+    next.effects = std::move(effects);
+    next.added = added;
+    next.removed = removed;
+    next.links = model.problem->study().links;
+    next.fit = fit_gap(model, result_.floors);
+    next.held_out = held_out_gap(model, result_.floors);
+    next.model = std::move(model);
+    result_.stages.push_back(std::move(next));
+  }
+
+  bool far() { return stage().fit.ratio() > kFarGap; }
+
+  void look_for_effects() {
+    while (stage().fit.present && !workshop_.stopped()) {
+      stage().finer = try_finer_chain(stage().model, stage().effects, result_.floors,
+                                      options_.max_links, workshop_);
+      if (stage().finer.taken) {
+        enter(stage().finer.model, stage().effects, kTooFewLinks);
+        continue;
+      }
+      if (static_cast<int>(stage().effects.size()) >= options_.max_effects) break;
+      stage().explanations = look(stage().model, stage().effects);
+      const Explanation* best = choose(stage().explanations);
+      if (!best) break;
+      std::vector<std::string> effects = stage().effects;
+      if (best->candidate >= 0) effects.push_back(best->id);
+      result_.freer_start = result_.freer_start || best->candidate < 0;
+      enter(trimmed(best->model), effects, best->id);
+    }
+    result_.effects = stage().effects;
+  }
+
+  std::vector<Explanation> look(const FittedModel& model, const std::vector<std::string>& effects) {
+    workshop_.say("scoring what may be missing");
+    Search search(workshop_, model, effects, result_.floors);
+    std::vector<Explanation> explanations = search.score();
+    if (result_.tried == 0)
+      for (const Explanation& explanation : explanations)
+        result_.tried += explanation.note.empty() || explanation.score.admissible;
+    search.refit_best(explanations, far() ? options_.refits + 2 : options_.refits, far());
+    return explanations;
+  }
+
+  bool acceptable(const Explanation& explanation) {
+    if (!explanation.refitted) return false;
+    const Comparison& comparison = explanation.comparison;
+    const double log10_p = comparison.log10_p + std::log10(std::max(1, result_.tried));
+    const bool generalises = explanation.held_out.count == 0 ||
+                             explanation.held_out.rms <= 1.05 * stage().held_out.rms;
+    return log10_p < kCertain && comparison.criterion < 0 &&
+           comparison.misfit_share > kWorthwhile && generalises;
+  }
+
+  /// The explanation to add: the one that leaves least, one with fewer unknowns where the data do not
+  /// decide; a freer start before any effect, if that alone closes the gap.
+  const Explanation* choose(const std::vector<Explanation>& explanations) {
+    const Explanation* best = nullptr;
+    const auto worth = [&](const Explanation& explanation) {
+      return sum_of_squares(explanation.model, result_.floors) +
+             std::log(static_cast<double>(std::max(2L, explanation.fit.count))) *
+                 explanation.comparison.added;
+    };
+    for (const Explanation& explanation : explanations) {
+      if (!acceptable(explanation)) continue;
+      if (explanation.candidate < 0 && !explanation.fit.present) return &explanation;
+      if (!best || worth(explanation) < worth(*best)) best = &explanation;
+    }
+    return best;
+  }
+
+  /// Amplitudes that the data do not need are put back to their neutral values.
+  FittedModel trimmed(const FittedModel& model) {
+    return trim(model, result_.floors, workshop_);
+  }
+
+  /// With all effects in place: is each still needed, and could another stand in its place?
+  void look_back() {
+    for (std::size_t i = 0; i < result_.effects.size() && !workshop_.stopped();) {
+      const std::string id = result_.effects[i];
+      std::vector<std::string> others = result_.effects;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const Stage* looked = stage_before(id, others);
+      Stage fresh;
+      if (!looked) {
+        workshop_.say("looking back at " + id);
+        fresh = stage_without(id, others);
+        looked = &fresh;
+      }
+      if (!fresh.model.problem && !looked->model.problem) {
+        ++i;
+        continue;
+      }
+      if (needless(*looked)) {
+        enter(looked->model, others, "", id);
+        result_.effects = others;
+        i = 0;
+        continue;
+      }
+      const std::string better = weigh_alternatives(id, *looked);
+      if (better.empty()) {
+        ++i;
+        continue;
+      }
+      others.push_back(better);
+      result_.effects = others;
+      result_.alternatives.clear();
+      result_.runners_up.clear();
+      i = 0;
+      if (++swaps_ > 3) break;
+    }
+  }
+
+  /// A stage at which `id` was added to exactly `others`, with the present number of links.
+  const Stage* stage_before(const std::string& id, const std::vector<std::string>& others) {
+    for (std::size_t s = 0; s + 1 < result_.stages.size(); ++s)
+      if (result_.stages[s].effects == others && result_.stages[s + 1].added == id &&
+          result_.stages[s].links == stage().links && !result_.stages[s].explanations.empty() &&
+          s + 2 == result_.stages.size())
+        return &result_.stages[s];
+    return nullptr;
+  }
+
+  Stage stage_without(const std::string& id, const std::vector<std::string>& others) {
+    Stage without;
+    const Case study = without_effect(stage().model.problem->study(), id);
+    const auto problem =
+        std::make_shared<const Problem>(study, stage().model.problem->model());
+    without.model = fit_model(problem, transfer(*stage().model.problem, stage().model.x, *problem),
+                              workshop_.least_squares, workshop_.stop);
+    if (!without.model.ok) return {};
+    without.effects = others;
+    without.links = study.links;
+    without.fit = fit_gap(without.model, result_.floors);
+    without.held_out = held_out_gap(without.model, result_.floors);
+    if (!needless(without)) without.explanations = look(without.model, others);
+    return without;
+  }
+
+  /// An effect is needless if the model without it leaves no more gap than the model with it.
+  bool needless(const Stage& without) {
+    if (!without.fit.present) return true;
+    const Comparison gain = compare(without.model, stage().model, result_.floors);
+    return gain.log10_p + std::log10(std::max(1, result_.tried)) > kCertain ||
+           gain.misfit_share < kWorthwhile;
+  }
+
+  /// Sorts the explanations that could stand in the place of `id` into undecided ones and runners-up.
+  /// Returns the id of one that is clearly better, after entering its model; else nothing.
+  std::string weigh_alternatives(const std::string& id, const Stage& without) {
+    for (const Explanation& explanation : without.explanations) {
+      if (!explanation.refitted || explanation.id == id) continue;
+      const bool better = sum_of_squares(explanation.model, result_.floors) <
+                          sum_of_squares(stage().model, result_.floors);
+      const FittedModel& first = better ? explanation.model : stage().model;
+      const FittedModel& second = better ? stage().model : explanation.model;
+      const Decision decision = decide(first, second, result_.floors);
+      if (better && decision.decided && explanation.candidate >= 0) {
+        std::vector<std::string> effects = without.effects;
+        effects.push_back(explanation.id);
+        enter(trimmed(explanation.model), effects, explanation.id, id);
+        return explanation.id;
+      }
+      (decision.decided ? result_.runners_up : result_.alternatives)
+          .push_back({id, explanation, decision});
+    }
+    return {};
+  }
+
+  void conclude();
+
+  Workshop& workshop_;
+  const DiagnosisOptions& options_;
+  Diagnosis result_;
+  int swaps_ = 0;
+};
+
+std::string listed_ids(const std::vector<std::string>& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") + ids[i];
+  return text;
+}
+
+void Physician::conclude() {
+  Diagnosis& d = result_;
+  d.final = stage().model;
+  if (!d.effects.empty()) make_final_model(d, workshop_);
+  d.final_fit = fit_gap(d.final, d.floors);
+  d.final_held_out = held_out_gap(d.final, d.floors);
+  d.parameters = final_parameters(d);
+
+  const bool closed = d.final_fit.ratio() <= kClosed &&
+                      (d.final_held_out.count == 0 || d.final_held_out.ratio() <= kClosedHeldOut);
+  const std::string links = stage().links != d.stages.front().links
+                                ? " with " + std::to_string(stage().links) + " links (" +
+                                      std::to_string(d.stages.front().links) + " were too few)"
+                                : "";
+  if (d.effects.empty() &&
+      (!d.final_fit.present || d.final_fit.misfit < kTooSmallToName * d.final_fit.floor)) {
+    d.verdict = Verdict::kNone;
+    d.sentence = "No missing effect" + (links.empty() ? std::string() : links) +
+                 (d.freer_start ? "; the start of the motion needed more freedom" : "") +
+                 (d.final_fit.present ? "; a remainder below the noise is left, too small to name" : "") +
+                 ".";
+    return;
+  }
+  if (!closed) {
+    d.verdict = Verdict::kUnexplained;
+    d.sentence = d.effects.empty()
+                     ? "There is a gap, and nothing in the library explains it."
+                     : "There is a gap; " + listed_ids(d.effects) +
+                           " would explain part of it, but what is left is far above the noise.";
+    return;
+  }
+  std::erase_if(d.alternatives, [&](const Alternative& alternative) {
+    return alternative.explanation.candidate < 0 ||
+           alternative.explanation.fit.ratio() > kClosed;
+  });
+  d.verdict = d.alternatives.empty() ? Verdict::kNamed : Verdict::kAmbiguous;
+  d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";
+  if (d.verdict == Verdict::kAmbiguous) {
+    std::vector<std::string> others;
+    for (const Alternative& alternative : d.alternatives)
+      others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
+    d.sentence += " These data do not decide against " + listed_ids(others) + ".";
+  }
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNone:
+      return "none";
+    case Verdict::kNamed:
+      return "named";
+    case Verdict::kAmbiguous:
+      return "ambiguous";
+    case Verdict::kUnexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+Diagnosis diagnose(Case study, Workshop& workshop, const DiagnosisOptions& options) {
+  return Physician(workshop, options).examine(std::move(study));
+}
+
+}  // namespace catena

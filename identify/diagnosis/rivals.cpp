@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/rivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/diagnosis/score.hpp"
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kWorthARefit = 0.25;  // predicted change over misfit
+constexpr double kWorthTaking = 0.15;  // of the squared misfit
+
+}  // namespace
+
+MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& floors) {
+  const Evaluation evaluation = evaluate(*model.problem, model.x, false, true);
+  const std::size_t unknowns = model.problem->unknowns().size();
+  MatrixXd jacobian;
+  for (std::size_t j = 0; j < unknowns; ++j) {
+    std::vector<MatrixXd> derivative(model.fit_residual.size());
+    for (std::size_t e = 0; e < derivative.size(); ++e)
+      if (model.fit_residual[e].cols() > 0 && evaluation.predictions[e].ok())
+        derivative[e] = evaluation.predictions[e].sensitivity[j];
+    const VectorXd column = stacked(derivative, model.fit_residual, floors);
+    if (jacobian.size() == 0) jacobian.resize(column.size(), static_cast<Index>(unknowns));
+    jacobian.col(static_cast<Index>(j)) = column;
+  }
+  return jacobian;
+}
+
+FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
+                           const std::vector<double>& floors, int max_links, Workshop& workshop) {
+  FinerChain finer;
+  const Case& study = model.problem->study();
+  finer.links = 2 * study.links;
+  if (finer.links > max_links) {
+    finer.note = "more than the allowed " + std::to_string(max_links) + " links";
+    return finer;
+  }
+  const std::optional<Case> larger = with_links(study, finer.links, finer.note);
+  if (!larger) return finer;
+  const auto problem =
+      std::make_shared<const Problem>(*larger, workshop.model_with(effects, finer.links));
+  const VectorXd start = transfer(*model.problem, model.x, *problem);
+
+  std::vector<MatrixXd> change(model.fit_residual.size());
+  for (std::size_t e = 0; e < change.size(); ++e) {
+    const Index fitted = model.fit_residual[e].cols();
+    if (fitted == 0) continue;
+    const Prediction prediction = problem->predict(start, static_cast<int>(e), false);
+    if (!prediction.ok()) {
+      finer.note = "the finer chain could not be simulated: " + prediction.message;
+      return finer;
+    }
+    change[e] = prediction.simulated - model.predicted[e].leftCols(fitted);
+  }
+  const ScoreTest test(stacked(model.fit_residual, model.fit_residual, floors),
+                       fitted_jacobian(model, floors));
+  const VectorXd left = test.project(stacked(change, model.fit_residual, floors));
+  const GapTest gap = fit_gap(model, floors);
+  finer.predicted = gap.floor * left.norm() / std::sqrt(static_cast<double>(left.size()));
+  if (finer.predicted < kWorthARefit * gap.misfit) {
+    finer.note = "twice the links would change the prediction by a small part of the misfit only";
+    return finer;
+  }
+  workshop.say("refitting with " + std::to_string(finer.links) + " links");
+  finer.model = fit_model(problem, start, workshop.least_squares, workshop.stop);
+  if (!finer.model.ok) {
+    finer.note = "the refit failed: " + finer.model.message;
+    return finer;
+  }
+  finer.refitted = true;
+  finer.comparison = compare(model, finer.model, floors);
+  finer.taken = finer.comparison.misfit_share > kWorthTaking && finer.comparison.removed > 0;
+  if (!finer.taken) finer.note = "refitted, and no better";
+  return finer;
+}
+
+}  // namespace catena

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "generator/description/description.hpp"
+#include "identify/diagnosis/candidate.hpp"
+#include "identify/fit.hpp"
+#include "identify/model_provider.hpp"
+
+namespace catena {
+
+/// What every part of a diagnosis needs: the effects to look for, models that hold them, a solver, and
+/// somebody to tell what is going on.
+class Workshop {
+ public:
+  /// `description`: of the case (empty: the plain chain); `effect_files`: the user's own effects;
+  /// `folder`: where descriptions are written.
+  Workshop(const std::filesystem::path& description,
+           const std::vector<std::filesystem::path>& effect_files, std::filesystem::path folder,
+           LeastSquares least_squares, ProviderOptions provider);
+
+  const std::vector<Candidate>& library() const { return library_; }
+  const Candidate* find(const std::string& id) const;
+
+  /// The description of the case with these effects of the library, written to a file named after them.
+  std::filesystem::path description_with(const std::vector<std::string>& effects, int links);
+
+  /// The case's model with every candidate that can share a model, and those of `needed` that cannot.
+  /// Derived and compiled once for every number of links: at the neutral values it is the case's model.
+  Model model_with_all(int links, const std::vector<std::string>& needed = {});
+  /// The case's model with these effects alone.
+  Model model_with(const std::vector<std::string>& effects, int links);
+
+  LeastSquares least_squares;
+  ProviderOptions provider;
+  const std::atomic<bool>* stop = nullptr;
+  int threads = 2;
+  std::function<void(const std::string&)> notice;  ///< one line on what is being done
+
+  void say(const std::string& text) const;
+  bool stopped() const { return stop && stop->load(); }
+
+ private:
+  Description original_;
+  std::filesystem::path folder_;
+  std::vector<Candidate> library_;
+  std::map<std::string, Model> models_;  // by the description's file
+  std::mutex mutex_;
+};
+
+}  // namespace catena
