@@ -23,7 +23,7 @@ Candidate candidate_of(Effect effect) {
   candidate.id = effect.id;
   candidate.title = effect.title;
   candidate.sensor = effect.sensor.given();
-  candidate.own_model = !effect.coordinates.empty();
+  candidate.own_model = !effect.coordinates.empty() || !effect.states.empty();
   for (const EffectParameter& parameter : effect.parameters) {
     CandidateParameter entry;
     entry.name = effect.id + "." + parameter.name;
@@ -33,20 +33,20 @@ Candidate candidate_of(Effect effect) {
     entry.upper = parameter.upper;
     entry.role = role_of(parameter);
     entry.neutral = parameter.neutral;
-    entry.value =
-        entry.role == ParameterRole::kAmplitude ? parameter.neutral : parameter.default_value;
+    constexpr double kNearlyTheLimit = 1e6;
+    entry.value = entry.role == ParameterRole::kAmplitude ? parameter.neutral
+                  : entry.role == ParameterRole::kLimit   ? kNearlyTheLimit
+                                                          : parameter.default_value;
     candidate.parameters.push_back(entry);
   }
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
     if (candidate.parameters[i].role != ParameterRole::kPhase) continue;
     const auto amplitudes = candidate.with_role(ParameterRole::kAmplitude);
     for (const int j : amplitudes)
-      if (amplitudes.size() == 1 ||
-          stem(effect.parameters[i].name) ==
-              stem(effect.parameters[static_cast<std::size_t>(j)].name))
+      if (amplitudes.size() == 1 || stem(effect.parameters[i].name) ==
+                                        stem(effect.parameters[static_cast<std::size_t>(j)].name))
         candidate.parameters[i].amplitude = j;
-    if (candidate.parameters[i].amplitude < 0)
-      candidate.parameters[i].role = ParameterRole::kShape;
+    if (candidate.parameters[i].amplitude < 0) candidate.parameters[i].role = ParameterRole::kShape;
   }
   if (!effect.signals.empty())
     candidate.unavailable = "needs a measured series as its input";

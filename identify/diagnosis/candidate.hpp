@@ -17,8 +17,8 @@ namespace catena {
 enum class ParameterRole {
   kAmplitude,  ///< has a finite neutral value: the trajectory has a slope there
   kShape,      ///< has none (a frequency, a wind speed): means nothing without an amplitude
-  kPhase,      ///< a shape of which only sine and cosine matter: found with the amplitude it belongs to
-  kLimit,      ///< vanishes at infinity: the slope is taken by its inverse
+  kPhase,  ///< a shape of which only sine and cosine matter: found with the amplitude it belongs to
+  kLimit,  ///< vanishes at infinity: the slope is taken by its inverse
 };
 
 struct CandidateParameter {
@@ -36,7 +36,8 @@ struct Candidate {
   std::string id, title;
   Effect effect;
   bool sensor = false;  ///< changes what is reported, not the motion
-  /// Brings further coordinates: cannot share a model with the others at its neutral value.
+  /// Brings further coordinates or states: others should not pay for them, and at a limit they have
+  /// no neutral value to rest at.
   bool own_model = false;
   std::vector<CandidateParameter> parameters;
   std::string unavailable;  ///< why it cannot be tried here; empty: it can
@@ -49,10 +50,10 @@ struct Candidate {
 std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
                                              const Description& present);
 
-/// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which the
-/// score is taken: frequencies where the residuals have their strongest lines, velocities of both
-/// signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their default.
-/// One empty vector if the candidate has no shape.
+/// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which
+/// the score is taken: frequencies where the residuals have their strongest lines, velocities of
+/// both signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their
+/// default. One empty vector if the candidate has no shape.
 std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
                                         const std::vector<double>& strongest_frequencies);
 

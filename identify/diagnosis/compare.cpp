@@ -35,8 +35,7 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
   result.colour = colour_factor(weighted(larger, floors));
   const double effective = std::max(2.0, count / result.colour);
   const double added = std::max(1, result.added);
-  result.criterion =
-      effective * std::log(after / before) + result.added * std::log(effective);
+  result.criterion = effective * std::log(after / before) + result.added * std::log(effective);
   // The variance of what is left stands for the noise where it is larger than the floor.
   const double variance = std::max(1.0, after / std::max(1.0, count - unknowns(larger)));
   result.log10_p = log10_chi_square_tail(std::max(0.0, result.removed) / (variance * result.colour),

@@ -8,9 +8,9 @@
 
 namespace catena {
 
-/// How much better one fitted model explains the same data than another. Residuals are weighted with
-/// the noise floors. They are not independent where something is still missing, so that both the
-/// likelihood and the counts are divided by the colour factor of the better model's residuals.
+/// How much better one fitted model explains the same data than another. Residuals are weighted
+/// with the noise floors. They are not independent where something is still missing, so that both
+/// the likelihood and the counts are divided by the colour factor of the better model's residuals.
 struct Comparison {
   double removed = 0;       ///< fall of the sum of squares, in units of the noise squared
   int added = 0;            ///< further unknowns
@@ -29,9 +29,9 @@ double sum_of_squares(const FittedModel& model, const std::vector<double>& floor
 
 /// Whether the data decide between two models that stand for different explanations, `better` being
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
-/// s noise that both share (what even the better one leaves, at least a tenth), that error could put
-/// the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the noise.
-/// Decided is a lead larger than that by what chance explains at odds of one in a thousand.
+/// s noise that both share (what even the better one leaves, at least a tenth), that error could
+/// put the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the
+/// noise. Decided is a lead larger than that by what chance explains at odds of one in a thousand.
 struct Decision {
   bool decided = false;
   double difference = 0;  ///< d, fitted and held-out parts

@@ -68,8 +68,7 @@ class Physician {
         std::make_shared<const Problem>(study, workshop_.model_with({}, study.links));
     FittedModel model =
         fit_model(problem, problem->start(), workshop_.least_squares, workshop_.stop);
-    if (!model.ok)
-      throw std::runtime_error("the baseline could not be fitted: " + model.message);
+    if (!model.ok) throw std::runtime_error("the baseline could not be fitted: " + model.message);
     enter(std::move(model), {}, "");
   }
 
@@ -81,8 +80,9 @@ class Physician {
       result_.noise = noise;
       for (const NoiseFloor& floor : noise) {
         if (!(floor.sigma > 0))
-          throw InputError("too few neighbouring frames to estimate the noise: give `noise` in the "
-                           "experiment");
+          throw InputError(
+              "too few neighbouring frames to estimate the noise: give `noise` in the "
+              "experiment");
         result_.floors.push_back(floor.sigma);
       }
     }
@@ -139,14 +139,14 @@ class Physician {
     if (!explanation.refitted) return false;
     const Comparison& comparison = explanation.comparison;
     const double log10_p = comparison.log10_p + std::log10(std::max(1, result_.tried));
-    const bool generalises = explanation.held_out.count == 0 ||
-                             explanation.held_out.rms <= 1.05 * stage().held_out.rms;
+    const bool generalises =
+        explanation.held_out.count == 0 || explanation.held_out.rms <= 1.05 * stage().held_out.rms;
     return log10_p < kCertain && comparison.criterion < 0 &&
            comparison.misfit_share > kWorthwhile && generalises;
   }
 
-  /// The explanation to add: the one that leaves least, one with fewer unknowns where the data do not
-  /// decide; a freer start before any effect, if that alone closes the gap.
+  /// The explanation to add: the one that leaves least, one with fewer unknowns where the data do
+  /// not decide; a freer start before any effect, if that alone closes the gap.
   const Explanation* choose(const std::vector<Explanation>& explanations) {
     const Explanation* best = nullptr;
     const auto worth = [&](const Explanation& explanation) {
@@ -163,9 +163,7 @@ class Physician {
   }
 
   /// Amplitudes that the data do not need are put back to their neutral values.
-  FittedModel trimmed(const FittedModel& model) {
-    return trim(model, result_.floors, workshop_);
-  }
+  FittedModel trimmed(const FittedModel& model) { return trim(model, result_.floors, workshop_); }
 
   /// With all effects in place: is each still needed, and could another stand in its place?
   void look_back() {
@@ -217,8 +215,7 @@ class Physician {
   Stage stage_without(const std::string& id, const std::vector<std::string>& others) {
     Stage without;
     const Case study = without_effect(stage().model.problem->study(), id);
-    const auto problem =
-        std::make_shared<const Problem>(study, stage().model.problem->model());
+    const auto problem = std::make_shared<const Problem>(study, stage().model.problem->model());
     without.model = fit_model(problem, transfer(*stage().model.problem, stage().model.x, *problem),
                               workshop_.least_squares, workshop_.stop);
     if (!without.model.ok) return {};
@@ -238,8 +235,9 @@ class Physician {
            gain.misfit_share < kWorthwhile;
   }
 
-  /// Sorts the explanations that could stand in the place of `id` into undecided ones and runners-up.
-  /// Returns the id of one that is clearly better, after entering its model; else nothing.
+  /// Sorts the explanations that could stand in the place of `id` into undecided ones and
+  /// runners-up. Returns the id of one that is clearly better, after entering its model; else
+  /// nothing.
   std::string weigh_alternatives(const std::string& id, const Stage& without) {
     for (const Explanation& explanation : without.explanations) {
       if (!explanation.refitted || explanation.id == id) continue;
@@ -292,10 +290,11 @@ void Physician::conclude() {
   if (d.effects.empty() &&
       (!d.final_fit.present || d.final_fit.misfit < kTooSmallToName * d.final_fit.floor)) {
     d.verdict = Verdict::kNone;
-    d.sentence = "No missing effect" + (links.empty() ? std::string() : links) +
-                 (d.freer_start ? "; the start of the motion needed more freedom" : "") +
-                 (d.final_fit.present ? "; a remainder below the noise is left, too small to name" : "") +
-                 ".";
+    d.sentence =
+        "No missing effect" + (links.empty() ? std::string() : links) +
+        (d.freer_start ? "; the start of the motion needed more freedom" : "") +
+        (d.final_fit.present ? "; a remainder below the noise is left, too small to name" : "") +
+        ".";
     return;
   }
   if (!closed) {
@@ -307,8 +306,7 @@ void Physician::conclude() {
     return;
   }
   std::erase_if(d.alternatives, [&](const Alternative& alternative) {
-    return alternative.explanation.candidate < 0 ||
-           alternative.explanation.fit.ratio() > kClosed;
+    return alternative.explanation.candidate < 0 || alternative.explanation.fit.ratio() > kClosed;
   });
   d.verdict = d.alternatives.empty() ? Verdict::kNamed : Verdict::kAmbiguous;
   d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";

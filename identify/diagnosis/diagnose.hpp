@@ -24,7 +24,7 @@ const char* name_of(Verdict verdict);
 /// One model on the way, and what was tried on it.
 struct Stage {
   std::vector<std::string> effects;  ///< in the model
-  std::string added, removed;        ///< since the stage before: an effect, too_few_links, start_shape
+  std::string added, removed;  ///< since the stage before: an effect, too_few_links, start_shape
   int links = 0;
   FittedModel model;
   GapTest fit, held_out;
@@ -48,12 +48,12 @@ struct FinalParameter {
 
 struct Diagnosis {
   Verdict verdict = Verdict::kNone;
-  std::string sentence;               ///< what the verdict says, one or two sentences
-  std::vector<std::string> notes;     ///< what one should know
-  std::vector<NoiseFloor> noise;      ///< per experiment
-  std::vector<double> floors;         ///< per experiment, what was used, m or rad
-  std::vector<Stage> stages;          ///< baseline first
-  std::vector<std::string> effects;   ///< of the final model
+  std::string sentence;              ///< what the verdict says, one or two sentences
+  std::vector<std::string> notes;    ///< what one should know
+  std::vector<NoiseFloor> noise;     ///< per experiment
+  std::vector<double> floors;        ///< per experiment, what was used, m or rad
+  std::vector<Stage> stages;         ///< baseline first
+  std::vector<std::string> effects;  ///< of the final model
   bool freer_start = false;
   std::vector<Alternative> alternatives;  ///< undecided ones
   std::vector<Alternative> runners_up;    ///< refitted and decided against
@@ -62,7 +62,7 @@ struct Diagnosis {
   std::vector<FinalParameter> parameters;
   double equality = 0;  ///< largest relative difference to the case's model at the neutral values
   double seconds = 0;
-  int tried = 0;        ///< candidates scored in the first look
+  int tried = 0;  ///< candidates scored in the first look
 };
 
 struct DiagnosisOptions {
@@ -71,8 +71,9 @@ struct DiagnosisOptions {
   int refits = 6;
 };
 
-/// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to fit),
-/// ModelError where a model cannot be made, std::runtime_error where the baseline cannot be fitted.
+/// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to
+/// fit), ModelError where a model cannot be made, std::runtime_error where the baseline cannot be
+/// fitted.
 Diagnosis diagnose(Case study, Workshop& workshop, const DiagnosisOptions& options);
 
 }  // namespace catena

@@ -20,8 +20,8 @@ struct FittedModel {
   std::string message;
   bool ok = false;  ///< the simulation at x succeeded, held-out parts included
 
-  /// Per experiment, simulated minus measured, channels x frames, NaN where not measured; empty where
-  /// the experiment has no such part.
+  /// Per experiment, simulated minus measured, channels x frames, NaN where not measured; empty
+  /// where the experiment has no such part.
   std::vector<Eigen::MatrixXd> fit_residual, held_out_residual;
   std::vector<Eigen::MatrixXd> predicted;  ///< per experiment, all frames
 };
@@ -40,8 +40,8 @@ std::vector<NoiseFloor> noise_floors(const FittedModel& model);
 GapTest fit_gap(const FittedModel& model, const std::vector<double>& floors);
 GapTest held_out_gap(const FittedModel& model, const std::vector<double>& floors);
 
-/// Residuals of the fitted part in units of the noise, stacked: experiment, frame, channel; those not
-/// measured left out.
+/// Residuals of the fitted part in units of the noise, stacked: experiment, frame, channel; those
+/// not measured left out.
 Eigen::VectorXd stacked(const std::vector<Eigen::MatrixXd>& matrices,
                         const std::vector<Eigen::MatrixXd>& measured_where,
                         const std::vector<double>& floors);

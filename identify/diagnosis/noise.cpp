@@ -44,7 +44,8 @@ double difference_variance(const MatrixXd& residual, const std::vector<double>& 
     double sum = 0;
     std::size_t in_block = 0;
     for (Index k = 0; k + order < residual.cols(); ++k) {
-      const double span = time[static_cast<std::size_t>(k + order)] - time[static_cast<std::size_t>(k)];
+      const double span =
+          time[static_cast<std::size_t>(k + order)] - time[static_cast<std::size_t>(k)];
       if (std::abs(span - order * step) > 0.05 * step) continue;  // a frame is missing in between
       double difference = 0;
       for (int j = 0; j <= order; ++j)
@@ -106,7 +107,8 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<doubl
         rms2 += value * value;
         size += value * value * scale - 1;
         for (Index l = 1; l <= lags && k + l < r.cols(); ++l) products += product(c, k, c, k + l);
-        if (c + 2 < r.rows()) products += product(c, k, c + 2, k);  // side with side, down with down
+        if (c + 2 < r.rows())
+          products += product(c, k, c + 2, k);  // side with side, down with down
         if (k + 1 < r.cols() && !std::isnan(r(c, k + 1))) {
           lag1 += value * r(c, k + 1);
           lag1_count += 1;
@@ -119,7 +121,8 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<doubl
   test.rms = std::sqrt(rms2 / count);
   test.misfit = lag1_count > 0 ? std::sqrt(std::max(0.0, lag1 / lag1_count)) : 0;
   test.colour = pairs > 0 ? products / std::sqrt(pairs) : 0;
-  // The floor is an estimate from the same residuals, about three times less sure than their number.
+  // The floor is an estimate from the same residuals, about three times less sure than their
+  // number.
   test.size = size / std::sqrt(2 * 4 * count);
   const bool smooth = test.colour > kGapSignificance && test.misfit > kGapShare * test.floor;
   const bool large = test.size > kGapSignificance && test.rms > 1.15 * test.floor;
@@ -168,7 +171,8 @@ double colour_factor(const std::vector<MatrixXd>& residuals) {
 }
 
 double log10_chi_square_tail(double x, int degrees) {
-  // Q(a, y), a = degrees/2, y = x/2, by Q(a + 1, y) = Q(a, y) + y^a e^-y / Gamma(a + 1), in logarithms.
+  // Q(a, y), a = degrees/2, y = x/2, by Q(a + 1, y) = Q(a, y) + y^a e^-y / Gamma(a + 1), in
+  // logarithms.
   const double y = std::max(x, 0.0) / 2;
   if (y == 0) return 0;
   double a = degrees % 2 ? 0.5 : 1.0;

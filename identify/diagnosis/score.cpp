@@ -125,7 +125,8 @@ Score ScoreTest::score(const std::vector<int>& columns) const {
   return best;
 }
 
-VectorXd ScoreTest::residual_after(const std::vector<int>& columns, const VectorXd& estimate) const {
+VectorXd ScoreTest::residual_after(const std::vector<int>& columns,
+                                   const VectorXd& estimate) const {
   VectorXd rest = residual_;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Kept& kept = columns_[static_cast<std::size_t>(columns[i])];

@@ -7,9 +7,9 @@
 
 namespace catena {
 
-/// The score test. At a fitted model the residuals r (in units of the noise) have no part left along
-/// the columns J of what the fit may change. A further parameter with column c would remove from
-/// them what lies along the part of c that J cannot imitate:
+/// The score test. At a fitted model the residuals r (in units of the noise) have no part left
+/// along the columns J of what the fit may change. A further parameter with column c would remove
+/// from them what lies along the part of c that J cannot imitate:
 ///
 ///     c' = (I - Q Q^T) c,   J = Q R;   estimate = -(c'.r)/(c'.c'),   removed = (c'.r)^2/(c'.c')
 ///
@@ -27,9 +27,9 @@ struct Score {
   Eigen::VectorXd estimate;  ///< change of each parameter
   double removed = 0;        ///< fall of the sum of squares, in units of the noise squared
   double share = 0;          ///< removed / sum of squares now
-  double survives = 0;       ///< |c'| / |c| of the columns at the estimate: what the fit cannot imitate
-  bool admissible = false;   ///< some parameter moves, and to its allowed side
-  bool beyond = false;       ///< the estimate went past the far bound and was cut back to it
+  double survives = 0;  ///< |c'| / |c| of the columns at the estimate: what the fit cannot imitate
+  bool admissible = false;  ///< some parameter moves, and to its allowed side
+  bool beyond = false;      ///< the estimate went past the far bound and was cut back to it
 };
 
 class ScoreTest {
@@ -40,8 +40,8 @@ class ScoreTest {
   /// Adds a column; returns its number.
   int add(const ScoreColumn& column);
 
-  /// Fit of a set of columns together, each within its bounds: of all subsets whose own least-squares
-  /// solution is within bounds, the one that removes most.
+  /// Fit of a set of columns together, each within its bounds: of all subsets whose own
+  /// least-squares solution is within bounds, the one that removes most.
   Score score(const std::vector<int>& columns) const;
 
   /// What would be left after moving the columns by `estimate`, first order.

@@ -21,7 +21,9 @@ constexpr int kMoreTerms = 4;  // of the start's shape, tried as a rival
 constexpr int kRateTerms = 3;  // of its velocity
 constexpr int kFrequencies = 8;
 
-double angle_of_frequency(double frequency, double t) { return 2 * std::numbers::pi * frequency * t; }
+double angle_of_frequency(double frequency, double t) {
+  return 2 * std::numbers::pi * frequency * t;
+}
 
 }  // namespace
 
@@ -111,9 +113,9 @@ Search::Search(Workshop& workshop, FittedModel base, std::vector<std::string> ef
       others.push_back(candidate);
   const Case& study = base_.problem->study();
   const Case freer = with_freer_start(study, kMoreTerms, kRateTerms).value_or(study);
-  all_ = std::make_shared<const Problem>(
-      with_effects(freer, others, true),
-      workshop_.model_with_all(study.links, own_models_in_base()));
+  all_ =
+      std::make_shared<const Problem>(with_effects(freer, others, true),
+                                      workshop_.model_with_all(study.links, own_models_in_base()));
   x_ = transfer(*base_.problem, base_.x, *all_);
   frequencies_ = strongest_frequencies(base_, floors_, kFrequencies);
 }
@@ -127,6 +129,15 @@ std::vector<std::string> Search::own_models_in_base() const {
   for (const std::string& id : effects_)
     if (workshop_.find(id)->own_model) own.push_back(id);
   return own;
+}
+
+std::shared_ptr<const Problem> Search::problem_with(const Candidate& candidate) const {
+  const Case& study = base_.problem->study();
+  std::vector<std::string> effects = effects_;
+  effects.push_back(candidate.id);
+  return std::make_shared<const Problem>(
+      with_effects(study, {candidate}, true),
+      candidate.own_model ? workshop_.model_with(effects, study.links) : all_->model());
 }
 
 MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
@@ -201,6 +212,7 @@ std::vector<Explanation> Search::score() {
       start.push_back(static_cast<Index>(j));
   }
   struct Run {
+    std::shared_ptr<const Problem> problem;
     int candidate = -1;
     VectorXd x;
     std::vector<Index> unknowns;
@@ -208,41 +220,43 @@ std::vector<Explanation> Search::score() {
     MatrixXd columns;
   };
   std::vector<Run> runs(1);
+  runs[0].problem = all_;
   runs[0].x = x_;
   for (const Index j : fitted) runs[0].unknowns.push_back(j);
   for (const Index j : start) runs[0].unknowns.push_back(j);
-  const auto place = [&](const CandidateParameter& parameter) {
-    return unknown_index(*all_, parameter.name);
-  };
   const std::vector<Candidate>& library = workshop_.library();
   for (std::size_t i = 0; i < library.size(); ++i) {
     const Candidate& candidate = library[i];
-    if (!candidate.unavailable.empty() || candidate.own_model || in_base(candidate.id)) continue;
+    if (!candidate.unavailable.empty() || in_base(candidate.id)) continue;
+    const auto amplitudes_of = candidate.with_role(ParameterRole::kAmplitude);
+    if (amplitudes_of.empty()) continue;  // a limit: see score_limit
+    const auto problem = candidate.own_model ? problem_with(candidate) : all_;
+    const VectorXd x = candidate.own_model ? transfer(*base_.problem, base_.x, *problem) : x_;
+    const auto place = [&](int p) {
+      return unknown_index(*problem, candidate.parameters[static_cast<std::size_t>(p)].name);
+    };
     std::vector<Index> own;
-    for (const int p : candidate.with_role(ParameterRole::kAmplitude))
-      own.push_back(place(candidate.parameters[static_cast<std::size_t>(p)]));
+    for (const int p : amplitudes_of) own.push_back(place(p));
     const auto shapes = candidate.with_role(ParameterRole::kShape);
     const auto phases = candidate.with_role(ParameterRole::kPhase);
-    if (shapes.empty() && phases.empty()) {
+    if (shapes.empty() && phases.empty() && !candidate.own_model) {
       runs[0].unknowns.insert(runs[0].unknowns.end(), own.begin(), own.end());
       continue;
     }
     for (const VectorXd& shape : shape_grid(candidate, frequencies_))
       for (const double phase : {0.0, std::numbers::pi / 2}) {
         if (phase > 0 && phases.empty()) continue;
-        Run run{static_cast<int>(i), x_, own, shape, {}};
+        Run run{problem, static_cast<int>(i), x, own, shape, {}};
         for (std::size_t s = 0; s < shapes.size(); ++s)
-          run.x[place(candidate.parameters[static_cast<std::size_t>(shapes[s])])] =
-              shape[static_cast<Index>(s)];
-        for (const int p : phases)
-          run.x[place(candidate.parameters[static_cast<std::size_t>(p)])] = phase;
+          run.x[place(shapes[s])] = shape[static_cast<Index>(s)];
+        for (const int p : phases) run.x[place(p)] = phase;
         runs.push_back(std::move(run));
       }
   }
   run_parallel(workshop_.threads, static_cast<int>(runs.size()), [&](int r) {
     if (workshop_.stopped()) return;
     Run& run = runs[static_cast<std::size_t>(r)];
-    run.columns = columns(*all_, run.x, run.unknowns);
+    run.columns = columns(*run.problem, run.x, run.unknowns);
   });
 
   const auto fitted_count = static_cast<Index>(fitted.size());
@@ -266,7 +280,7 @@ std::vector<Explanation> Search::score() {
       found.push_back(std::move(explanation));
       continue;
     }
-    if (candidate.own_model) {
+    if (candidate.with_role(ParameterRole::kAmplitude).empty()) {
       found.push_back(score_limit(test, static_cast<int>(i)));
       continue;
     }
@@ -283,7 +297,8 @@ std::vector<Explanation> Search::score() {
         const CandidateParameter& p = parameter(amplitudes_of[a]);
         const double low = p.lower - p.neutral, high = p.upper - p.neutral;
         columns.push_back(test.add({at_zero.col(static_cast<Index>(a)), low, high}));
-        if (at_quarter) columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));
+        if (at_quarter)
+          columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));
       }
       const Score score = test.score(columns);
       if (!score.admissible || score.removed <= explanation.score.removed) return;
@@ -307,7 +322,7 @@ std::vector<Explanation> Search::score() {
       for (std::size_t s = 0; s < shapes.size(); ++s)
         explanation.start.emplace_back(parameter(shapes[s]).name, shape[static_cast<Index>(s)]);
     };
-    if (shapes.empty() && phases.empty()) {
+    if (shapes.empty() && phases.empty() && !candidate.own_model) {
       consider(runs[0].columns.middleCols(next, static_cast<Index>(amplitudes_of.size())), nullptr,
                {});
       next += static_cast<Index>(amplitudes_of.size());
@@ -340,12 +355,8 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
     return explanation;
   }
   const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(limits[0])];
-  Candidate start = candidate;
-  start.parameters[static_cast<std::size_t>(limits[0])].value = 1e6;
-  std::vector<std::string> effects = effects_;
-  effects.push_back(candidate.id);
-  const Case study = with_effects(base_.problem->study(), {start}, false);
-  const Problem problem(study, workshop_.model_with(effects, study.links));
+  const auto shared = problem_with(candidate);
+  const Problem& problem = *shared;
   VectorXd x = transfer(*base_.problem, base_.x, problem);
   const Index unknown = unknown_index(problem, parameter.name);
   // The slope by 1/value, from the first value that moves the trajectory by a third of the noise.
@@ -357,7 +368,9 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
       if (base_.fit_residual[e].cols() == 0) continue;
       const Prediction prediction = problem.predict(x, static_cast<int>(e), false);
       ok = ok && prediction.ok();
-      if (ok) difference[e] = prediction.simulated - base_.predicted[e].leftCols(base_.fit_residual[e].cols());
+      if (ok)
+        difference[e] =
+            prediction.simulated - base_.predicted[e].leftCols(base_.fit_residual[e].cols());
     }
     if (!ok) continue;
     VectorXd column = stacked(difference, base_.fit_residual, floors_);
@@ -386,16 +399,13 @@ void Search::refit(Explanation& explanation, bool far) const {
     problem = std::make_shared<const Problem>(*freer, base_.problem->model());
     shares = {1.0};
   } else {
-    const Candidate& candidate = workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
+    const Candidate& candidate =
+        workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
     Candidate started = candidate;
     for (CandidateParameter& parameter : started.parameters)
       for (const auto& [name, value] : explanation.start)
         if (parameter.name == name) parameter.value = value;
-    std::vector<std::string> effects = effects_;
-    effects.push_back(candidate.id);
-    problem = std::make_shared<const Problem>(
-        with_effects(study, {started}, true),
-        candidate.own_model ? workshop_.model_with(effects, study.links) : all_->model());
+    problem = problem_with(started);
   }
   for (const double share : shares) {
     if (workshop_.stopped()) return;
@@ -411,7 +421,8 @@ void Search::refit(Explanation& explanation, bool far) const {
       }
     FittedModel model = fit_model(problem, start, workshop_.least_squares, workshop_.stop);
     if (!model.ok) continue;
-    if (explanation.refitted && sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_))
+    if (explanation.refitted &&
+        sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_))
       continue;
     explanation.refitted = true;
     explanation.model = std::move(model);

@@ -20,15 +20,16 @@ struct Explanation {
   std::string id, title;
   int candidate = -1;  ///< index into the library; -1: a rival
   Score score;
-  /// Starting values by the names of the unknowns: amplitudes, shapes and phases found by the score.
+  /// Starting values by the names of the unknowns: amplitudes, shapes and phases found by the
+  /// score.
   std::vector<std::pair<std::string, double>> start;
   double log10_p = 0;  ///< of the predicted fall, for one candidate
   std::string note;    ///< why it was not tried, or what to know about it
 
   bool refitted = false;
-  FittedModel model;       ///< of the refit
-  Comparison comparison;   ///< with the model it was added to
-  GapTest fit, held_out;   ///< after the refit
+  FittedModel model;      ///< of the refit
+  Comparison comparison;  ///< with the model it was added to
+  GapTest fit, held_out;  ///< after the refit
 };
 
 inline constexpr const char* kStartShape = "start_shape";
@@ -66,6 +67,8 @@ class Search {
 
   bool in_base(const std::string& id) const;
   std::vector<std::string> own_models_in_base() const;
+  /// The base with a candidate added, all its parameters free.
+  std::shared_ptr<const Problem> problem_with(const Candidate& candidate) const;
 
   Workshop& workshop_;
   FittedModel base_;
@@ -79,8 +82,8 @@ class Search {
 /// Runs f(0) .. f(count - 1) on so many threads.
 void run_parallel(int threads, int count, const std::function<void(int)>& f);
 
-/// Frequencies (Hz) of the strongest lines in the residuals of the fitted part, at most `count`, the
-/// strongest first, no two closer than what the length of the recording resolves.
+/// Frequencies (Hz) of the strongest lines in the residuals of the fitted part, at most `count`,
+/// the strongest first, no two closer than what the length of the recording resolves.
 std::vector<double> strongest_frequencies(const FittedModel& model,
                                           const std::vector<double>& floors, int count);
 

@@ -48,8 +48,8 @@ void free_start(InitialSpec& initial, int more_terms, int rate_terms) {
     initial.terms = 1;
   }
   initial.terms += more_terms;
-  initial.coefficients.resize(initial.coefficients.empty() ? 0
-                                                           : static_cast<std::size_t>(initial.terms));
+  initial.coefficients.resize(
+      initial.coefficients.empty() ? 0 : static_cast<std::size_t>(initial.terms));
   initial.free = true;
   if (rate_terms == 0) return;
   if (initial.at_rest) {
@@ -84,6 +84,13 @@ Case with_effects(const Case& study, const std::vector<Candidate>& candidates, b
       result.parameters.push_back(spec);
     }
   }
+  return result;
+}
+
+Case without_effect(const Case& study, const std::string& id) {
+  Case result = study;
+  std::erase_if(result.parameters,
+                [&](const ParameterSpec& spec) { return spec.sets.starts_with(id + "."); });
   return result;
 }
 

@@ -28,7 +28,8 @@ fs::path Workshop::description_with(const std::vector<std::string>& effects, int
     description.effects.push_back(find(id)->effect);
     name += "_with_" + id;
   }
-  if (effects.size() > 4) name = original_.id + "_with_" + std::to_string(effects.size()) + "_effects";
+  if (effects.size() > 4)
+    name = original_.id + "_with_" + std::to_string(effects.size()) + "_effects";
   description.id = name;
   description.links = {links};
   const fs::path file = folder_ / (name + "_" + std::to_string(links) + ".toml");

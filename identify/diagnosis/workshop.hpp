@@ -16,8 +16,8 @@
 
 namespace catena {
 
-/// What every part of a diagnosis needs: the effects to look for, models that hold them, a solver, and
-/// somebody to tell what is going on.
+/// What every part of a diagnosis needs: the effects to look for, models that hold them, a solver,
+/// and somebody to tell what is going on.
 class Workshop {
  public:
   /// `description`: of the case (empty: the plain chain); `effect_files`: the user's own effects;
@@ -29,11 +29,13 @@ class Workshop {
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
 
-  /// The description of the case with these effects of the library, written to a file named after them.
+  /// The description of the case with these effects of the library, written to a file named after
+  /// them.
   std::filesystem::path description_with(const std::vector<std::string>& effects, int links);
 
-  /// The case's model with every candidate that can share a model, and those of `needed` that cannot.
-  /// Derived and compiled once for every number of links: at the neutral values it is the case's model.
+  /// The case's model with every candidate that can share a model, and those of `needed` that
+  /// cannot. Derived and compiled once for every number of links: at the neutral values it is the
+  /// case's model.
   Model model_with_all(int links, const std::vector<std::string>& needed = {});
   /// The case's model with these effects alone.
   Model model_with(const std::vector<std::string>& effects, int links);

@@ -21,6 +21,7 @@ enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted
 void add_simulate_command(CLI::App& program, int& exit_status);
 void add_identify_command(CLI::App& program, int& exit_status);
 void add_report_command(CLI::App& program, int& exit_status);
+void add_diagnose_command(CLI::App& program, int& exit_status);
 
 /// What every command that works on a case takes.
 struct CommonOptions {

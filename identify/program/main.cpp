@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   add_simulate_command(program, exit_status);
   add_identify_command(program, exit_status);
   add_report_command(program, exit_status);
+  add_diagnose_command(program, exit_status);
   program.add_subcommand("derive", "derive models and emit their C++ (by catena-derive)");
   program.add_subcommand("check", "check a derivation made by hand (by catena-derive)");
   program.add_subcommand("certify", "check emitted models against their certificates (by catena-derive)");

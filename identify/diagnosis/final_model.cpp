@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/final_model.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// The effect a case's parameter belongs to; nullptr: none.
+const Candidate* effect_of(const ParameterSpec& spec, const Workshop& workshop) {
+  const std::size_t dot = spec.sets.find('.');
+  return dot == std::string::npos ? nullptr : workshop.find(spec.sets.substr(0, dot));
+}
+
+const CandidateParameter* parameter_of(const Candidate& candidate, const std::string& name) {
+  for (const CandidateParameter& parameter : candidate.parameters)
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
+}  // namespace
+
+VectorXd standard_errors(const FittedModel& model, const std::vector<double>& floors) {
+  MatrixXd jacobian = fitted_jacobian(model, floors);
+  VectorXd scale = jacobian.colwise().norm();
+  for (Index j = 0; j < scale.size(); ++j) {
+    if (scale[j] == 0) scale[j] = 1;
+    jacobian.col(j) /= scale[j];
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(jacobian.transpose() * jacobian);
+  std::vector<MatrixXd> weighted;
+  for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
+    if (model.fit_residual[e].cols() > 0) weighted.push_back(model.fit_residual[e] / floors[e]);
+  const double variance =
+      std::max(1.0, sum_of_squares(model, floors) /
+                        static_cast<double>(std::max<Index>(1, jacobian.rows())));
+  const double factor = std::sqrt(variance * colour_factor(weighted));
+  VectorXd errors(scale.size());
+  for (Index j = 0; j < errors.size(); ++j) {
+    double sum = 0;
+    for (Index k = 0; k < scale.size(); ++k) {
+      const double share = eigen.eigenvectors()(j, k), value = eigen.eigenvalues()[k];
+      if (value > 1e-13 * eigen.eigenvalues()[scale.size() - 1])
+        sum += share * share / value;
+      else if (std::abs(share) > 1e-6)
+        sum = std::numeric_limits<double>::infinity();
+    }
+    errors[j] = factor * std::sqrt(sum) / scale[j];
+  }
+  return errors;
+}
+
+FittedModel trim(const FittedModel& model, const std::vector<double>& floors, Workshop& workshop) {
+  const Problem& problem = *model.problem;
+  const VectorXd errors = standard_errors(model, floors);
+  Case smaller = problem.with(model.x);
+  int dropped = 0;
+  std::vector<std::string> fixed;
+  for (const Candidate& candidate : workshop.library()) {
+    std::vector<ParameterSpec*> needless;
+    int amplitudes = 0;
+    for (ParameterSpec& spec : smaller.parameters) {
+      if (effect_of(spec, workshop) != &candidate || !spec.free) continue;
+      const CandidateParameter* parameter = parameter_of(candidate, spec.sets);
+      if (!parameter || parameter->role != ParameterRole::kAmplitude) continue;
+      ++amplitudes;
+      const Index j = unknown_index(problem, spec.name);
+      if (std::abs(model.x[j] - parameter->neutral) < 2 * errors[j]) needless.push_back(&spec);
+    }
+    if (static_cast<int>(needless.size()) >= amplitudes)
+      continue;  // no effect without an amplitude
+    for (ParameterSpec* spec : needless) {
+      const auto index =
+          static_cast<int>(parameter_of(candidate, spec->sets) - candidate.parameters.data());
+      spec->value = candidate.parameters[static_cast<std::size_t>(index)].neutral;
+      spec->free = false;
+      ++dropped;
+      for (ParameterSpec& other : smaller.parameters) {
+        const CandidateParameter* phase = parameter_of(candidate, other.sets);
+        if (phase && phase->role == ParameterRole::kPhase && phase->amplitude == index)
+          other.free = false;
+      }
+    }
+  }
+  if (dropped == 0) return model;
+  const auto simpler = std::make_shared<const Problem>(smaller, problem.model());
+  FittedModel refitted = fit_model(simpler, transfer(problem, model.x, *simpler),
+                                   workshop.least_squares, workshop.stop);
+  const double allowed =
+      dropped * std::log(static_cast<double>(std::max(2L, fit_gap(model, floors).count)));
+  const bool as_good =
+      refitted.ok && sum_of_squares(refitted, floors) < sum_of_squares(model, floors) + allowed;
+  return as_good ? refitted : model;
+}
+
+double largest_difference(const Model& smaller, const Model& larger, unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1.0p-53;
+  };
+  const auto fill = [&](VectorXd& values, Index count, double low, double high) {
+    for (Index i = 0; i < count; ++i) values[i] = uniform(low, high);
+  };
+  double worst = 0, size = 0;
+  for (int state = 0; state < 20; ++state) {
+    const Index n = smaller.coordinates();
+    VectorXd q = VectorXd::Zero(larger.coordinates()), v = q, a = q;
+    VectorXd z = VectorXd::Zero(larger.states()), u = VectorXd::Zero(3 * larger.signals());
+    fill(q, n, -1.5, 1.5);
+    fill(v, n, -3, 3);
+    fill(a, n, -10, 10);
+    fill(z, z.size(), -0.01, 0.01);
+    const double t = uniform(0, 5);
+    VectorXd p = VectorXd::Zero(smaller.parameters());
+    for (Index i = 0; i < p.size(); ++i) {
+      const catena_parameter& entry = smaller.table().parameter[i];
+      p[i] = std::isfinite(entry.neutral) ? entry.neutral : uniform(0.1, 1.0);
+    }
+    VectorXd larger_p = larger.default_parameters();
+    for (Index i = 0; i < larger_p.size(); ++i) {
+      const catena_parameter& entry = larger.table().parameter[i];
+      if (std::isfinite(entry.neutral))
+        larger_p[i] = entry.neutral;
+      else if (!std::isfinite(larger_p[i]))
+        larger_p[i] = std::isinf(entry.neutral) ? 1e6 : 1.0;
+    }
+    for (Index i = 0; i < p.size(); ++i)
+      larger_p[larger.parameter_index(smaller.table().parameter[i].name)] = p[i];
+    VectorXd r(n), larger_r(larger.coordinates());
+    const VectorXd small_z = z.head(smaller.states()), small_u = u.head(3 * smaller.signals());
+    const catena_point at{t,       q.data(), v.data(), a.data(), small_z.data(), small_u.data(),
+                          p.data()};
+    const catena_point there{t, q.data(), v.data(), a.data(), z.data(), u.data(), larger_p.data()};
+    smaller.table().residual(&at, r.data());
+    larger.table().residual(&there, larger_r.data());
+    worst = std::max(worst, (r - larger_r.head(n)).lpNorm<Eigen::Infinity>());
+    size = std::max(size, r.lpNorm<Eigen::Infinity>());
+  }
+  return size > 0 ? worst / size : worst;
+}
+
+void make_final_model(Diagnosis& diagnosis, Workshop& workshop) {
+  const Case study = diagnosis.final.problem->with(diagnosis.final.x);
+  const Model model = workshop.model_with(diagnosis.effects, study.links);
+  diagnosis.equality = largest_difference(workshop.model_with({}, study.links), model, 1);
+  const auto problem = std::make_shared<const Problem>(study, model);
+  FittedModel refitted =
+      fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
+                workshop.least_squares, workshop.stop);
+  if (!refitted.ok)
+    throw std::runtime_error("the final model could not be fitted: " + refitted.message);
+  diagnosis.final = std::move(refitted);
+}
+
+std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis) {
+  std::vector<FinalParameter> parameters;
+  const Problem& problem = *diagnosis.final.problem;
+  const VectorXd errors = standard_errors(diagnosis.final, diagnosis.floors);
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[j];
+    if (unknown.group == Unknown::Group::kInitial) continue;
+    FinalParameter parameter;
+    parameter.name = unknown.name;
+    parameter.unit = unknown.unit;
+    for (const std::string& effect : diagnosis.effects)
+      if (unknown.name.starts_with(effect + ".")) parameter.effect = effect;
+    parameter.value = diagnosis.final.x[static_cast<Index>(j)];
+    parameter.standard_error = errors[static_cast<Index>(j)];
+    parameters.push_back(parameter);
+  }
+  return parameters;
+}
+
+}  // namespace catena
