@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/telling_experiment.hpp"
+#include "identify/diagnosis/where.hpp"
+
+namespace catena {
+
+/// What is found out about a finished diagnosis for whoever reads it.
+struct DiagnosisFindings {
+  ResidualPlaces places;  ///< of the baseline
+  MissingForce force;     ///< of the baseline; of the last model if the verdict is unexplained
+  std::vector<TellingExperiment> telling;  ///< one per alternative
+};
+DiagnosisFindings find_out(const Diagnosis& diagnosis);
+
+/// The verdict first, then the table of gaps, the effects with formula and parameters, the
+/// runners-up.
+std::string diagnosis_table(const Diagnosis& diagnosis, const DiagnosisFindings& findings);
+
+/// diagnosis.json and the files it names ("round_0/result.json", ...), see docs/diagnosis.md.
+std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis& diagnosis,
+                                                                 const DiagnosisFindings& findings,
+                                                                 const Workshop& workshop);
+
+}  // namespace catena
