@@ -26,12 +26,12 @@ constexpr double kTooSmallToName = 0.6;  // misfit over noise below which nothin
 constexpr double kHeldOutShare = 0.3;    // of a recording, where the case holds nothing out
 
 /// A diagnosis needs data that no fit has seen.
-void hold_out(Case& study, std::vector<std::string>& notes) {
+void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) {
   bool held = false;
   for (const ExperimentSpec& experiment : study.experiments)
     held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
   if (held) return;
-  const Problem problem(study, provide_model(study.description, study.links));
+  const Problem problem(study, workshop.model_with({}, study.links));
   for (std::size_t e = 0; e < study.experiments.size(); ++e) {
     const auto& time = problem.experiments()[e].recording.time;
     ExperimentSpec& experiment = study.experiments[e];
@@ -48,7 +48,7 @@ class Physician {
 
   Diagnosis examine(Case study) {
     const auto begin = std::chrono::steady_clock::now();
-    hold_out(study, result_.notes);
+    hold_out(study, workshop_, result_.notes);
     fit_baseline(std::move(study));
     look_for_effects();
     if (!result_.effects.empty()) look_back();
@@ -66,9 +66,21 @@ class Physician {
     workshop_.say("fitting the baseline");
     const auto problem =
         std::make_shared<const Problem>(study, workshop_.model_with({}, study.links));
-    FittedModel model =
-        fit_model(problem, problem->start(), workshop_.least_squares, workshop_.stop);
-    if (!model.ok) throw std::runtime_error("the baseline could not be fitted: " + model.message);
+    // From several starts: with more damping the motion is simpler, and what the fit descends on
+    // too.
+    const std::vector<double> factors = {1, 5, 25};
+    std::vector<FittedModel> fits(factors.size());
+    run_parallel(workshop_.threads, static_cast<int>(factors.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      fits[k] = fit_model(problem, more_damped(*problem, factors[k]), workshop_.least_squares,
+                          workshop_.stop);
+    });
+    stop_if_asked();
+    FittedModel* best = nullptr;
+    for (FittedModel& fit : fits)
+      if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
+    if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
+    FittedModel model = std::move(*best);
     enter(std::move(model), {}, "");
   }
 
@@ -102,10 +114,33 @@ class Physician {
     result_.stages.push_back(std::move(next));
   }
 
+  static double squares(const FittedModel& model) {
+    return sum_of_squares(model, std::vector<double>(model.fit_residual.size(), 1.0));
+  }
+
+  static VectorXd more_damped(const Problem& problem, double factor) {
+    VectorXd start = problem.start();
+    for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+      const Unknown& unknown = problem.unknowns()[j];
+      if (unknown.parameter < 0) continue;
+      const ParameterSpec& spec =
+          problem.study().parameters[static_cast<std::size_t>(unknown.parameter)];
+      double& value = start[static_cast<Index>(j)];
+      if (spec.sets.starts_with("damping"))
+        value = std::clamp(factor * value, spec.lower, spec.upper);
+    }
+    return start;
+  }
+
+  void stop_if_asked() {
+    if (workshop_.stopped()) throw Interrupted();
+  }
+
   bool far() { return stage().fit.ratio() > kFarGap; }
 
   void look_for_effects() {
-    while (stage().fit.present && !workshop_.stopped()) {
+    while (stage().fit.present) {
+      stop_if_asked();
       stage().finer = try_finer_chain(stage().model, stage().effects, result_.floors,
                                       options_.max_links, workshop_);
       if (stage().finer.taken) {
@@ -127,11 +162,27 @@ class Physician {
   std::vector<Explanation> look(const FittedModel& model, const std::vector<std::string>& effects) {
     workshop_.say("scoring what may be missing");
     Search search(workshop_, model, effects, result_.floors);
-    std::vector<Explanation> explanations = search.score();
-    if (result_.tried == 0)
-      for (const Explanation& explanation : explanations)
-        result_.tried += explanation.note.empty() || explanation.score.admissible;
-    search.refit_best(explanations, far() ? options_.refits + 2 : options_.refits, far());
+    const int refits = far() ? options_.refits + 2 : options_.refits;
+    std::vector<Explanation> explanations = search.score(false);
+    search.refit_best(explanations, refits, far());
+    stop_if_asked();
+    // Effects that need a model of their own cost more: only if the others leave a gap.
+    const bool closed = std::any_of(explanations.begin(), explanations.end(), [](const auto& each) {
+      return each.refitted && each.fit.ratio() < kClosed;
+    });
+    if (!closed) {
+      std::vector<Explanation> more = search.score(true);
+      search.refit_best(more, 2, far());
+      explanations.insert(explanations.end(), more.begin(), more.end());
+      std::stable_sort(explanations.begin(), explanations.end(), [](const auto& a, const auto& b) {
+        return a.score.removed > b.score.removed;
+      });
+    }
+    stop_if_asked();
+    int tried = 0;
+    for (const Explanation& each : explanations)
+      tried += each.score.admissible || each.note.empty();
+    result_.tried = std::max(result_.tried, tried);
     return explanations;
   }
 
@@ -167,7 +218,8 @@ class Physician {
 
   /// With all effects in place: is each still needed, and could another stand in its place?
   void look_back() {
-    for (std::size_t i = 0; i < result_.effects.size() && !workshop_.stopped();) {
+    for (std::size_t i = 0; i < result_.effects.size();) {
+      stop_if_asked();
       const std::string id = result_.effects[i];
       std::vector<std::string> others = result_.effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,12 @@ struct DiagnosisOptions {
   int max_effects = 3;
   int max_links = 60;
   int refits = 6;
+};
+
+/// Thrown where the workshop's `stop` was set.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
 };
 
 /// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to

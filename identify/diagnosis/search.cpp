@@ -200,7 +200,7 @@ void Search::score_start(ScoreTest& test, const MatrixXd& derivatives,
   out.push_back(std::move(rival));
 }
 
-std::vector<Explanation> Search::score() {
+std::vector<Explanation> Search::score(bool own_models) {
   // One run with everything that has a slope at the base: what is fitted, a freer start, and the
   // amplitudes of the effects without a shape.
   std::vector<Index> fitted, start, amplitudes;
@@ -223,11 +223,14 @@ std::vector<Explanation> Search::score() {
   runs[0].problem = all_;
   runs[0].x = x_;
   for (const Index j : fitted) runs[0].unknowns.push_back(j);
+  if (own_models) start.clear();
   for (const Index j : start) runs[0].unknowns.push_back(j);
   const std::vector<Candidate>& library = workshop_.library();
   for (std::size_t i = 0; i < library.size(); ++i) {
     const Candidate& candidate = library[i];
-    if (!candidate.unavailable.empty() || in_base(candidate.id)) continue;
+    if (!candidate.unavailable.empty() || in_base(candidate.id) ||
+        candidate.own_model != own_models)
+      continue;
     const auto amplitudes_of = candidate.with_role(ParameterRole::kAmplitude);
     if (amplitudes_of.empty()) continue;  // a limit: see score_limit
     const auto problem = candidate.own_model ? problem_with(candidate) : all_;
@@ -270,7 +273,7 @@ std::vector<Explanation> Search::score() {
   std::size_t next_run = 1;
   for (std::size_t i = 0; i < library.size(); ++i) {
     const Candidate& candidate = library[i];
-    if (in_base(candidate.id)) continue;
+    if (in_base(candidate.id) || candidate.own_model != own_models) continue;
     Explanation explanation;
     explanation.id = candidate.id;
     explanation.title = candidate.title;

@@ -43,8 +43,9 @@ class Search {
   Search(Workshop& workshop, FittedModel base, std::vector<std::string> effects,
          std::vector<double> floors);
 
-  /// Scores of all candidates and of a freer start, the most promising first.
-  std::vector<Explanation> score();
+  /// Scores, the most promising first: of a freer start and of the candidates that share a model,
+  /// or of those that need `own_models`.
+  std::vector<Explanation> score(bool own_models);
 
   /// Adds the explanation for real and fits everything again, from its start and, if `far`, from a
   /// quarter of it as well; keeps the better.

@@ -21,25 +21,22 @@ const Candidate* Workshop::find(const std::string& id) const {
   return found == library_.end() ? nullptr : &*found;
 }
 
-fs::path Workshop::description_with(const std::vector<std::string>& effects, int links) {
+void Workshop::write_description_with(const std::vector<std::string>& effects, int links,
+                                      const std::string& id, const fs::path& file) const {
   Description description = original_;
-  std::string name = original_.id;
-  for (const std::string& id : effects) {
-    description.effects.push_back(find(id)->effect);
-    name += "_with_" + id;
-  }
-  if (effects.size() > 4)
-    name = original_.id + "_with_" + std::to_string(effects.size()) + "_effects";
-  description.id = name;
+  for (const std::string& effect : effects) description.effects.push_back(find(effect)->effect);
+  description.id = id;
   description.links = {links};
-  const fs::path file = folder_ / (name + "_" + std::to_string(links) + ".toml");
   write_description(description, file);
-  return file;
 }
 
 Model Workshop::model_with(const std::vector<std::string>& effects, int links) {
   const std::lock_guard lock(mutex_);
-  const fs::path file = description_with(effects, links);
+  std::string id = original_.id;
+  for (const std::string& effect : effects) id += "_" + effect;
+  if (effects.size() > 4) id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
+  const fs::path file = folder_ / (id + "_" + std::to_string(links) + ".toml");
+  write_description_with(effects, links, id, file);
   const auto known = models_.find(file.string());
   if (known != models_.end()) return known->second;
   return models_.emplace(file.string(), provide_model(file, links, provider)).first->second;
@@ -55,7 +52,9 @@ Model Workshop::model_with_all(int links, const std::vector<std::string>& needed
   return model_with(effects, links);
 }
 
-void Workshop::say(const std::string& text) const {
+void Workshop::say(const std::string& text) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   if (notice) notice(text);
 }
 

@@ -29,9 +29,9 @@ class Workshop {
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
 
-  /// The description of the case with these effects of the library, written to a file named after
-  /// them.
-  std::filesystem::path description_with(const std::vector<std::string>& effects, int links);
+  /// Writes the description of the case with these effects of the library.
+  void write_description_with(const std::vector<std::string>& effects, int links,
+                              const std::string& id, const std::filesystem::path& file) const;
 
   /// The case's model with every candidate that can share a model, and those of `needed` that
   /// cannot. Derived and compiled once for every number of links: at the neutral values it is the
@@ -46,7 +46,7 @@ class Workshop {
   int threads = 2;
   std::function<void(const std::string&)> notice;  ///< one line on what is being done
 
-  void say(const std::string& text) const;
+  void say(const std::string& text);
   bool stopped() const { return stop && stop->load(); }
 
  private:

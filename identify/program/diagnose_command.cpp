@@ -1,64 +1,118 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
+#include <unistd.h>
 
 #include <iostream>
 
 #include "identify/ceres/least_squares.hpp"
-#include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/diagnosis_text.hpp"
+#include "identify/process.hpp"
 #include "identify/program/command.hpp"
-#include "identify/program/progress.hpp"
 
 namespace catena {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct DiagnoseOptions : CommonOptions {
-  std::vector<std::filesystem::path> effects;
+  std::vector<fs::path> effects;
   DiagnosisOptions diagnosis;
   int threads = 2;
 };
 
+/// A folder that is gone when the diagnosis is over.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (fs::temp_directory_path() / "catena-diagnose-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+      throw std::runtime_error("no folder could be made in " + fs::temp_directory_path().string());
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// The case with the final model, its description and the emitted code.
+void keep_model(const Diagnosis& found, const Workshop& workshop, const fs::path& folder) {
+  Case study = found.final.problem->with(found.final.x);
+  if (!found.effects.empty()) {
+    study.description = folder / "model.toml";
+    workshop.write_description_with(found.effects, study.links, "diagnosed", study.description);
+    const ProcessResult derived = run_process(
+        {find_derive_program().string(), "derive", "--description", study.description.string(),
+         "--links", std::to_string(study.links), "--output", (folder / "model").string()},
+        true);
+    if (derived.exit_status != 0)
+      throw ModelError("deriving the model again failed: " + derived.output);
+  }
+  write_case(study, folder / "diagnosed.toml");
+}
+
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
   const Case study = read_case(options.case_file);
-  const auto folder = output_folder(options);
-  std::filesystem::create_directories(folder / "models");
+  const ScratchFolder scratch;
   ProviderOptions provider;
-  provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
-  Workshop workshop(study.description, options.effects, folder / "models", fit_least_squares,
+  if (!options.quiet)
+    provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
+  Workshop workshop(study.description, options.effects, scratch.path(), fit_least_squares,
                     provider);
   workshop.stop = &interrupted();
   workshop.threads = options.threads;
-  workshop.notice = provider.notice;
-  const Diagnosis found = diagnose(study, workshop, options.diagnosis);
-  std::cout << "verdict: " << name_of(found.verdict) << "\n" << found.sentence << "\n";
-  for (const Stage& stage : found.stages) {
-    std::cout << fmt::format("stage +{} -{} links {} fit {:.3f} mm ratio {:.3f} misfit {:.3f} colour {:.1f} size {:.1f} held-out {:.3f} floor {:.3f}\n", stage.added, stage.removed, stage.links, 1e3 * stage.fit.rms, stage.fit.ratio(), 1e3*stage.fit.misfit, stage.fit.colour, stage.fit.size, 1e3 * stage.held_out.rms, 1e3*stage.fit.floor);
-    std::cout << fmt::format("   finer: {} links predicted {:.3f} mm refitted {} taken {} {}\n", stage.finer.links, 1e3*stage.finer.predicted, stage.finer.refitted, stage.finer.taken, stage.finer.note);
-    for (const Explanation& e : stage.explanations) {
-      std::cout << fmt::format("   {:24} removes {:.3f} survives {:.3f} adm {} log10p {:.1f} {}", e.id, e.score.share, e.score.survives, e.score.admissible, e.log10_p, e.note);
-      if (e.refitted) std::cout << fmt::format(" | refit {:.3f} held {:.3f} misfit share {:.2f} colour {:.1f} crit {:.0f} log10p {:.1f}", 1e3*e.fit.rms, 1e3*e.held_out.rms, e.comparison.misfit_share, e.comparison.colour, e.comparison.criterion, e.comparison.log10_p);
-      for (auto& [n, v] : e.start) std::cout << fmt::format(" {}={:.4g}", n, v);
-      std::cout << "\n";
-    }
+  if (isatty(STDERR_FILENO)) workshop.notice = provider.notice;
+  try {
+    const Diagnosis found = diagnose(study, workshop, options.diagnosis);
+    const DiagnosisFindings findings = find_out(found);
+    const auto folder = fs::absolute(output_folder(options));
+    const OutputFiles files = diagnosis_files(found, findings, workshop);
+    for (const auto& [name, text] : files)
+      write_output((folder / name).parent_path(), {{fs::path(name).filename().string(), text}});
+    keep_model(found, workshop, folder);
+    if (options.json)
+      std::cout << files.back().second;
+    else if (!options.quiet)
+      std::cout << diagnosis_table(found, findings) << "written to " << folder.string() << "\n";
+  } catch (const Interrupted&) {
+    std::cerr << "catena: interrupted, nothing was written\n";
+    return kExitInterrupted;
   }
-  for (auto& a : found.alternatives) std::cout << "alternative " << a.explanation.id << " d " << a.decision.difference << " lead " << a.decision.lead << "\n";
-  for (auto& a : found.runners_up) std::cout << "runner-up " << a.explanation.id << " d " << a.decision.difference << " lead " << a.decision.lead << "\n";
-  for (auto& p : found.parameters) std::cout << fmt::format("{} = {:.5g} +- {:.2g} {}\n", p.name, p.value, p.standard_error, p.unit);
-  std::cout << fmt::format("equality {:.2g} seconds {:.1f}\n", found.equality, found.seconds);
-  return interrupted() ? kExitInterrupted : kExitSuccess;
+  return kExitSuccess;
 }
 
 }  // namespace
 
 void add_diagnose_command(CLI::App& program, int& exit_status) {
-  auto options = std::make_shared<DiagnoseOptions>();
-  CLI::App* command = program.add_subcommand("diagnose", "find the effect that a model lacks");
-  add_common_options(*command, *options);
-  command->add_option("--effect", options->effects, "further effect files to look for")->check(CLI::ExistingFile);
-  command->add_option("--max-effects", options->diagnosis.max_effects, "most effects to add")->check(CLI::Range(0, 6));
-  command->add_option("--max-links", options->diagnosis.max_links, "most links to try")->check(CLI::Range(1, 500));
-  command->add_option("--threads", options->threads, "threads")->check(CLI::Range(1, 64));
-  command->callback([options, &exit_status] { exit_status = diagnose_case(*options); });
+  static DiagnoseOptions options;
+  CLI::App* command = program.add_subcommand(
+      "diagnose", "find the effect that a model lacks, add it, show the gap shrink");
+  command->footer(
+      "Example:\n  catena diagnose cable.toml --output found\n"
+      "prints the verdict first: none, named, ambiguous or unexplained (exit status 0 for all "
+      "four), and\n"
+      "writes found/diagnosis.json, diagnosed.toml (the case with the effect), model.toml and the "
+      "emitted\n"
+      "code in found/model.");
+  add_common_options(*command, options);
+  command
+      ->add_option("--effect", options.effects,
+                   "an effect file of your own to look for; repeatable")
+      ->check(CLI::ExistingFile);
+  command->add_option("--max-effects", options.diagnosis.max_effects, "most effects to add")
+      ->check(CLI::Range(0, 6));
+  command->add_option("--max-links", options.diagnosis.max_links, "most links to try")
+      ->check(CLI::Range(1, 500));
+  command->add_option("--refits", options.diagnosis.refits, "candidates to refit in every look")
+      ->check(CLI::Range(1, 30));
+  command->add_option("--threads", options.threads, "threads")->check(CLI::Range(1, 64));
+  command->callback([&exit_status] { exit_status = diagnose_case(options); });
 }
 
 }  // namespace catena

@@ -196,13 +196,14 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     const auto k = static_cast<std::size_t>(i);
     const double e = stretches ? q[n_ + i] : 0;
     const double angle = q[i] - (i > 0 ? q[i - 1] : 0), rate = v[i] - (i > 0 ? v[i - 1] : 0);
-    double moment = stiffness * (angle - h.rest_curvature * link_) + damping * rate +
+    const double share = i == 0 ? 2 : 1;  // the clamp holds the cable half a link away
+    double moment = share * (stiffness * (angle - h.rest_curvature * link_) + damping * rate) +
                     h.joint_quadratic_damping * std::abs(rate) * rate +
                     h.cubic_stiffness * angle * angle * angle +
                     h.joint_friction * rounded_sign(rate);
     if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
-      moment += -stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
+      moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
                 h.pivot_damping * rate + h.pivot_friction * rounded_sign(rate);
     const double lever = (0.5 + h.centre_fraction) * (link_ + e);
     double torque = dot(across[k], (link_ + e) * carried + lever * lack[k]) - rotary * a[i] -
@@ -226,7 +227,8 @@ double Chain::mechanical_energy(const VectorXd& q, const VectorXd& v) const {
     energy += 0.5 * link_mass_ *
               (dot(centre_velocity, centre_velocity) + link_ * link_ / 12 * v[i] * v[i]);
     energy -= link_mass_ * cable_.gravity * (position + (0.5 * link_) * t).down;
-    energy += 0.5 * cable_.bending_stiffness / link_ * (q[i] - before) * (q[i] - before);
+    energy +=
+        (i == 0 ? 1.0 : 0.5) * cable_.bending_stiffness / link_ * (q[i] - before) * (q[i] - before);
     before = q[i];
     position = position + link_ * t;
     velocity = velocity + (link_ * v[i]) * m;

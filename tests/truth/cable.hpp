@@ -15,8 +15,8 @@ struct Cable {
   int links = 24;
   double length = 2.585;             // m
   double density = 0.1424;           // kg/m
-  double bending_stiffness = 0.014;  // EI, N m^2; joint stiffness EI / link length
-  double bending_damping = 0.008;    // N m^2 s; joint damping this / link length
+  double bending_stiffness = 0.014;  // EI, N m^2; joint stiffness EI / link length, double at the clamp
+  double bending_damping = 0.008;    // N m^2 s; joint damping likewise
   double load_mass = 1.381;          // kg
   double gravity = 9.81;             // m/s^2
 };
