@@ -164,6 +164,8 @@ class Evaluator {
         scope_.chain &&
         (name == "m_c" || name == "g" || name == "n" ||
          (families().count(name) != 0 && !(name == "T" && reference.indices.empty())));
+    if (parameter && name == "I" && reference.indices.size() == 2)
+      fail(target.at, "the matrix of inertia is called M here; I_i is the inertia of link i");
     if (parameter)
       fail(target.at, "'" + reference.text() +
                           "' is a symbol of the chain and cannot be assigned; to state a value "

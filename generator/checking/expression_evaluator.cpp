@@ -86,7 +86,9 @@ ex ExpressionEvaluator::read(const Expression& name) {
 
 ex ExpressionEvaluator::family_member(Location at, const Reference& reference,
                                       Family family) const {
-  if (reference.indices.size() != 1) fail(at, reference.text() + ": expected one index");
+  if (reference.indices.size() != 1)
+    fail(at, reference.text() + ": expected one index" +
+                 (reference.name == "I" ? "; the matrix of inertia is called M here" : ""));
   const bool state = reference.name.rfind("theta", 0) == 0;  // theta_0 = 0, as in (2.9)
   check_range(at, reference, reference.indices[0], state ? 0 : 1);
   return ((*scope_.chain).*family)[static_cast<std::size_t>(reference.indices[0])];
@@ -213,8 +215,8 @@ ex ExpressionEvaluator::power(const Expression& expression) {
   const ex right = evaluate(expression.children[1]);
   if (left.is_zero() && !right.info(GiNaC::info_flags::positive))
     fail(expression.at, "0 raised to a power that is not a positive number");
-  if (GiNaC::is_a<numeric>(right) && GiNaC::abs(GiNaC::ex_to<numeric>(right)) > 1000)
-    fail(expression.at, "an exponent beyond 1000");
+  if (GiNaC::is_a<numeric>(right) && GiNaC::abs(GiNaC::ex_to<numeric>(right)) > 100)
+    fail(expression.at, "an exponent beyond 100");
   return GiNaC::pow(left, right);
 }
 
