@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Eight parameter sets and states in one call of the emitted text give, lane by lane, the bits of
+// eight calls for one.
+#include "runtime/lanes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "generated/chain_12.hpp"
+#include "generated/chain_2.hpp"
+#include "generated/chain_60.hpp"
+
+namespace {
+
+using Eight = catena::Lanes<struct BaselineProcessor>;
+constexpr int kSets = Eight::kCount;
+
+struct Sets {
+  explicit Sets(int n) : n(n) {
+    std::mt19937 random(4);
+    const auto fill = [&](int size, double low, double high) {
+      std::uniform_real_distribution<double> uniform(low, high);
+      std::vector<double> values(static_cast<std::size_t>(size));
+      for (double& value : values) value = uniform(random);
+      return values;
+    };
+    const auto append = [](std::vector<double>& to, const std::vector<double>& values) {
+      to.insert(to.end(), values.begin(), values.end());
+    };
+    for (int k = 0; k < kSets; ++k) {
+      q.push_back(fill(n, -7.0, 7.0));
+      v.push_back(fill(n, -5.0, 5.0));
+      a.push_back(fill(n, -5.0, 5.0));
+      std::vector<double> set = fill(n, 0.1, 1.0);  // length
+      append(set, fill(n, 0.01, 1.0));              // mass
+      append(set, fill(n, 0.001, 0.1));             // inertia
+      append(set, fill(n, 0.0, 300.0));             // stiffness
+      append(set, fill(n, 0.0, 1.0));               // damping
+      append(set, fill(n, -5.0, 5.0));              // torque
+      append(set, {1.3, 9.81});
+      p.push_back(set);
+    }
+  }
+
+  static std::vector<Eight> pack(const std::vector<std::vector<double>>& sets) {
+    std::vector<Eight> packed(sets[0].size());
+    for (std::size_t i = 0; i < packed.size(); ++i)
+      for (int k = 0; k < kSets; ++k) packed[i].set(k, sets[static_cast<std::size_t>(k)][i]);
+    return packed;
+  }
+
+  int n;
+  std::vector<std::vector<double>> q, v, a, p;
+};
+
+/// `together` and `alone` evaluate the same function for Eight and for double.
+template <class Together, class Alone>
+void check_bits(const Sets& sets, Together together, Alone alone) {
+  const auto q = Sets::pack(sets.q), v = Sets::pack(sets.v), a = Sets::pack(sets.a),
+             p = Sets::pack(sets.p);
+  std::vector<Eight> result(static_cast<std::size_t>(sets.n));
+  together(catena::Point<Eight>{Eight(0), q.data(), v.data(), a.data(), nullptr, nullptr, p.data()},
+           result.data());
+  for (std::size_t k = 0; k < kSets; ++k) {
+    std::vector<double> one(static_cast<std::size_t>(sets.n));
+    alone(catena::Point<double>{0.0, sets.q[k].data(), sets.v[k].data(), sets.a[k].data(), nullptr,
+                                nullptr, sets.p[k].data()},
+          one.data());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      CAPTURE(k);
+      CAPTURE(i);
+      const double lane = result[i][static_cast<int>(k)];
+      CHECK(std::memcmp(&lane, &one[i], sizeof lane) == 0);
+    }
+  }
+}
+
+#define CHECK_MODEL(n)                                                                          \
+  do {                                                                                          \
+    const Sets sets(n);                                                                         \
+    check_bits(                                                                                 \
+        sets,                                                                                   \
+        [](const auto& at, Eight* a) { CHECK(catena::chain_##n::acceleration(at, a) == 0); },   \
+        [](const auto& at, double* a) { CHECK(catena::chain_##n::acceleration(at, a) == 0); }); \
+    check_bits(                                                                                 \
+        sets, [](const auto& at, Eight* r) { catena::chain_##n::residual(at, r); },             \
+        [](const auto& at, double* r) { catena::chain_##n::residual(at, r); });                 \
+  } while (false)
+
+TEST_CASE("eight sets at once are eight sets one at a time, bit for bit") {
+  SUBCASE("2 links") { CHECK_MODEL(2); }
+  SUBCASE("12 links") { CHECK_MODEL(12); }
+  SUBCASE("60 links") { CHECK_MODEL(60); }
+}
+
+TEST_CASE("a pivot that fails in one set fails") {
+  Eight pivots(1.0);
+  CHECK(catena::positive_pivot(pivots));
+  pivots.set(5, -1.0);
+  CHECK_FALSE(catena::positive_pivot(pivots));
+}
+
+}  // namespace
