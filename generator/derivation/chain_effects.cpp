@@ -74,7 +74,8 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     add("stiffness", stiffness_[i], "N m/rad");
     add("damping", damping_[i], "N m s/rad");
     add("arc", arc_[i - 1], "m");
-    add("spacing", i == 1 ? length_[1] : (length_[i - 1] + length_[i]) / 2, "m");
+    // from middle to middle of the links; at joint 1 from the clamp
+    add("spacing", (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2, "m");
     if (motion) {
       add_point(joint_side_[i - 1], joint_down_[i - 1]);
       add("joint_angle", joint_angle_[i], "rad");

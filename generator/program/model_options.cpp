@@ -5,6 +5,12 @@
 
 namespace catena {
 
+namespace {
+
+constexpr std::size_t kLongestId = 100;  // characters; file names have 255 at most
+
+}  // namespace
+
 void add_model_options(CLI::App& command, ModelOptions& options) {
   command.add_option("--description", options.description,
                      "model description (TOML); the plain chain if absent");
@@ -23,6 +29,10 @@ Description description_of(const ModelOptions& options) {
   }
   if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
     throw InputError("--effect: " + conflict);
+  }
+  // The id names files; the list of many effects would be longer than a file name may be.
+  if (options.description.empty() && description.id.size() > kLongestId) {
+    description.id = "chain_" + sha256_hex(canonical_text(description)).substr(0, 16);
   }
   if (!options.links.empty()) description.links = options.links;
   if (description.links.empty()) {

@@ -132,7 +132,7 @@ void NaiveChain::make_shape() {
     down.push_back(at_down);
     ex rest = 0;
     if (has("rest_curvature")) {
-      const ex spacing = i == 1 ? nominal : (symbol("length", i - 1) + nominal) / 2;
+      const ex spacing = i == 1 ? nominal / 2 : (symbol("length", i - 1) + nominal) / 2;
       rest += parameter("rest_curvature", "curvature") * spacing;
     }
     if (i == 1 && has("pivot_rest_angle")) rest += parameter("pivot_rest_angle", "rest");
