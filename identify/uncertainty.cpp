@@ -55,8 +55,38 @@ std::pair<double, Index> lag_one(const Residuals& residuals, const VectorXd& r) 
   return {products / r.squaredNorm(), pairs};
 }
 
+/// J'WJ for residuals that follow AR(1) in every channel: W_kl = colour^|k - l|.
+MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacobian, double colour) {
+  const Index unknowns = jacobian.cols();
+  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
+  struct Tail {
+    Index frame = -1;
+    VectorXd sum;  // of colour^(k - l) J_l over the earlier frames l of the channel
+  };
+  std::vector<std::vector<Tail>> tails;  // by experiment and channel
+  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
+    const ResidualIndex& index = residuals.index[i];
+    const auto e = static_cast<std::size_t>(index.experiment);
+    const auto c = static_cast<std::size_t>(index.channel);
+    if (tails.size() <= e) tails.resize(e + 1);
+    if (tails[e].size() <= c) tails[e].resize(c + 1);
+    Tail& tail = tails[e][c];
+    const VectorXd row = jacobian.row(static_cast<Index>(i)).transpose();
+    middle += row * row.transpose();
+    if (tail.frame >= 0) {
+      tail.sum *= std::pow(colour, static_cast<double>(index.frame - tail.frame));
+      middle += row * tail.sum.transpose() + tail.sum * row.transpose();
+      tail.sum += row;
+    } else {
+      tail.sum = row;
+    }
+    tail.frame = index.frame;
+  }
+  return middle;
+}
+
 /// J'WJ: the covariance of the sums J'r over frames, with Bartlett's weights.
-MatrixXd coloured_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
+MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
                          double colour) {
   const Index unknowns = jacobian.cols();
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
@@ -68,8 +98,7 @@ MatrixXd coloured_middle(const Residuals& residuals, const MatrixXd& jacobian, c
     if (scores[e].size() <= k) scores[e].resize(k + 1, VectorXd::Zero(unknowns));
     scores[e][k] += jacobian.row(static_cast<Index>(i)).transpose() * r[static_cast<Index>(i)];
   }
-  const double rho = std::clamp(colour, -0.97, 0.97);
-  const double alpha = 4 * rho * rho / std::pow((1 - rho) * (1 + rho), 2);
+  const double alpha = 4 * colour * colour / std::pow((1 - colour) * (1 + colour), 2);
   for (const std::vector<VectorXd>& series : scores) {
     const auto frames = static_cast<Index>(series.size());
     const Index bandwidth = std::min<Index>(
@@ -150,9 +179,17 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     out.colour = colour;
     out.coloured = pairs > 0 && std::abs(colour) > 2.58 / std::sqrt(static_cast<double>(pairs));
     if (out.coloured) {
-      const double freedom = static_cast<double>(count) / static_cast<double>(count - unknowns);
-      covariance = inverse * (freedom * coloured_middle(residuals, jacobian, r / out.noise, colour)) *
-                   inverse;
+      const double rho = std::clamp(colour, -0.97, 0.97);
+      covariance = inverse * autoregressive_middle(residuals, jacobian, rho) * inverse;
+      const VectorXd robust =
+          (inverse * robust_middle(residuals, jacobian, r / out.noise, rho) * inverse).diagonal();
+      // The robust estimate scatters; where it is far above, markers are correlated or the colour lasts
+      // longer than AR(1) knows.
+      constexpr double kFarAbove = 2;
+      VectorXd stretch = VectorXd::Ones(unknowns);
+      for (Index j = 0; j < unknowns; ++j)
+        if (robust[j] > kFarAbove * covariance(j, j)) stretch[j] = std::sqrt(robust[j] / covariance(j, j));
+      covariance = stretch.asDiagonal() * covariance * stretch.asDiagonal();
     }
   }
 

@@ -45,9 +45,9 @@ struct Uncertainty {
 /// what the residuals are; before one (`expected_noise` > 0, m, rad or as stated) it is what is expected.
 ///
 /// Errors are those of least squares: (J'J)^-1 where the residuals are white, else the sandwich
-/// (J'J)^-1 J'WJ (J'J)^-1 with W estimated from sums over frames with Bartlett's weights (Newey and
-/// West 1987, bandwidth of Andrews 1991), which allows for colour in time and for correlation between
-/// markers. For measures other than least squares they are an approximation.
+/// (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with
+/// Bartlett's weights (Newey and West 1987, bandwidth of Andrews 1991) give more than twice that
+/// variance, theirs is taken: markers that err together, colour that lasts. For measures other than least squares they are an approximation.
 /// Throws std::runtime_error where the simulation fails.
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
