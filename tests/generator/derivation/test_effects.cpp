@@ -4,10 +4,11 @@
 // derivation of naive_chain.hpp, at seeded random points in 50-digit arithmetic.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 
+#include "generator/certificate/exact_evaluation.hpp"
 #include "generator/derivation/chain.hpp"
 #include "tests/generator/derivation/naive_chain.hpp"
 
@@ -25,7 +26,6 @@ constexpr double kTolerance = 1e-40;
 // A number for every name, the same each time. Angles, rates and what data give have both signs;
 // all else is positive.
 ex random_value(const std::string& name, unsigned seed) {
-  if (name == "pi") return GiNaC::Pi;
   std::seed_seq sequence(name.begin(), name.end());
   std::mt19937 generator(sequence);
   generator.discard(seed);
@@ -38,43 +38,13 @@ ex random_value(const std::string& name, unsigned seed) {
   return numeric(draw + 1100, 1000);
 }
 
-// The values of a derivation's definitions at one point.
-class Evaluation {
- public:
-  using Inputs = std::function<ex(const std::string&)>;
+using Evaluation = ExactEvaluation;
 
-  Evaluation(const Definitions& definitions, Inputs inputs)
-      : definitions_(definitions), inputs_(std::move(inputs)) {}
-
-  ex of(const ex& expression) {
-    GiNaC::exmap values;
-    for (const int number : definitions_.symbols_of(expression)) {
-      values[definitions_[number].symbol] = of_symbol(number);
-    }
-    return expression.subs(values, GiNaC::subs_options::no_pattern).evalf();
-  }
-
-  ex sum(const std::vector<ex>& parts) {
-    ex total = 0;
-    for (const ex& part : parts) total += of(part);
-    return total;
-  }
-
- private:
-  ex of_symbol(int number) {
-    const auto known = known_.find(number);
-    if (known != known_.end()) return known->second;
-    const Symbol& symbol = definitions_[number];
-    const std::string name = symbol.index == kNoIndex
-                                 ? symbol.family
-                                 : symbol.family + "[" + std::to_string(symbol.index) + "]";
-    return known_[number] = symbol.is_input ? inputs_(name).evalf() : of(symbol.value);
-  }
-
-  const Definitions& definitions_;
-  Inputs inputs_;
-  std::map<int, ex> known_;
-};
+ex sum(Evaluation& evaluation, const std::vector<ex>& parts) {
+  ex total = 0;
+  for (const ex& part : parts) total += evaluation.of(part);
+  return total;
+}
 
 double difference(const ex& a, const ex& b) {
   const ex size = GiNaC::abs(a).evalf() + 1;
@@ -158,8 +128,8 @@ void compare(const std::vector<std::string>& ids, unsigned seed) {
   CHECK(difference(point.of(stored_rate), derived.of(derived_stored_rate)) < kTolerance);
   ex derived_power = 0;
   for (const EnergyItem& item : chain.energies()) {
-    if (item.kind == EnergyItem::kSupplied) derived_power += derived.sum(item.parts);
-    if (item.kind == EnergyItem::kDissipated) derived_power -= derived.sum(item.parts);
+    if (item.kind == EnergyItem::kSupplied) derived_power += sum(derived, item.parts);
+    if (item.kind == EnergyItem::kDissipated) derived_power -= sum(derived, item.parts);
   }
   CHECK(difference(point.of(power), derived_power) < kTolerance);
   // and their balance: dE/dt = power + sum v r, whatever the accelerations
@@ -270,4 +240,46 @@ TEST_CASE("sensor effects report what they say, and the truth at their neutral v
       CHECK(difference(truth.time.evalf(), derived.of(chain.sensor().clock)) < kTolerance);
     }
   }
+}
+
+// Equality cannot be had: at finite stiffness EA the links stretch by strain = tension/EA. With
+// that strain, held, what is left of the equations of the stretch, and what the equations of the
+// angles differ from the plain chain's, falls as 1/EA.
+TEST_CASE("axial stretch converges to the plain chain as its stiffness grows") {
+  GiNaC::Digits = kDigits;
+  Chain plain(plain_chain(), kLinks);
+  Evaluation expected(plain.definitions(),
+                      [](const std::string& name) { return random_value(name, 6); });
+  Chain chain(with({"axial_stretch"}), kLinks);
+  std::map<std::string, ex> strain;  // "axial_stretch_strain[2]"; zero if not given
+  const auto residual = [&](const ex& axial_stiffness) {
+    Evaluation derived(chain.definitions(), [&](const std::string& name) -> ex {
+      if (name == "axial_stretch_axial_stiffness") return axial_stiffness;
+      if (name.starts_with("axial_stretch_strain")) return strain.contains(name) ? strain[name] : 0;
+      return random_value(name, 6);
+    });
+    std::vector<ex> values;
+    for (const ex& r : chain.residual()) values.push_back(derived.of(r));
+    return values;
+  };
+  const auto remainder = [&](const ex& axial_stiffness) {
+    strain.clear();
+    const std::vector<ex> rigid =
+        residual(axial_stiffness);  // in the strains' rows: -length tension
+    for (int i = 1; i <= kLinks; ++i) {
+      const std::string index = "[" + std::to_string(i) + "]";
+      strain["axial_stretch_strain" + index] = -rigid[static_cast<std::size_t>(kLinks + i - 1)] /
+                                               random_value("length" + index, 6) / axial_stiffness;
+    }
+    double largest = 0;
+    const std::vector<ex> stretched = residual(axial_stiffness);
+    for (std::size_t i = 0; i < stretched.size(); ++i) {
+      const ex goal = i < kLinks ? expected.of(plain.residual()[i]) : ex(0);
+      largest = std::max(largest, difference(goal, stretched[i]));
+    }
+    return largest;
+  };
+  const double soft = remainder(10000), stiff = remainder(1000000);
+  CHECK(soft < 0.1);
+  CHECK(soft / stiff == doctest::Approx(100).epsilon(0.05));
 }
