@@ -23,6 +23,13 @@ class Lanes {
   typedef std::uint64_t Bits __attribute__((vector_size(64)));
 
   Lanes() = default;
+  // Written out so that a copy is a copy of vectors: as plain memory it goes in pieces smaller than
+  // the loads that follow, which then wait for the cache.
+  Lanes(const Lanes& other) : values_(other.values_) {}
+  Lanes& operator=(const Lanes& other) {
+    values_ = other.values_;
+    return *this;
+  }
   explicit Lanes(double value) : values_(value - Vector{}) {}
   explicit Lanes(int value) : Lanes(static_cast<double>(value)) {}
   explicit Lanes(const Vector& values) : values_(values) {}
