@@ -20,8 +20,8 @@ bool is_built_in(const std::string& id) {
 
 EquationGroup formulas_of(const EffectEntry& entry) {
   EquationGroup group{entry.title.empty() ? entry.id : entry.title, {}};
-  if (!entry.formula.mathml.empty() || !entry.formula.latex.empty()) {
-    group.equations.push_back(entry.formula);
+  if (!entry.formulas.empty()) {
+    group.equations = entry.formulas;
     return group;
   }
   if (entry.text.empty() && !is_built_in(entry.id)) return group;

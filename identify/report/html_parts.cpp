@@ -166,8 +166,7 @@ std::string members_html(const Diagnosis& diagnosis) {
       for (const Candidate& candidate : round.candidates) {
         if (candidate.id != member) continue;
         entry.title = candidate.title;
-        entry.formula = candidate.formula;
-        entry.formula.title.clear();
+        entry.formulas = candidate.formulas;
       }
     }
     html += group_html(formulas_of(entry));
@@ -288,10 +287,18 @@ std::string diagnosis_html(const Diagnosis& diagnosis) {
       html += fmt::format("<li>{}</li>\n", escaped(words));
     html += "</ul>\n";
   }
+  if (!diagnosis.notes.empty()) {
+    html += "<h3>Notes</h3>\n<ul>\n";
+    for (const std::string& words : diagnosis.notes) {
+      html += fmt::format("<li>{}</li>\n", escaped(words));
+    }
+    html += "</ul>\n";
+  }
   std::vector<Cells> rows = {{"Model", "Links", "Gap, fitted part", "Gap, held out"}};
   for (const Round& round : diagnosis.rounds) {
     std::string name = escaped(round.model);
-    if (!round.added.empty()) name += fmt::format(" + {}", escaped(round.added));
+    const bool said = round.model.find(round.added) != std::string::npos;
+    if (!round.added.empty() && !said) name += fmt::format(" + {}", escaped(round.added));
     if (!round.removed.empty()) name += fmt::format(" − {}", escaped(round.removed));
     rows.push_back({name, round.links > 0 ? std::to_string(round.links) : "–",
                     length(round.gap.fit, diagnosis.unit),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -259,6 +260,31 @@ void read_fit(const Node& node, Result& result) {
   }
 }
 
+/// Texts under a key: a list, one, or none.
+std::vector<std::string> read_texts(const Node& node) {
+  if (node.is_text()) return {node.text()};
+  std::vector<std::string> texts;
+  for (const Node& one : node.list()) texts.push_back(one.text());
+  return texts;
+}
+
+/// MathML and LaTeX of the same formulas, either of which may be missing.
+std::vector<Equation> read_formulas(const Node& node) {
+  if (node.has("formulas")) {
+    std::vector<Equation> formulas;
+    for (const Node& formula : node["formulas"].list()) {
+      formulas.push_back({formula["what"].text(), formula["mathml"].text(), formula["latex"].text()});
+    }
+    return formulas;
+  }
+  const auto mathml = read_texts(node["mathml"]);
+  const auto latex = read_texts(node["latex"]);
+  std::vector<Equation> formulas(std::max(mathml.size(), latex.size()));
+  for (std::size_t k = 0; k < mathml.size(); ++k) formulas[k].mathml = mathml[k];
+  for (std::size_t k = 0; k < latex.size(); ++k) formulas[k].latex = latex[k];
+  return formulas;
+}
+
 Equation read_equation(const Node& node) {
   return {node["title"].text(), node["mathml"].text(), node["latex"].text()};
 }
@@ -286,7 +312,7 @@ Result read_result(const Node& node) {
     }
     for (const Node& effect : model["effects"].list()) {
       result.effects.push_back({effect["id"].text(), effect["title"].text(), effect["text"].text(),
-                                read_equation(effect)});
+                                read_formulas(effect)});
     }
   }
   for (const Node& experiment : node["experiments"].list()) {
@@ -315,7 +341,9 @@ Candidate read_candidate(const Node& node) {
   candidate.score = node["score"].number();
   candidate.significance = node["significance"].number();
   candidate.survives = node["survives"].number();
-  for (const auto& [name, value] : node["estimate"].entries()) {
+  const bool refitted = node.has("refit") && node["refit"].has("estimate");
+  const Node estimate = refitted ? node["refit"]["estimate"] : node["estimate"];
+  for (const auto& [name, value] : estimate.entries()) {
     candidate.estimate.emplace_back(name, value.number());
   }
   if (node.has("refit")) {
@@ -323,7 +351,7 @@ Candidate read_candidate(const Node& node) {
     candidate.refit_validate = node["refit"]["validate"].number();
     candidate.criterion = node["refit"]["criterion"].number();
   }
-  candidate.formula = {candidate.title, node["mathml"].text(), node["latex"].text()};
+  candidate.formulas = read_formulas(node);
   return candidate;
 }
 
@@ -382,6 +410,7 @@ Diagnosis read_diagnosis(const Node& node, const std::filesystem::path& folder) 
   diagnosis.floor = node["floor"].number();
   diagnosis.unit = node["unit"].text();
   for (const Node& words : node["where"].list()) diagnosis.where.push_back(words.text());
+  for (const Node& words : node["notes"].list()) diagnosis.notes.push_back(words.text());
   for (const Node& member : node["members"].list()) diagnosis.members.push_back(member.text());
   if (node.has("missing_force")) {
     const Node force = node["missing_force"];
@@ -399,6 +428,21 @@ Diagnosis read_diagnosis(const Node& node, const std::filesystem::path& folder) 
     diagnosis.rounds.push_back(read_round(round, folder));
   }
   return diagnosis;
+}
+
+/// The diagnosis has the errors of the estimates, the last round's result the rest.
+void use_estimates(const std::vector<Parameter>& estimates, std::vector<Parameter>& parameters) {
+  for (const Parameter& estimate : estimates) {
+    auto same = std::find_if(parameters.begin(), parameters.end(),
+                             [&](const Parameter& p) { return p.name == estimate.name; });
+    if (same == parameters.end()) same = parameters.insert(parameters.end(), estimate);
+    same->free = true;
+    same->value = estimate.value;
+    same->standard_error = estimate.standard_error;
+    same->has_interval = estimate.has_interval;
+    same->low = estimate.low;
+    same->high = estimate.high;
+  }
 }
 
 }  // namespace
@@ -421,7 +465,7 @@ Document read_document(const std::filesystem::path& path) {
   for (const Round& round : document.diagnosis->rounds) {
     if (round.result) document.result = *round.result;
   }
-  const Result outer = read_result(root);  // title, case and versions of the whole
+  const Result outer = read_result(root);  // title, case, versions, parameters with intervals
   document.result.command = "diagnose";
   if (!outer.title.empty()) document.result.title = outer.title;
   if (!outer.versions.empty()) document.result.versions = outer.versions;
@@ -429,6 +473,7 @@ Document read_document(const std::filesystem::path& path) {
     document.result.case_text = outer.case_text;
     document.result.case_file = outer.case_file;
   }
+  use_estimates(outer.parameters, document.result.parameters);
   return document;
 }
 

@@ -96,8 +96,8 @@ struct Equation {
 
 struct EffectEntry {
   std::string id, title;
-  std::string text;  ///< of its file; empty for built-in ones
-  Equation formula;  ///< where the file gives one
+  std::string text;                ///< of its file; empty for built-in ones
+  std::vector<Equation> formulas;  ///< where the result gives them
 };
 
 struct Result {
@@ -131,7 +131,7 @@ struct Candidate {
   double survives = kAbsent;      ///< share of the sensitivity the free parameters cannot imitate
   std::vector<std::pair<std::string, double>> estimate;
   double refit_fit = kAbsent, refit_validate = kAbsent, criterion = kAbsent;
-  Equation formula;
+  std::vector<Equation> formulas;
 };
 
 struct Round {
@@ -153,7 +153,7 @@ struct Diagnosis {
   std::string verdict, sentence, experiment_that_tells;
   double floor = kAbsent;
   std::string unit;
-  std::vector<std::string> where, members;
+  std::vector<std::string> where, notes, members;
   std::optional<MissingForce> missing_force;
   std::vector<Round> rounds;
 };

@@ -297,6 +297,12 @@ json made_diagnosis() {
                           {"survives", 0.2},
                           {"admissible", false},
                           {"note", "estimate on the wrong side of its bound"}});
+    candidates.push_back(
+        {{"id", "a_user_s_own"},
+         {"title", "A user's own"},
+         {"score", 0.01},
+         {"mathml", json::array({"<math><mi>D</mi></math>", "<math><mi>V</mi></math>"})},
+         {"latex", json::array({"D", "V"})}});
     rounds.push_back({{"model", round == 0 ? "plain chain" : "plain chain with air_drag_quadratic"},
                       {"added", round == 0 ? json() : json("air_drag_quadratic")},
                       {"links", 12},
@@ -328,7 +334,13 @@ json made_diagnosis() {
           {"where", json::array({"largest at the load, at high speed, after 2 s"})},
           {"missing_force", {{"unit", "N m"}, {"time", t}, {"rows", names}, {"value", force}}},
           {"rounds", rounds},
-          {"members", json::array({"air_drag_quadratic"})}};
+          {"notes", json::array({"12 links are enough: twice as many change the gap by 0.1 %"})},
+          {"parameters", json::array({{{"name", "drag"},
+                                       {"unit", "kg/m^2"},
+                                       {"value", 0.00891},
+                                       {"standard_error", 0.00007},
+                                       {"interval", {0.00877, 0.00905}}}})},
+          {"members", json::array({"air_drag_quadratic", "a_user_s_own"})}};
 }
 
 }  // namespace catena::report

@@ -249,6 +249,20 @@ TEST_CASE("the data as JSON: figures refer to columns; long ones are thinned onl
   }
 }
 
+TEST_CASE(
+    "a diagnosis gives its estimates' errors to the last round's parameters, and its formulas") {
+  const Document document = read(made_diagnosis());
+  const auto& parameters = document.result.parameters;
+  REQUIRE(parameters.size() == 4);
+  CHECK(parameters[2].name == "drag");
+  CHECK(parameters[2].value == 0.00891);
+  CHECK(parameters[2].high == 0.00905);
+  CHECK(parameters[2].verdict == "identifiable");
+  const std::string html = to_html(document, {});
+  CHECK(html.find("<math><mi>V</mi></math>") != std::string::npos);
+  CHECK(html.find("12 links are enough") != std::string::npos);
+}
+
 TEST_CASE("files: one CSV and one SVG for each figure, and the parameters") {
   const testing::TemporaryFolder folder;
   const Document document = read(made_diagnosis());
