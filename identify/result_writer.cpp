@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "generator/description/description.hpp"
+#include "generator/description/formula.hpp"
 #include "identify/case_words.hpp"
 
 namespace catena {
@@ -59,8 +60,12 @@ Json head(const Problem& problem, const char* command) {
   model["effects"] = Json::array();
   if (!study.description.empty()) {
     model["description"] = text_of(study.description);
-    for (const Effect& effect : read_description(study.description).effects)
-      model["effects"].push_back({{"id", effect.id}, {"title", effect.title}});
+    for (const Effect& effect : read_description(study.description).effects) {
+      Json formulas_of = Json::array();
+      for (const Formula& formula : formulas(effect))
+        formulas_of.push_back({{"what", formula.what}, {"latex", formula.latex}, {"mathml", formula.mathml}});
+      model["effects"].push_back({{"id", effect.id}, {"title", effect.title}, {"formulas", formulas_of}});
+    }
   }
   return json;
 }
