@@ -304,7 +304,11 @@ class Physician {
         enter(trimmed(explanation.model), effects, explanation.id, id);
         return explanation.id;
       }
-      (decision.decided ? result_.runners_up : result_.alternatives)
+      // Of two that explain the same, one inside the other, the smaller has the name.
+      const bool contains = explanation.candidate >= 0 &&
+                            is_special_case(*workshop_.find(id), *workshop_.find(explanation.id),
+                                            workshop_.model_with_all(stage().links));
+      (decision.decided || contains ? result_.runners_up : result_.alternatives)
           .push_back({id, explanation, decision});
     }
     return {};

@@ -27,6 +27,11 @@ void make_final_model(Diagnosis& diagnosis, Workshop& workshop);
 /// The fitted parameters, physics first, with standard errors.
 std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis);
 
+/// Whether one effect is a special case of another (drag of steady wind): parameters of the same
+/// name give the same residuals r, the other's further ones at their defaults. Tried at seeded
+/// random states of a model that has both.
+bool is_special_case(const Candidate& special, const Candidate& general, const Model& both);
+
 /// Largest difference between the residuals r of two models at seeded random states and parameters,
 /// relative to the largest |r|, `larger` having parameters more than `smaller`, held at their
 /// neutral values. Further coordinates of `larger` rest at zero.

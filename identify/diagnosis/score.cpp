@@ -19,7 +19,6 @@ constexpr double kNothingSurvives = 1e-6;
 }  // namespace
 
 ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian) : residual_(std::move(residual)) {
-  squares_ = residual_.squaredNorm();
   MatrixXd scaled = jacobian;
   for (Index j = 0; j < scaled.cols(); ++j) {
     const double size = scaled.col(j).norm();
@@ -29,6 +28,7 @@ ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian) : residual_(st
   qr.setThreshold(1e-10);
   orthogonal_ = qr.householderQ() * MatrixXd::Identity(scaled.rows(), qr.rank());
   residual_ = project(residual_);
+  squares_ = residual_.squaredNorm();
 }
 
 VectorXd ScoreTest::project(const VectorXd& column) const {

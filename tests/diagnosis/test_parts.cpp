@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "identify/diagnosis/noise.hpp"
+#include "identify/diagnosis/score.hpp"
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd white(int channels, int frames, double sigma, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> gauss(0, sigma);
+  return MatrixXd::NullaryExpr(channels, frames, [&] { return gauss(random); });
+}
+
+std::vector<double> times(int frames, double rate) {
+  std::vector<double> t;
+  for (int k = 0; k < frames; ++k) t.push_back(k / rate);
+  return t;
+}
+
+/// A smooth misfit of so much rms, the same shape along the channels.
+MatrixXd smooth(int channels, int frames, double rms, double frequency, double rate) {
+  MatrixXd m(channels, frames);
+  for (int c = 0; c < channels; ++c)
+    for (int k = 0; k < frames; ++k)
+      m(c, k) = rms * std::numbers::sqrt2 *
+                std::sin(2 * std::numbers::pi * frequency * k / rate + c / 24.0);
+  return m;
+}
+
+TEST_CASE("the noise floor is found under a smooth misfit of ten times its size") {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const MatrixXd noise = white(24, 240, 1e-3, seed);
+    CHECK(catena::noise_floor(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
+    const MatrixXd both = noise + smooth(24, 240, 1e-2, 1.5, 60);
+    CHECK(catena::noise_floor(both, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
+  }
+}
+
+TEST_CASE("lost markers do not disturb the noise floor") {
+  MatrixXd noise = white(24, 240, 1e-3, 6);
+  for (int k = 0; k < 240; k += 13)
+    for (int c = 0; c < 24; c += 5) noise(c, k) = std::nan("");
+  CHECK(catena::noise_floor(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.06));
+}
+
+TEST_CASE("smoothed tracks are told from white noise") {
+  const MatrixXd noise = white(24, 260, 1e-3, 7);
+  MatrixXd tracked = noise;
+  for (int pass = 0; pass < 3; ++pass)  // each frame with its neighbours, weights 1 2 1
+    for (Eigen::Index k = 1; k + 1 < tracked.cols(); ++k)
+      tracked.col(k) = (tracked.col(k - 1) + 2 * tracked.col(k) + tracked.col(k + 1)) / 4;
+  CHECK(catena::noise_floor(tracked, times(260, 60)).coloured);
+  CHECK_FALSE(catena::noise_floor(noise, times(260, 60)).coloured);
+}
+
+TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the noise is one") {
+  int alarms = 0, found = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const MatrixXd noise = white(24, 120, 1e-3, seed);
+    alarms += catena::test_gap({noise}, {1e-3}).present;
+    found += catena::test_gap({noise + smooth(24, 120, 5e-4, 1, 30)}, {1e-3}).present;
+  }
+  CHECK(alarms == 0);
+  CHECK(found == 200);
+}
+
+TEST_CASE("the misfit is the part that neighbouring frames share") {
+  const MatrixXd both = white(24, 600, 1e-3, 3) + smooth(24, 600, 2e-3, 1, 60);
+  const catena::GapTest gap = catena::test_gap({both}, {1e-3});
+  CHECK(gap.misfit == doctest::Approx(2e-3).epsilon(0.03));
+  CHECK(gap.ratio() == doctest::Approx(std::sqrt(5.0)).epsilon(0.03));
+}
+
+TEST_CASE("the colour factor is one for white noise and grows with correlation") {
+  CHECK(catena::colour_factor({white(24, 400, 1, 1)}) < 1.3);
+  CHECK(catena::colour_factor({smooth(24, 400, 1, 1, 60)}) > 5);
+}
+
+TEST_CASE("chi-square tails") {
+  // values of the survival function: P(3.841 | 1) = P(5.991 | 2) = P(7.815 | 3) = 0.05
+  CHECK(catena::log10_chi_square_tail(3.841, 1) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
+  CHECK(catena::log10_chi_square_tail(5.991, 2) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
+  CHECK(catena::log10_chi_square_tail(7.815, 3) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
+  // exp(-x/2) for two degrees, far out
+  CHECK(catena::log10_chi_square_tail(2000, 2) == doctest::Approx(-1000 / std::numbers::ln10));
+  CHECK(catena::log10_chi_square_tail(2000, 1) < -430);
+}
+
+TEST_CASE("the score finds the size of what is missing and what is left of it") {
+  const MatrixXd jacobian = white(500, 3, 1, 1);
+  const VectorXd other = white(500, 1, 1, 2), noise = white(500, 1, 0.1, 3);
+  const VectorXd column = 5 * jacobian.col(0) + other;  // the fit can imitate most of it
+  // residual = -0.7 column + noise: the parameter ought to be 0.7 larger
+  catena::ScoreTest test(noise - 0.7 * column, jacobian);
+  const int c = test.add({column, 0, 10});
+  const catena::Score score = test.score({c});
+  CHECK(score.admissible);
+  CHECK(score.estimate[0] == doctest::Approx(0.7).epsilon(0.02));
+  CHECK(score.share > 0.9);
+  CHECK(score.survives == doctest::Approx(1 / std::sqrt(26.0)).epsilon(0.15));
+  CHECK(test.residual_after({c}, score.estimate).norm() < 3);
+}
+
+TEST_CASE(
+    "an effect on the wrong side of its bound is no candidate; past the far bound it is cut") {
+  const MatrixXd jacobian = white(300, 2, 1, 1);
+  const VectorXd column = white(300, 1, 1, 2);
+  catena::ScoreTest test(0.7 * column, jacobian);
+  CHECK_FALSE(test.score({test.add({column, 0, 10})}).admissible);
+  const catena::Score cut = test.score({test.add({column, -0.3, 10})});
+  CHECK(cut.admissible);
+  CHECK(cut.beyond);
+  CHECK(cut.estimate[0] == doctest::Approx(-0.3));
+}
+
+TEST_CASE("what the fit can imitate entirely scores nothing") {
+  const MatrixXd jacobian = white(300, 2, 1, 1);
+  catena::ScoreTest test(white(300, 1, 1, 4), jacobian);
+  CHECK_FALSE(
+      test.score({test.add({jacobian.col(0) - 2 * jacobian.col(1), -1e9, 1e9})}).admissible);
+}
+
+}  // namespace
