@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cable of chapter 6 falls from a catenary: its shapes, and where its end is over time.
+"""A cable falls from a catenary: its shapes, and where its end is over time.
 
     python3 examples/python/falling_cable.py falling_cable.png
 """
@@ -21,7 +21,7 @@ parameters = model.parameters(
     length=length,
     mass=mass,
     inertia=mass * length**2 / 12,
-    stiffness=47.448,  # N m/rad, of every joint
+    stiffness=0.5,  # N m/rad, of every joint
     damping=1e-3,  # N m s/rad
     load_mass=1.47,  # kg
 )

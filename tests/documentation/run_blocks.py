@@ -7,7 +7,8 @@ A fence names its language and, where the block is a file, the file:
     ```console             lines "$ command", each followed by the output it shows
     ```console elsewhere   as above, but run by a test of its own (too long, or needs root): only
                            that the program exists is checked
-    ```toml my_case.toml   the block is that file for the commands after it (any language)
+    ```toml my_case.toml   the block is that file for the commands after it (any language); where
+                           the checkout has a file of that name, it must say the same
     ```text                a drawing or an excerpt: nothing to run
 
 Commands run in a scratch copy of the checkout's examples/, with the built programs on PATH and the
@@ -108,6 +109,8 @@ def main():
             if language != "console":
                 if not name:
                     sys.exit(f"{page}: a block of {language or 'no language'} names no file:\n{block}")
+                if (ROOT / name).exists() and (ROOT / name).read_text() != block:
+                    sys.exit(f"{page}: the block {name} is not what the file of that name says")
                 target = folder / name
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_text(block)
