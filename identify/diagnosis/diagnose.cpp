@@ -345,7 +345,7 @@ void Physician::conclude() {
                                 : "";
   if (d.effects.empty() &&
       (!d.final_fit.present || d.final_fit.misfit < kTooSmallToName * d.final_fit.floor)) {
-    d.verdict = Verdict::kNone;
+    d.verdict = DiagnosisVerdict::kNone;
     d.sentence =
         "No missing effect" + (links.empty() ? std::string() : links) +
         (d.freer_start ? "; the start of the motion needed more freedom" : "") +
@@ -354,7 +354,7 @@ void Physician::conclude() {
     return;
   }
   if (!closed) {
-    d.verdict = Verdict::kUnexplained;
+    d.verdict = DiagnosisVerdict::kUnexplained;
     d.sentence = d.effects.empty()
                      ? "There is a gap, and nothing in the library explains it."
                      : "There is a gap; " + listed_ids(d.effects) +
@@ -364,9 +364,9 @@ void Physician::conclude() {
   std::erase_if(d.alternatives, [&](const Alternative& alternative) {
     return alternative.explanation.candidate < 0 || alternative.explanation.fit.ratio() > kClosed;
   });
-  d.verdict = d.alternatives.empty() ? Verdict::kNamed : Verdict::kAmbiguous;
+  d.verdict = d.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
   d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";
-  if (d.verdict == Verdict::kAmbiguous) {
+  if (d.verdict == DiagnosisVerdict::kAmbiguous) {
     std::vector<std::string> others;
     for (const Alternative& alternative : d.alternatives)
       others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
@@ -376,15 +376,15 @@ void Physician::conclude() {
 
 }  // namespace
 
-const char* name_of(Verdict verdict) {
+const char* name_of(DiagnosisVerdict verdict) {
   switch (verdict) {
-    case Verdict::kNone:
+    case DiagnosisVerdict::kNone:
       return "none";
-    case Verdict::kNamed:
+    case DiagnosisVerdict::kNamed:
       return "named";
-    case Verdict::kAmbiguous:
+    case DiagnosisVerdict::kAmbiguous:
       return "ambiguous";
-    case Verdict::kUnexplained:
+    case DiagnosisVerdict::kUnexplained:
       return "unexplained";
   }
   return "";

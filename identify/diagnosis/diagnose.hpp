@@ -14,13 +14,13 @@
 
 namespace catena {
 
-enum class Verdict {
+enum class DiagnosisVerdict {
   kNone,         ///< nothing is missing
   kNamed,        ///< one or more effects
   kAmbiguous,    ///< effects that these data cannot tell apart
   kUnexplained,  ///< a gap that nothing in the library closes
 };
-const char* name_of(Verdict verdict);
+const char* name_of(DiagnosisVerdict verdict);
 
 /// One model on the way, and what was tried on it.
 struct Stage {
@@ -48,7 +48,7 @@ struct FinalParameter {
 };
 
 struct Diagnosis {
-  Verdict verdict = Verdict::kNone;
+  DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
   std::string sentence;              ///< what the verdict says, one or two sentences
   std::vector<std::string> notes;    ///< what one should know
   std::vector<NoiseFloor> noise;     ///< per experiment

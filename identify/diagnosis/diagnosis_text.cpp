@@ -104,7 +104,7 @@ DiagnosisFindings find_out(const Diagnosis& d) {
   findings.places = residual_places(d.stages.front().model, d.floors);
   if (d.stages.front().fit.present)
     findings.force = missing_force(
-        d.verdict == Verdict::kUnexplained ? d.final : d.stages.front().model, d.floors);
+        d.verdict == DiagnosisVerdict::kUnexplained ? d.final : d.stages.front().model, d.floors);
   for (const Alternative& alternative : d.alternatives)
     findings.telling.push_back(
         telling_experiment(d.final, alternative.explanation.model, d.floors));
