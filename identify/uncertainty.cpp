@@ -197,8 +197,9 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   VectorXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   out.correlation = MatrixXd::Constant(unknowns, unknowns, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> lost(static_cast<std::size_t>(unknowns), false);
+  constexpr double kPart = 0.02;  // of a direction of unit length: less than that takes no part in it
   for (Index j = 0; j < unknowns; ++j)
-    lost[static_cast<std::size_t>(j)] = null.cols() > 0 && null.row(j).norm() > 1e-3;
+    lost[static_cast<std::size_t>(j)] = null.cols() > 0 && null.row(j).norm() > kPart;
   for (Index j = 0; j < unknowns; ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     Estimate estimate;
