@@ -23,6 +23,8 @@ constexpr double kWorthwhile = 0.1;      // share of the squared misfit an effec
 constexpr double kClosed = 1.2;          // times the noise, fitted part
 constexpr double kClosedHeldOut = 1.35;  // times the noise, held-out part
 constexpr double kTooSmallToName = 0.6;  // misfit over noise below which nothing is called missing
+constexpr int kFirstEvaluations = 40;    // of each start of the baseline; the best goes on
+constexpr int kEvaluations = 80;         // of every other fit
 constexpr double kHeldOutShare = 0.3;    // of a recording, where the case holds nothing out
 
 /// A diagnosis needs data that no fit has seen.
@@ -64,8 +66,9 @@ class Physician {
   void fit_baseline(Case study) {
     if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
     workshop_.say("fitting the baseline");
-    const auto problem =
-        std::make_shared<const Problem>(study, workshop_.model_with({}, study.links));
+    study.optimiser.max_evaluations = std::min(study.optimiser.max_evaluations, kFirstEvaluations);
+    const Model model_of_case = workshop_.model_with({}, study.links);
+    const auto problem = std::make_shared<const Problem>(study, model_of_case);
     // From several starts: with more damping the motion is simpler, and what the fit descends on
     // too.
     const std::vector<double> factors = {1, 5, 25};
@@ -80,7 +83,10 @@ class Physician {
     for (FittedModel& fit : fits)
       if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
     if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
-    FittedModel model = std::move(*best);
+    study.optimiser.max_evaluations = kEvaluations;
+    const auto longer = std::make_shared<const Problem>(study, model_of_case);
+    FittedModel model = fit_model(longer, best->x, workshop_.least_squares, workshop_.stop);
+    if (!model.ok) model = std::move(*best);
     enter(std::move(model), {}, "");
   }
 

@@ -40,9 +40,9 @@ struct GapTest {
   double ratio() const { return floor > 0 ? rms / floor : 0; }
 };
 
-/// A gap is there if it is significant and worth the name (misfit above a quarter of the noise).
+/// A gap is there if it is significant and worth the name (misfit above four tenths of the noise).
 inline constexpr double kGapSignificance = 4.5;  // standard deviations
-inline constexpr double kGapShare = 0.25;        // of the noise
+inline constexpr double kGapShare = 0.4;         // of the noise
 
 /// Tests residuals of several recordings together, each in units of its own noise; `floor`, `rms`
 /// and `misfit` are those of the whole, weighted with the counts.
