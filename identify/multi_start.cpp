@@ -2,6 +2,7 @@
 #include "identify/multi_start.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -56,10 +57,16 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
   const std::vector<Eigen::VectorXd> starts = start_points(problem, spec.starts, spec.seed);
   std::vector<FitResult> results(starts.size());
   std::mutex mutex;
+  const auto begin = std::chrono::steady_clock::now();
   Progress total{0, spec.max_evaluations * spec.starts, std::numeric_limits<double>::infinity()};
   in_parallel(starts.size(), threads, [&](std::size_t i) {
     FitOptions own = options;
     own.start = starts[i];
+    if (options.time_limit > 0) {
+      // The limit is for all starts together; one that begins after it stops at once.
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+      own.time_limit = std::max(options.time_limit - elapsed.count(), 1e-9);
+    }
     const int start = static_cast<int>(i);
     if (log) {
       if (const auto known = log->finished(start)) {
@@ -77,7 +84,9 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
         options.progress(total);
       };
     results[i] = fit(problem, own, least_squares);
-    if (log) log->finish(start, results[i]);
+    const FitStatus status = results[i].status;
+    const bool cut_short = status == FitStatus::kInterrupted || status == FitStatus::kTimeLimit;
+    if (log && !cut_short) log->finish(start, results[i]);
   });
   return results;
 }

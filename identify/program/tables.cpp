@@ -181,9 +181,11 @@ std::string waterfall(const Problem& problem, const std::vector<FitResult>& star
   for (const FitResult& start : starts) errors.push_back(start.error);
   std::sort(errors.begin(), errors.end());
   std::string out = fmt::format("{} starts, best first:", starts.size());
-  for (const double error : errors) out += " " + measured_error(problem, error) + ",";
-  out.back() = '\n';
-  return out;
+  constexpr std::size_t kShown = 10;  // the result file has them all
+  for (std::size_t i = 0; i < std::min(errors.size(), kShown); ++i) {
+    out += (i == 0 ? " " : ", ") + measured_error(problem, errors[i]);
+  }
+  return out + (errors.size() > kShown ? ", ...\n" : "\n");
 }
 
 }  // namespace catena
