@@ -133,6 +133,12 @@ typedef struct catena_model {
   /* model time at which what was recorded at time t happened, and its derivative along dp */
   double (*clock)(double t, const double* p);
   double (*clock_tangent)(double t, const double* p, const double* dp);
+  /* directional derivatives of velocities, energy and internal_forces */
+  void (*velocities_tangent)(const catena_point* at, const catena_point* along, double* dside_rate,
+                             double* ddown_rate);
+  void (*energy_tangent)(const catena_point* at, const catena_point* along, double* de);
+  void (*internal_forces_tangent)(const catena_point* at, const catena_point* along,
+                                  double* dmoment, double* dtension, double* dcurvature);
 } catena_model;
 
 /* What a shared library holding one model exports. */

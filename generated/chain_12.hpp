@@ -1156,6 +1156,199 @@ void energy(const Point<T>& at, T* e) {
   e[4] = torque_power_sum[12];
 }
 
+/// Derivative of the energies and powers along `along`.
+/// 514 additions, 672 multiplications, 0 divisions, 0 functions
+template <class T>
+void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 12);
+  const FromOne<T> inertia(at.p + 24);
+  const FromOne<T> stiffness(at.p + 36);
+  const FromOne<T> damping(at.p + 48);
+  const FromOne<T> torque(at.p + 60);
+  const T load_mass = at.p[72];
+  const T gravity = at.p[73];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_mass(along.p + 12);
+  const FromOne<T> d_inertia(along.p + 24);
+  const FromOne<T> d_stiffness(along.p + 36);
+  const FromOne<T> d_damping(along.p + 48);
+  const FromOne<T> d_torque(along.p + 60);
+  const T d_load_mass = along.p[72];
+  const T d_gravity = along.p[73];
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  T joint_side_velocity[13];
+  T joint_down_velocity[13];
+  T arc[13];
+  T d_span_side_velocity[13];
+  T d_joint_side_velocity[13];
+  T d_span_down_velocity[13];
+  T d_joint_down_velocity[13];
+  T d_arc[13];
+  T d_span_down[13];
+  T d_joint_down[13];
+  T d_joint_elastic_energy_sum[13];
+  T d_joint_damping_power_sum[13];
+  T d_torque_power_sum[13];
+  T joint_down[13];
+  T d_kinetic_energy_sum[14];
+  T d_gravity_energy_sum[14];
+  {
+    joint_down[0] = T(0);
+  }
+  {
+    const T span_side_velocity = length[1] * theta_dot[1] * cosine[1];
+    const T span_down = length[1] * cosine[1];
+    const T span_down_velocity = -length[1] * theta_dot[1] * sine[1];
+    joint_side_velocity[1] = span_side_velocity;
+    joint_down_velocity[1] = span_down_velocity;
+    const T joint_angle = theta[1];
+    const T joint_rate = theta_dot[1];
+    d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
+        + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
+    d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
+        + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+    const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[1];
+    const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[1];
+    d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+    const T d_centre_down = ratio<T>(1, 2) * d_span_down[1];
+    d_joint_elastic_energy_sum[1] = joint_angle * (stiffness[1] * d_theta[1]
+        + ratio<T>(1, 2) * joint_angle * d_stiffness[1]);
+    d_joint_damping_power_sum[1] = joint_rate * (T(2) * damping[1] * d_theta_dot[1]
+        + joint_rate * d_damping[1]);
+    d_torque_power_sum[1] = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
+    joint_down[1] = joint_down[0] + span_down;
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity;
+    const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down;
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity;
+    d_kinetic_energy_sum[1] = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity
+        * centre_side_velocity + centre_down_velocity * centre_down_velocity)
+        + theta_dot[1] * (inertia[1] * d_theta_dot[1]
+        + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
+        + mass[1] * (centre_side_velocity * d_centre_side_velocity
+        + centre_down_velocity * d_centre_down_velocity);
+    d_gravity_energy_sum[1] = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1] - centre_down)
+        + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down)
+        + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down));
+  }
+  {
+    const T span_side_velocity = length[2] * theta_dot[2] * cosine[2];
+    const T span_down = length[2] * cosine[2];
+    const T span_down_velocity = -length[2] * theta_dot[2] * sine[2];
+    joint_side_velocity[2] = span_side_velocity + joint_side_velocity[1];
+    joint_down_velocity[2] = span_down_velocity + joint_down_velocity[1];
+    const T joint_angle = theta[2] - theta[1];
+    const T joint_rate = theta_dot[2] - theta_dot[1];
+    arc[2] = length[1] + length[2];
+    const T d_joint_angle = d_theta[2] - d_theta[1];
+    const T d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
+    d_span_side_velocity[2] = theta_dot[2] * cosine[2] * d_length[2]
+        + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
+    d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
+    d_span_down_velocity[2] = -(theta_dot[2] * sine[2] * d_length[2]
+        + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
+    d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
+    const T d_centre_side_velocity = d_span_side_velocity[1]
+        + ratio<T>(1, 2) * d_span_side_velocity[2];
+    const T d_centre_down_velocity = d_span_down_velocity[1]
+        + ratio<T>(1, 2) * d_span_down_velocity[2];
+    d_arc[2] = d_length[1] + d_length[2];
+    d_span_down[2] = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+    d_joint_down[2] = d_span_down[1] + d_span_down[2];
+    const T d_centre_down = d_span_down[1] + ratio<T>(1, 2) * d_span_down[2];
+    d_joint_elastic_energy_sum[2] = d_joint_elastic_energy_sum[1]
+        + joint_angle * (stiffness[2] * d_joint_angle
+        + ratio<T>(1, 2) * joint_angle * d_stiffness[2]);
+    d_joint_damping_power_sum[2] = d_joint_damping_power_sum[1]
+        + joint_rate * (T(2) * damping[2] * d_joint_rate + joint_rate * d_damping[2]);
+    d_torque_power_sum[2] = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
+        + d_torque_power_sum[1];
+    joint_down[2] = joint_down[1] + span_down;
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[1];
+    const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down;
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[1];
+    d_kinetic_energy_sum[2] = d_kinetic_energy_sum[1]
+        + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity * centre_side_velocity
+        + centre_down_velocity * centre_down_velocity)
+        + theta_dot[2] * (inertia[2] * d_theta_dot[2]
+        + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
+        + mass[2] * (centre_side_velocity * d_centre_side_velocity
+        + centre_down_velocity * d_centre_down_velocity);
+    d_gravity_energy_sum[2] = d_gravity_energy_sum[1] + gravity * d_mass[2] * (length[1]
+        + ratio<T>(1, 2) * length[2] - centre_down) + mass[2] * (d_gravity * (length[1]
+        + ratio<T>(1, 2) * length[2] - centre_down) + gravity * (d_length[1]
+        + ratio<T>(1, 2) * d_length[2] - d_centre_down));
+  }
+  for (int i = 3; i <= 12; ++i) {
+    const T span_side_velocity = length[i] * theta_dot[i] * cosine[i];
+    const T span_down = length[i] * cosine[i];
+    const T span_down_velocity = -length[i] * theta_dot[i] * sine[i];
+    joint_side_velocity[i] = span_side_velocity + joint_side_velocity[i - 1];
+    joint_down_velocity[i] = span_down_velocity + joint_down_velocity[i - 1];
+    const T joint_angle = theta[i] - theta[i - 1];
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    arc[i] = length[i] + arc[i - 1];
+    const T d_joint_angle = d_theta[i] - d_theta[i - 1];
+    const T d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
+    d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
+        + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
+    d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
+    d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
+        + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
+    d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
+    const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[i]
+        + d_joint_side_velocity[i - 1];
+    const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[i]
+        + d_joint_down_velocity[i - 1];
+    d_arc[i] = d_length[i] + d_arc[i - 1];
+    d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
+    d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
+    const T d_centre_down = ratio<T>(1, 2) * d_span_down[i] + d_joint_down[i - 1];
+    d_joint_elastic_energy_sum[i] = d_joint_elastic_energy_sum[i - 1]
+        + joint_angle * (stiffness[i] * d_joint_angle
+        + ratio<T>(1, 2) * joint_angle * d_stiffness[i]);
+    d_joint_damping_power_sum[i] = d_joint_damping_power_sum[i - 1]
+        + joint_rate * (T(2) * damping[i] * d_joint_rate + joint_rate * d_damping[i]);
+    d_torque_power_sum[i] = torque[i] * d_theta_dot[i] + theta_dot[i] * d_torque[i]
+        + d_torque_power_sum[i - 1];
+    joint_down[i] = joint_down[i - 1] + span_down;
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[i - 1];
+    const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down;
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[i - 1];
+    d_kinetic_energy_sum[i] = d_kinetic_energy_sum[i - 1]
+        + ratio<T>(1, 2) * d_mass[i] * (centre_side_velocity * centre_side_velocity
+        + centre_down_velocity * centre_down_velocity)
+        + theta_dot[i] * (inertia[i] * d_theta_dot[i]
+        + ratio<T>(1, 2) * theta_dot[i] * d_inertia[i])
+        + mass[i] * (centre_side_velocity * d_centre_side_velocity
+        + centre_down_velocity * d_centre_down_velocity);
+    d_gravity_energy_sum[i] = d_gravity_energy_sum[i - 1]
+        + gravity * d_mass[i] * (ratio<T>(1, 2) * length[i] - centre_down + arc[i - 1])
+        + mass[i] * (d_gravity * (ratio<T>(1, 2) * length[i] - centre_down + arc[i - 1])
+        + gravity * (ratio<T>(1, 2) * d_length[i] + d_arc[i - 1] - d_centre_down));
+  }
+  {
+    d_kinetic_energy_sum[13] = d_kinetic_energy_sum[12]
+        + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity[12] * joint_side_velocity[12]
+        + joint_down_velocity[12] * joint_down_velocity[12])
+        + load_mass * (joint_side_velocity[12] * d_joint_side_velocity[12]
+        + joint_down_velocity[12] * d_joint_down_velocity[12]);
+    d_gravity_energy_sum[13] = d_gravity_energy_sum[12] + gravity * d_load_mass * (arc[12]
+        - joint_down[12]) + load_mass * (d_gravity * (arc[12] - joint_down[12])
+        + gravity * (d_arc[12] - d_joint_down[12]));
+  }
+  de[0] = d_kinetic_energy_sum[13];
+  de[1] = d_gravity_energy_sum[13];
+  de[2] = d_joint_elastic_energy_sum[12];
+  de[3] = d_joint_damping_power_sum[12];
+  de[4] = d_torque_power_sum[12];
+}
+
 /// Support (0), far end of each link (1..), load (last): side and down, m.
 /// 24 additions, 24 multiplications, 0 divisions, 0 functions
 template <class T>
@@ -1194,27 +1387,27 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  T d_span_side[13];
   T d_span_down[13];
-  T d_joint_side[13];
   T d_joint_down[13];
+  T d_span_side[13];
+  T d_joint_side[13];
   dside[0] = T(0);
   ddown[0] = T(0);
-  d_span_side[1] = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
   d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  d_span_side[1] = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
   dside[1] = d_span_side[1];
   ddown[1] = d_span_down[1];
-  d_span_side[2] = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
   d_span_down[2] = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  d_joint_side[2] = d_span_side[1] + d_span_side[2];
   d_joint_down[2] = d_span_down[1] + d_span_down[2];
+  d_span_side[2] = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
+  d_joint_side[2] = d_span_side[1] + d_span_side[2];
   dside[2] = d_joint_side[2];
   ddown[2] = d_joint_down[2];
   for (int i = 3; i <= 12; ++i) {
-    d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
     d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
-    d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
     d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
+    d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
+    d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
     dside[i] = d_joint_side[i];
     ddown[i] = d_joint_down[i];
   }
@@ -1256,6 +1449,52 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
     side_rate[13] = joint_side_velocity[12];
     down_rate[13] = joint_down_velocity[12];
   }
+}
+
+/// Derivative of the velocities along `along`.
+/// 70 additions, 144 multiplications, 0 divisions, 0 functions
+template <class T>
+void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,
+                        T* ddown_rate) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> theta_dot(at.v);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  T d_span_side_velocity[13];
+  T d_joint_side_velocity[13];
+  T d_span_down_velocity[13];
+  T d_joint_down_velocity[13];
+  dside_rate[0] = T(0);
+  ddown_rate[0] = T(0);
+  d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
+      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
+  d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
+      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+  dside_rate[1] = d_span_side_velocity[1];
+  ddown_rate[1] = d_span_down_velocity[1];
+  d_span_side_velocity[2] = theta_dot[2] * cosine[2] * d_length[2]
+      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
+  d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
+  d_span_down_velocity[2] = -(theta_dot[2] * sine[2] * d_length[2]
+      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
+  d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
+  dside_rate[2] = d_joint_side_velocity[2];
+  ddown_rate[2] = d_joint_down_velocity[2];
+  for (int i = 3; i <= 12; ++i) {
+    d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
+        + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
+    d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
+    d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
+        + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
+    d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
+    dside_rate[i] = d_joint_side_velocity[i];
+    ddown_rate[i] = d_joint_down_velocity[i];
+  }
+  dside_rate[13] = d_joint_side_velocity[12];
+  ddown_rate[13] = d_joint_down_velocity[12];
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
@@ -1342,6 +1581,178 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
     cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
     tension[i - 1] = -(sine[i] * cut_force_side[i] + cosine[i] * cut_force_down[i]);
+  }
+}
+
+/// Derivative of moments, tensions and curvatures along `along`.
+/// 517 additions, 653 multiplications, 24 divisions, 0 functions
+template <class T>
+void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
+                             T* dtension, T* dcurvature) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 12);
+  const FromOne<T> stiffness(at.p + 36);
+  const FromOne<T> damping(at.p + 48);
+  const T load_mass = at.p[72];
+  const T gravity = at.p[73];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_mass(along.p + 12);
+  const FromOne<T> d_stiffness(along.p + 36);
+  const FromOne<T> d_damping(along.p + 48);
+  const T d_load_mass = along.p[72];
+  const T d_gravity = along.p[73];
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  const FromOne<T> d_theta_ddot(along.a);
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  T d_span_down_acceleration[13];
+  T d_joint_down_acceleration[13];
+  T d_span_side_acceleration[13];
+  T d_joint_side_acceleration[13];
+  T centre_down_force[13];
+  T centre_side_force[13];
+  T d_centre_down_force[13];
+  T d_centre_side_force[13];
+  {
+    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]);
+    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+        + theta_ddot[1] * sine[1]);
+    joint_side_acceleration[1] = span_side_acceleration;
+    joint_down_acceleration[1] = span_down_acceleration;
+    const T joint_angle = theta[1];
+    const T joint_rate = theta_dot[1];
+    const T d_joint_moment = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+        + joint_angle * d_stiffness[1] + joint_rate * d_damping[1];
+    d_span_down_acceleration[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+        * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1])
+        - (theta_ddot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_ddot[1]))
+        - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1] + theta_ddot[1] * sine[1]);
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
+    d_span_side_acceleration[1] = d_length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
+        - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
+        + theta_dot[1] * cosine[1] * d_theta[1]));
+    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
+    dmoment[0] = -d_joint_moment;
+    dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+    d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
+        + mass[1] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[1];
+  }
+  {
+    const T span_side_acceleration = length[2] * (theta_ddot[2] * cosine[2]
+        - theta_dot[2] * theta_dot[2] * sine[2]);
+    const T span_down_acceleration = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+        + theta_ddot[2] * sine[2]);
+    joint_side_acceleration[2] = span_side_acceleration + joint_side_acceleration[1];
+    joint_down_acceleration[2] = span_down_acceleration + joint_down_acceleration[1];
+    const T joint_angle = theta[2] - theta[1];
+    const T joint_rate = theta_dot[2] - theta_dot[1];
+    const T arc = length[1] + length[2];
+    const T d_joint_angle = d_theta[2] - d_theta[1];
+    const T d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
+    const T d_joint_moment = stiffness[2] * d_joint_angle + damping[2] * d_joint_rate
+        + joint_angle * d_stiffness[2] + joint_rate * d_damping[2];
+    d_span_down_acceleration[2] = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+        * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2])
+        - (theta_ddot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_ddot[2]))
+        - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2] + theta_ddot[2] * sine[2]);
+    d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
+    const T d_centre_down_acceleration = d_span_down_acceleration[1]
+        + ratio<T>(1, 2) * d_span_down_acceleration[2];
+    d_span_side_acceleration[2] = d_length[2] * (theta_ddot[2] * cosine[2]
+        - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
+        - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
+        + theta_dot[2] * cosine[2] * d_theta[2]));
+    d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
+    const T d_centre_side_acceleration = d_span_side_acceleration[1]
+        + ratio<T>(1, 2) * d_span_side_acceleration[2];
+    const T d_arc = d_length[1] + d_length[2];
+    dmoment[1] = -d_joint_moment;
+    dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc * (theta[1] - theta[2]) / arc) / arc;
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+        + joint_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+        + joint_down_acceleration[1];
+    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
+    centre_side_force[2] = mass[2] * centre_side_acceleration;
+    d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
+        + mass[2] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[2];
+  }
+  for (int i = 3; i <= 12; ++i) {
+    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
+        - theta_dot[i] * theta_dot[i] * sine[i]);
+    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+        + theta_ddot[i] * sine[i]);
+    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
+    const T joint_angle = theta[i] - theta[i - 1];
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    const T curvature_divisor = length[i - 1] + length[i];
+    const T d_joint_angle = d_theta[i] - d_theta[i - 1];
+    const T d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
+    const T d_joint_moment = stiffness[i] * d_joint_angle + damping[i] * d_joint_rate
+        + joint_angle * d_stiffness[i] + joint_rate * d_damping[i];
+    d_span_down_acceleration[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
+        * d_theta[i] - T(2) * cosine[i] * d_theta_dot[i])
+        - (theta_ddot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_ddot[i]))
+        - d_length[i] * (theta_dot[i] * theta_dot[i] * cosine[i] + theta_ddot[i] * sine[i]);
+    d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
+        + d_joint_down_acceleration[i - 1];
+    d_span_side_acceleration[i] = d_length[i] * (theta_ddot[i] * cosine[i]
+        - theta_dot[i] * theta_dot[i] * sine[i]) + length[i] * (cosine[i] * d_theta_ddot[i]
+        - theta_ddot[i] * sine[i] * d_theta[i] - theta_dot[i] * (T(2) * sine[i] * d_theta_dot[i]
+        + theta_dot[i] * cosine[i] * d_theta[i]));
+    d_joint_side_acceleration[i] = d_span_side_acceleration[i] + d_joint_side_acceleration[i - 1];
+    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
+        + d_joint_side_acceleration[i - 1];
+    const T d_curvature_divisor = d_length[i - 1] + d_length[i];
+    dmoment[i - 1] = -d_joint_moment;
+    dcurvature[i - 1] = T(2) * (d_theta[i] - d_theta[i - 1] + d_curvature_divisor * (theta[i - 1]
+        - theta[i]) / curvature_divisor) / curvature_divisor;
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+        + joint_side_acceleration[i - 1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+        + joint_down_acceleration[i - 1];
+    centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
+    centre_side_force[i] = mass[i] * centre_side_acceleration;
+    d_centre_down_force[i] = d_mass[i] * (centre_down_acceleration - gravity)
+        + mass[i] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[i] = mass[i] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[i];
+  }
+  T cut_force_down[14];
+  T cut_force_side[14];
+  T d_cut_force_down[14];
+  T d_cut_force_side[14];
+  cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
+  cut_force_side[13] = load_mass * joint_side_acceleration[12];
+  d_cut_force_down[13] = d_load_mass * (joint_down_acceleration[12] - gravity)
+      + load_mass * (d_joint_down_acceleration[12] - d_gravity);
+  d_cut_force_side[13] = load_mass * d_joint_side_acceleration[12]
+      + joint_side_acceleration[12] * d_load_mass;
+  for (int i = 12; i >= 1; --i) {
+    cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
+    cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+    d_cut_force_down[i] = d_cut_force_down[i + 1] + d_centre_down_force[i];
+    d_cut_force_side[i] = d_cut_force_side[i + 1] + d_centre_side_force[i];
+    dtension[i - 1] = sine[i] * (cut_force_down[i] * d_theta[i] - d_cut_force_side[i])
+        - cosine[i] * (cut_force_side[i] * d_theta[i] + d_cut_force_down[i]);
   }
 }
 

@@ -98,6 +98,9 @@ CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
   reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
 }
 CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
+CATENA_EACH_PROCESSOR void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {
+  energy_tangent(point(at), point(along), de);
+}
 CATENA_EACH_PROCESSOR void c_positions(const catena_point* at, double* side, double* down) {
   positions(point(at), side, down);
 }
@@ -108,9 +111,17 @@ CATENA_EACH_PROCESSOR void c_positions_tangent(const catena_point* at, const cat
 CATENA_EACH_PROCESSOR void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {
   velocities(point(at), side_rate, down_rate);
 }
+CATENA_EACH_PROCESSOR void c_velocities_tangent(const catena_point* at, const catena_point* along,
+                          double* dside_rate, double* ddown_rate) {
+  velocities_tangent(point(at), point(along), dside_rate, ddown_rate);
+}
 CATENA_EACH_PROCESSOR void c_internal_forces(const catena_point* at, double* moment, double* tension,
                        double* curvature) {
   internal_forces(point(at), moment, tension, curvature);
+}
+CATENA_EACH_PROCESSOR void c_internal_forces_tangent(const catena_point* at, const catena_point* along,
+                               double* dmoment, double* dtension, double* dcurvature) {
+  internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);
 }
 }  // namespace
 
@@ -156,6 +167,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      c_velocities_tangent,
+      c_energy_tangent,
+      c_internal_forces_tangent,
   };
   return model;
 }

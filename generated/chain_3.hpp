@@ -980,6 +980,173 @@ void energy(const Point<T>& at, T* e) {
   e[4] = torque_power_sum_3;
 }
 
+/// Derivative of the energies and powers along `along`.
+/// 118 additions, 177 multiplications, 0 divisions, 0 functions
+template <class T>
+void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 3);
+  const FromOne<T> inertia(at.p + 6);
+  const FromOne<T> stiffness(at.p + 9);
+  const FromOne<T> damping(at.p + 12);
+  const FromOne<T> torque(at.p + 15);
+  const T load_mass = at.p[18];
+  const T gravity = at.p[19];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_mass(along.p + 3);
+  const FromOne<T> d_inertia(along.p + 6);
+  const FromOne<T> d_stiffness(along.p + 9);
+  const FromOne<T> d_damping(along.p + 12);
+  const FromOne<T> d_torque(along.p + 15);
+  const T d_load_mass = along.p[18];
+  const T d_gravity = along.p[19];
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  const T joint_down_0 = T(0);
+  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
+  const T span_down_1 = length[1] * cosine[1];
+  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
+  const T centre_side_velocity_1 = ratio<T>(1, 2) * span_side_velocity_1;
+  const T centre_down_1 = joint_down_0 + ratio<T>(1, 2) * span_down_1;
+  const T centre_down_velocity_1 = ratio<T>(1, 2) * span_down_velocity_1;
+  const T joint_side_velocity_1 = span_side_velocity_1;
+  const T joint_down_1 = joint_down_0 + span_down_1;
+  const T joint_down_velocity_1 = span_down_velocity_1;
+  const T joint_angle_1 = theta[1];
+  const T joint_rate_1 = theta_dot[1];
+  const T arc_2 = length[1] + length[2];
+  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
+  const T span_down_2 = length[2] * cosine[2];
+  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
+  const T centre_side_velocity_2 = ratio<T>(1, 2) * span_side_velocity_2 + joint_side_velocity_1;
+  const T centre_down_2 = joint_down_1 + ratio<T>(1, 2) * span_down_2;
+  const T centre_down_velocity_2 = ratio<T>(1, 2) * span_down_velocity_2 + joint_down_velocity_1;
+  const T joint_side_velocity_2 = span_side_velocity_2 + joint_side_velocity_1;
+  const T joint_down_2 = joint_down_1 + span_down_2;
+  const T joint_down_velocity_2 = span_down_velocity_2 + joint_down_velocity_1;
+  const T joint_angle_2 = theta[2] - theta[1];
+  const T joint_rate_2 = theta_dot[2] - theta_dot[1];
+  const T arc_3 = length[3] + arc_2;
+  const T span_side_velocity_3 = length[3] * theta_dot[3] * cosine[3];
+  const T span_down_3 = length[3] * cosine[3];
+  const T span_down_velocity_3 = -length[3] * theta_dot[3] * sine[3];
+  const T centre_side_velocity_3 = ratio<T>(1, 2) * span_side_velocity_3 + joint_side_velocity_2;
+  const T centre_down_3 = joint_down_2 + ratio<T>(1, 2) * span_down_3;
+  const T centre_down_velocity_3 = ratio<T>(1, 2) * span_down_velocity_3 + joint_down_velocity_2;
+  const T joint_side_velocity_3 = span_side_velocity_3 + joint_side_velocity_2;
+  const T joint_down_3 = joint_down_2 + span_down_3;
+  const T joint_down_velocity_3 = span_down_velocity_3 + joint_down_velocity_2;
+  const T joint_angle_3 = theta[3] - theta[2];
+  const T joint_rate_3 = theta_dot[3] - theta_dot[2];
+  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
+  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
+  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+      + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
+  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
+  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+      + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
+  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  const T d_centre_side_velocity_3 = ratio<T>(1, 2) * d_span_side_velocity_3
+      + d_joint_side_velocity_2;
+  const T d_centre_down_velocity_3 = ratio<T>(1, 2) * d_span_down_velocity_3
+      + d_joint_down_velocity_2;
+  const T d_centre_side_velocity_2 = d_span_side_velocity_1
+      + ratio<T>(1, 2) * d_span_side_velocity_2;
+  const T d_centre_down_velocity_2 = d_span_down_velocity_1
+      + ratio<T>(1, 2) * d_span_down_velocity_2;
+  const T d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
+  const T d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
+  const T d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
+      * centre_side_velocity_1 + centre_down_velocity_1 * centre_down_velocity_1)
+      + theta_dot[1] * (inertia[1] * d_theta_dot[1]
+      + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
+      + mass[1] * (centre_side_velocity_1 * d_centre_side_velocity_1
+      + centre_down_velocity_1 * d_centre_down_velocity_1);
+  const T d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
+      + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity_2 * centre_side_velocity_2
+      + centre_down_velocity_2 * centre_down_velocity_2)
+      + theta_dot[2] * (inertia[2] * d_theta_dot[2]
+      + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
+      + mass[2] * (centre_side_velocity_2 * d_centre_side_velocity_2
+      + centre_down_velocity_2 * d_centre_down_velocity_2);
+  const T d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
+      + ratio<T>(1, 2) * d_mass[3] * (centre_side_velocity_3 * centre_side_velocity_3
+      + centre_down_velocity_3 * centre_down_velocity_3)
+      + theta_dot[3] * (inertia[3] * d_theta_dot[3]
+      + ratio<T>(1, 2) * theta_dot[3] * d_inertia[3])
+      + mass[3] * (centre_side_velocity_3 * d_centre_side_velocity_3
+      + centre_down_velocity_3 * d_centre_down_velocity_3);
+  const T d_kinetic_energy_sum_4 = d_kinetic_energy_sum_3
+      + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity_3 * joint_side_velocity_3
+      + joint_down_velocity_3 * joint_down_velocity_3)
+      + load_mass * (joint_side_velocity_3 * d_joint_side_velocity_3
+      + joint_down_velocity_3 * d_joint_down_velocity_3);
+  const T d_arc_2 = d_length[1] + d_length[2];
+  const T d_arc_3 = d_length[3] + d_arc_2;
+  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
+  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
+  const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const T d_centre_down_3 = ratio<T>(1, 2) * d_span_down_3 + d_joint_down_2;
+  const T d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
+  const T d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
+  const T d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
+      - centre_down_1) + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down_1)
+      + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down_1));
+  const T d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
+      + ratio<T>(1, 2) * length[2] - centre_down_2) + mass[2] * (d_gravity * (length[1]
+      + ratio<T>(1, 2) * length[2] - centre_down_2) + gravity * (d_length[1]
+      + ratio<T>(1, 2) * d_length[2] - d_centre_down_2));
+  const T d_gravity_energy_sum_3 = d_gravity_energy_sum_2
+      + gravity * d_mass[3] * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
+      + mass[3] * (d_gravity * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
+      + gravity * (ratio<T>(1, 2) * d_length[3] + d_arc_2 - d_centre_down_3));
+  const T d_gravity_energy_sum_4 = d_gravity_energy_sum_3 + gravity * d_load_mass * (arc_3
+      - joint_down_3) + load_mass * (d_gravity * (arc_3 - joint_down_3) + gravity * (d_arc_3
+      - d_joint_down_3));
+  const T d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
+      + ratio<T>(1, 2) * joint_angle_1 * d_stiffness[1]);
+  const T d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
+      + joint_angle_2 * (stiffness[2] * d_joint_angle_2
+      + ratio<T>(1, 2) * joint_angle_2 * d_stiffness[2]);
+  const T d_joint_elastic_energy_sum_3 = d_joint_elastic_energy_sum_2
+      + joint_angle_3 * (stiffness[3] * d_joint_angle_3
+      + ratio<T>(1, 2) * joint_angle_3 * d_stiffness[3]);
+  const T d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
+      + joint_rate_1 * d_damping[1]);
+  const T d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
+      + joint_rate_2 * (T(2) * damping[2] * d_joint_rate_2 + joint_rate_2 * d_damping[2]);
+  const T d_joint_damping_power_sum_3 = d_joint_damping_power_sum_2
+      + joint_rate_3 * (T(2) * damping[3] * d_joint_rate_3 + joint_rate_3 * d_damping[3]);
+  const T d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
+  const T d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
+      + d_torque_power_sum_1;
+  const T d_torque_power_sum_3 = torque[3] * d_theta_dot[3] + theta_dot[3] * d_torque[3]
+      + d_torque_power_sum_2;
+  de[0] = d_kinetic_energy_sum_4;
+  de[1] = d_gravity_energy_sum_4;
+  de[2] = d_joint_elastic_energy_sum_3;
+  de[3] = d_joint_damping_power_sum_3;
+  de[4] = d_torque_power_sum_3;
+}
+
 /// Support (0), far end of each link (1..), load (last): side and down, m.
 /// 6 additions, 6 multiplications, 0 divisions, 0 functions
 template <class T>
@@ -1022,16 +1189,16 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
-  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
   const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
-  const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
   const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
   const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
-  const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
   const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
   const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
+  const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
+  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
+  const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
   dside[0] = T(0);
   ddown[0] = T(0);
   dside[1] = d_span_side_1;
@@ -1074,6 +1241,46 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   down_rate[3] = joint_down_velocity_3;
   side_rate[4] = joint_side_velocity_3;
   down_rate[4] = joint_down_velocity_3;
+}
+
+/// Derivative of the velocities along `along`.
+/// 16 additions, 36 multiplications, 0 divisions, 0 functions
+template <class T>
+void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,
+                        T* ddown_rate) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> theta_dot(at.v);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
+  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
+  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+      + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
+  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
+  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+      + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
+  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  dside_rate[0] = T(0);
+  ddown_rate[0] = T(0);
+  dside_rate[1] = d_span_side_velocity_1;
+  ddown_rate[1] = d_span_down_velocity_1;
+  dside_rate[2] = d_joint_side_velocity_2;
+  ddown_rate[2] = d_joint_down_velocity_2;
+  dside_rate[3] = d_joint_side_velocity_3;
+  ddown_rate[3] = d_joint_down_velocity_3;
+  dside_rate[4] = d_joint_side_velocity_3;
+  ddown_rate[4] = d_joint_down_velocity_3;
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
@@ -1153,6 +1360,169 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   curvature[0] = theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
   curvature[2] = T(2) * (theta[3] - theta[2]) / curvature_divisor_3;
+}
+
+/// Derivative of moments, tensions and curvatures along `along`.
+/// 121 additions, 167 multiplications, 6 divisions, 0 functions
+template <class T>
+void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
+                             T* dtension, T* dcurvature) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 3);
+  const FromOne<T> stiffness(at.p + 9);
+  const FromOne<T> damping(at.p + 12);
+  const T load_mass = at.p[18];
+  const T gravity = at.p[19];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[4], cosine[4];
+  sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> d_length(along.p);
+  const FromOne<T> d_mass(along.p + 3);
+  const FromOne<T> d_stiffness(along.p + 9);
+  const FromOne<T> d_damping(along.p + 12);
+  const T d_load_mass = along.p[18];
+  const T d_gravity = along.p[19];
+  const FromOne<T> d_theta(along.q);
+  const FromOne<T> d_theta_dot(along.v);
+  const FromOne<T> d_theta_ddot(along.a);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
+  const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
+  const T joint_side_acceleration_1 = span_side_acceleration_1;
+  const T joint_down_acceleration_1 = span_down_acceleration_1;
+  const T joint_angle_1 = theta[1];
+  const T joint_rate_1 = theta_dot[1];
+  const T arc_2 = length[1] + length[2];
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
+  const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
+      + joint_side_acceleration_1;
+  const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
+      + joint_down_acceleration_1;
+  const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
+  const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
+  const T joint_angle_2 = theta[2] - theta[1];
+  const T joint_rate_2 = theta_dot[2] - theta_dot[1];
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
+  const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
+      + joint_side_acceleration_2;
+  const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
+      + joint_down_acceleration_2;
+  const T joint_side_acceleration_3 = span_side_acceleration_3 + joint_side_acceleration_2;
+  const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
+  const T joint_angle_3 = theta[3] - theta[2];
+  const T joint_rate_3 = theta_dot[3] - theta_dot[2];
+  const T cut_force_down_4 = load_mass * (joint_down_acceleration_3 - gravity);
+  const T cut_force_side_4 = load_mass * joint_side_acceleration_3;
+  const T centre_down_force_3 = mass[3] * (centre_down_acceleration_3 - gravity);
+  const T centre_side_force_3 = mass[3] * centre_side_acceleration_3;
+  const T cut_force_down_3 = cut_force_down_4 + centre_down_force_3;
+  const T cut_force_side_3 = cut_force_side_4 + centre_side_force_3;
+  const T centre_down_force_2 = mass[2] * (centre_down_acceleration_2 - gravity);
+  const T centre_side_force_2 = mass[2] * centre_side_acceleration_2;
+  const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
+  const T cut_force_side_2 = cut_force_side_3 + centre_side_force_2;
+  const T centre_down_force_1 = mass[1] * (centre_down_acceleration_1 - gravity);
+  const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
+  const T cut_force_down_1 = cut_force_down_2 + centre_down_force_1;
+  const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
+  const T curvature_divisor_3 = length[2] + length[3];
+  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const T d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
+      + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
+  const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+      + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
+  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+      * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
+      + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+      * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
+      + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
+  const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
+  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+      * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
+      + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
+  const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
+  const T d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
+      + load_mass * (d_joint_down_acceleration_3 - d_gravity);
+  const T d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
+      + d_joint_down_acceleration_2;
+  const T d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
+      + mass[3] * (d_centre_down_acceleration_3 - d_gravity);
+  const T d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
+  const T d_centre_down_acceleration_2 = d_span_down_acceleration_1
+      + ratio<T>(1, 2) * d_span_down_acceleration_2;
+  const T d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
+      + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
+  const T d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
+  const T d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
+  const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
+      + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
+  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
+      - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
+      + theta_dot[1] * cosine[1] * d_theta[1]));
+  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
+      - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
+      + theta_dot[2] * cosine[2] * d_theta[2]));
+  const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
+  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
+      - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
+      + theta_dot[3] * cosine[3] * d_theta[3]));
+  const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
+  const T d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
+      + joint_side_acceleration_3 * d_load_mass;
+  const T d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
+      + d_joint_side_acceleration_2;
+  const T d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
+      + centre_side_acceleration_3 * d_mass[3];
+  const T d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
+  const T d_centre_side_acceleration_2 = d_span_side_acceleration_1
+      + ratio<T>(1, 2) * d_span_side_acceleration_2;
+  const T d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
+      + centre_side_acceleration_2 * d_mass[2];
+  const T d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
+  const T d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
+  const T d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
+      + centre_side_acceleration_1 * d_mass[1];
+  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const T d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
+      + joint_angle_3 * d_stiffness[3] + joint_rate_3 * d_damping[3];
+  const T d_arc_2 = d_length[1] + d_length[2];
+  const T d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
+  const T d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
+  const T d_curvature_divisor_3 = d_length[2] + d_length[3];
+  dmoment[0] = -d_joint_moment_1;
+  dmoment[1] = -d_joint_moment_2;
+  dmoment[2] = -d_joint_moment_3;
+  dtension[0] = sine[1] * (cut_force_down_1 * d_theta[1] - d_cut_force_side_1)
+      - cosine[1] * (cut_force_side_1 * d_theta[1] + d_cut_force_down_1);
+  dtension[1] = sine[2] * (cut_force_down_2 * d_theta[2] - d_cut_force_side_2)
+      - cosine[2] * (cut_force_side_2 * d_theta[2] + d_cut_force_down_2);
+  dtension[2] = sine[3] * (cut_force_down_3 * d_theta[3] - d_cut_force_side_3)
+      - cosine[3] * (cut_force_side_3 * d_theta[3] + d_cut_force_down_3);
+  dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+  dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc_2 * (theta[1]
+      - theta[2]) / arc_2) / arc_2;
+  dcurvature[2] = T(2) * (d_theta[3] - d_theta[2] + d_curvature_divisor_3 * (theta[2]
+      - theta[3]) / curvature_divisor_3) / curvature_divisor_3;
 }
 
 }  // namespace catena::chain_3

@@ -228,11 +228,13 @@ class Measurement {
   void positions() {
     const catena_point here = point_.at(), along = direction_.at();
     const std::size_t points = at(table_.links + 2);
-    Values side(points), down(points), dside(points), ddown(points), vside(points), vdown(points);
+    Values side(points), down(points), dside(points), ddown(points), vside(points), vdown(points),
+        dvside(points), dvdown(points);
     table_.positions(&here, side.data(), down.data());
     table_.positions_tangent(&here, &along, dside.data(), ddown.data());
     table_.velocities(&here, vside.data(), vdown.data());
-    double size = 0, speed = 0, change = 0;
+    table_.velocities_tangent(&here, &along, dvside.data(), dvdown.data());
+    double size = 0, speed = 0, change = 0, speed_change = 0;
     for (std::size_t i = 0; i < points; ++i) {
       const std::size_t above = i == 0 ? 0 : i - 1;
       const auto jump = [&](const Values& list) {
@@ -241,6 +243,7 @@ class Measurement {
       size += jump(side) + jump(down);
       speed += jump(vside) + jump(vdown);
       change += jump(dside) + jump(ddown);
+      speed_change += jump(dvside) + jump(dvdown);
     }
     for (std::size_t i = 0; i < points; ++i) {
       note("positions", difference(side[i], here_->of(chain_.side()[i])), size);
@@ -249,26 +252,33 @@ class Measurement {
       note("positions_tangent", difference(ddown[i], slope(chain_.down()[i])), change + size);
       note("velocities", difference(vside[i], here_->of(velocity_[i])), speed);
       note("velocities", difference(vdown[i], here_->of(velocity_[points + i])), speed);
+      note("velocities_tangent", difference(dvside[i], slope(velocity_[i])), speed_change + speed);
+      note("velocities_tangent", difference(dvdown[i], slope(velocity_[points + i])),
+           speed_change + speed);
     }
   }
 
   void energy() {
-    const catena_point here = point_.at();
-    Values energy(at(table_.energies));
+    const catena_point here = point_.at(), along = direction_.at();
+    Values energy(at(table_.energies)), tangent(energy);
     table_.energy(&here, energy.data());
+    table_.energy_tangent(&here, &along, tangent.data());
     std::vector<numeric> exact;
     numeric balance = 0;
     double powers = 0;  // the sum of the sizes of all
     for (std::size_t k = 0; k < energy.size(); ++k) {
       const EnergyItem& item = chain_.energies()[k];
-      numeric sum = 0;
-      double size = 0;
+      numeric sum = 0, change = 0;
+      double size = 0, change_size = 0;
       for (const ex& part : item.parts) {
-        const numeric value = here_->of(part);
+        const numeric value = here_->of(part), part_change = slope(part);
         sum = sum + value;
+        change = change + part_change;
         size += std::abs(value.to_double());
+        change_size += std::abs(part_change.to_double());
       }
       exact.push_back(sum);
+      note("energy_tangent", difference(tangent[k], change), change_size + size);
       if (item.kind == EnergyItem::kStored) {
         note("energy", difference(energy[k], sum), size);
       } else {
@@ -295,18 +305,23 @@ class Measurement {
   }
 
   void internal_forces() {
-    const catena_point here = point_.at();
+    const catena_point here = point_.at(), along = direction_.at();
     const std::size_t n = at(table_.links);
-    Values moment(n), tension(n), curvature(n);
+    Values moment(n), tension(n), curvature(n), dmoment(n), dtension(n), dcurvature(n);
     table_.internal_forces(&here, moment.data(), tension.data(), curvature.data());
-    const auto compare = [&](const Values& values, const std::vector<ex>& exact, double size) {
+    table_.internal_forces_tangent(&here, &along, dmoment.data(), dtension.data(),
+                                   dcurvature.data());
+    const auto compare = [&](const Values& values, const Values& changes,
+                             const std::vector<ex>& exact, double size) {
+      const double change_size = largest(changes) + size;
       for (std::size_t i = 0; i < n; ++i) {
         note("internal_forces", difference(values[i], here_->of(exact[i])), size);
+        note("internal_forces_tangent", difference(changes[i], slope(exact[i])), change_size);
       }
     };
-    compare(moment, chain_.moments(), largest(moment));
-    compare(tension, chain_.tensions(), largest(tension) + size_of_terms(here));
-    compare(curvature, chain_.curvatures(), largest(curvature));
+    compare(moment, dmoment, chain_.moments(), largest(moment));
+    compare(tension, dtension, chain_.tensions(), largest(tension) + size_of_terms(here));
+    compare(curvature, dcurvature, chain_.curvatures(), largest(curvature));
   }
 
   void sensor() {

@@ -12,6 +12,7 @@
 //   power                              the sum of the sizes of all powers, v.r included
 //   positions, velocities              the length (speed) summed along the chain
 //   internal_forces                    the largest force, moment and curvature
+//   their tangents                     the same, plus the size of the derivative
 //   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers
 // Derivatives are held against central differences of the 50-digit values, step 1e-18.
 #pragma once

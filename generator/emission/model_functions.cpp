@@ -76,6 +76,15 @@ class Builder {
     return outputs;
   }
 
+  // The derivatives of outputs, each under its name with a "d" before it.
+  std::vector<Output> tangents_of(std::vector<Output> outputs) {
+    for (Output& output : outputs) {
+      output.before = "d" + output.before;
+      output.value = tangent_.of(output.value);
+    }
+    return outputs;
+  }
+
   FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs) {
     return function_body(definitions_, outputs, inputs, layout_, language_);
   }
@@ -174,22 +183,24 @@ class Builder {
     const auto& variables = stiffness ? chain.coordinates() : chain.rates();
     const int n = static_cast<int>(variables.size());
     Definitions& definitions = chain.definitions();
+    std::map<int, int> column;  // number of the variable's symbol -> j
+    for (int j = 0; j < n; ++j) column[definitions.number_of(variables[static_cast<size_t>(j)])] = j;
     std::map<std::pair<int, int>, ex> entries;
     bool fine = n == links_;
     for (int i = 0; fine && i < n; ++i) {
       const ex flat = flattened(definitions, chain.residual()[static_cast<size_t>(i)]);
       for (const int number : definitions.symbols_of(flat)) {
-        for (int j = 0; j < n; ++j) {
-          if (definitions.number_of(variables[static_cast<size_t>(j)]) != number) continue;
-          const ex entry =
-              flat.diff(GiNaC::ex_to<GiNaC::symbol>(variables[static_cast<size_t>(j)])).expand();
-          fine = fine && std::abs(i - j) <= 1;
-          for (const int inner : definitions.symbols_of(entry)) {
-            const std::string& family = definitions[inner].family;
-            fine = fine && (family == "stiffness" || family == "damping");
-          }
-          entries[{i, j}] = entry;
+        const auto found = column.find(number);
+        if (found == column.end()) continue;
+        const int j = found->second;
+        const ex entry =
+            flat.diff(GiNaC::ex_to<GiNaC::symbol>(variables[static_cast<size_t>(j)])).expand();
+        fine = fine && std::abs(i - j) <= 1;
+        for (const int inner : definitions.symbols_of(entry)) {
+          const std::string& family = definitions[inner].family;
+          fine = fine && (family == "stiffness" || family == "damping");
         }
+        entries[{i, j}] = entry;
       }
     }
     for (const auto& [at, entry] : entries) {
@@ -400,6 +411,11 @@ class Builder {
     add("energy", "Energies (J) and powers (W), in the order of the table.",
         "void energy(const Point<T>& at, T* e)", body(outputs, at_),
         "void c_energy(const catena_point* at, double* e) { energy(point(at), e); }\n");
+    add("energy_tangent", "Derivative of the energies and powers along `along`.",
+        "void energy_tangent(const Point<T>& at, const Point<T>& along, T* de)",
+        body(tangents_of(outputs), at_and_along_),
+        "void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {\n"
+        "  energy_tangent(point(at), point(along), de);\n}\n");
   }
 
   std::vector<Output> point_outputs(const std::string& side, const std::string& down,
@@ -413,24 +429,31 @@ class Builder {
   }
 
   void positions() {
+    const std::vector<Output> position =
+        point_outputs("side", "down", [](const ex& e) { return e; });
     add("positions", "Support (0), far end of each link (1..), load (last): side and down, m.",
-        "void positions(const Point<T>& at, T* side, T* down)",
-        body(point_outputs("side", "down", [](const ex& e) { return e; }), at_),
+        "void positions(const Point<T>& at, T* side, T* down)", body(position, at_),
         "void c_positions(const catena_point* at, double* side, double* down) {\n"
         "  positions(point(at), side, down);\n}\n");
     add("positions_tangent", "Derivative of the positions along `along`.",
         "void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown)",
-        body(point_outputs("dside", "ddown", [&](const ex& e) { return tangent_.of(e); }),
-             at_and_along_),
+        body(tangents_of(position), at_and_along_),
         "void c_positions_tangent(const catena_point* at, const catena_point* along,\n"
         "                         double* dside, double* ddown) {\n"
         "  positions_tangent(point(at), point(along), dside, ddown);\n}\n");
+    const std::vector<Output> velocity =
+        point_outputs("side_rate", "down_rate", [&](const ex& e) { return chain_.rate(e); });
     add("velocities", "Velocities of the same points, m/s.",
-        "void velocities(const Point<T>& at, T* side_rate, T* down_rate)",
-        body(point_outputs("side_rate", "down_rate", [&](const ex& e) { return chain_.rate(e); }),
-             at_),
+        "void velocities(const Point<T>& at, T* side_rate, T* down_rate)", body(velocity, at_),
         "void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {\n"
         "  velocities(point(at), side_rate, down_rate);\n}\n");
+    add("velocities_tangent", "Derivative of the velocities along `along`.",
+        "void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,\n"
+        "                        T* ddown_rate)",
+        body(tangents_of(velocity), at_and_along_),
+        "void c_velocities_tangent(const catena_point* at, const catena_point* along,\n"
+        "                          double* dside_rate, double* ddown_rate) {\n"
+        "  velocities_tangent(point(at), point(along), dside_rate, ddown_rate);\n}\n");
   }
 
   void internal_forces() {
@@ -444,6 +467,13 @@ class Builder {
         "void c_internal_forces(const catena_point* at, double* moment, double* tension,\n"
         "                       double* curvature) {\n"
         "  internal_forces(point(at), moment, tension, curvature);\n}\n");
+    add("internal_forces_tangent", "Derivative of moments, tensions and curvatures along `along`.",
+        "void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,\n"
+        "                             T* dtension, T* dcurvature)",
+        body(tangents_of(outputs), at_and_along_),
+        "void c_internal_forces_tangent(const catena_point* at, const catena_point* along,\n"
+        "                               double* dmoment, double* dtension, double* dcurvature) {\n"
+        "  internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);\n}\n");
   }
 
   void sensor() {
@@ -545,7 +575,10 @@ std::vector<std::string> ModelFunctions::table_entries() const {
           maybe(observes, "c_observe"),
           maybe(observes, "c_observe_tangent"),
           maybe(observes, "c_clock"),
-          maybe(observes, "c_clock_tangent")};
+          maybe(observes, "c_clock_tangent"),
+          "c_velocities_tangent",
+          "c_energy_tangent",
+          "c_internal_forces_tangent"};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -71,6 +71,10 @@ TEST_CASE("the C of a model computes what its C++ does") {
     c->residual_tangent(&at, &along, x.data());
     cpp->residual_tangent(&at, &along, y.data());
     compare(x, y, roundings);
+    std::vector<double> e(static_cast<size_t>(c->energies)), f(e);
+    c->energy_tangent(&at, &along, e.data());
+    cpp->energy_tangent(&at, &along, f.data());
+    compare(e, f, roundings);
     c->mass_matrix(&at, M.data());
     cpp->mass_matrix(&at, N.data());
     compare(M, N, roundings);
