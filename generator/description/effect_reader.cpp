@@ -65,6 +65,8 @@ class EffectReader {
     check_identifier(file_, "id", effect_.id);
     effect_.title = file_.text("title");
     effect_.description = file_.text("description");
+    effect_.form_of = file_.optional_text("form_of").value_or("");
+    if (!effect_.form_of.empty()) check_identifier(file_, "form_of", effect_.form_of);
     read_parameters();
     read_constants();
     read_signals();

@@ -34,7 +34,7 @@ struct CandidateParameter {
 /// One effect that may be missing.
 struct Candidate {
   std::string id, title;
-  Effect effect;
+  Effect effect;  ///< effect.form_of: of two laws of one effect the name goes to that one
   bool sensor = false;  ///< changes what is reported, not the motion
   /// Brings further coordinates or states: others should not pay for them, and at a limit they have
   /// no neutral value to rest at.

@@ -43,6 +43,17 @@ void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) 
   notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
 }
 
+/// What is sought stands out from the noise of a camera: the search need not simulate and fit more
+/// finely than this. The final model is fitted as the case asks.
+Case for_the_search(Case study) {
+  SimulationSpec& simulation = study.simulation;
+  simulation.relative_tolerance = std::max(simulation.relative_tolerance, 1e-6);
+  simulation.absolute_tolerance_position = std::max(simulation.absolute_tolerance_position, 1e-8);
+  simulation.absolute_tolerance_velocity = std::max(simulation.absolute_tolerance_velocity, 1e-7);
+  study.optimiser.tolerance = std::max(study.optimiser.tolerance, 1e-4);
+  return study;
+}
+
 class Physician {
  public:
   Physician(Workshop& workshop, const DiagnosisOptions& options)
@@ -51,10 +62,10 @@ class Physician {
   Diagnosis examine(Case study) {
     const auto begin = std::chrono::steady_clock::now();
     hold_out(study, workshop_, result_.notes);
-    fit_baseline(std::move(study));
+    fit_baseline(for_the_search(study));
     look_for_effects();
     if (!result_.effects.empty()) look_back();
-    conclude();
+    conclude(study);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(result_);
@@ -144,8 +155,14 @@ class Physician {
 
   bool far() { return stage().fit.ratio() > kFarGap; }
 
+  /// A gap where it was fitted, or in what the fit has not seen.
+  static bool gap_left(const Stage& stage) {
+    return stage.fit.present ||
+           (stage.held_out.count > 0 && stage.held_out.ratio() > kClosedHeldOut);
+  }
+
   void look_for_effects() {
-    while (stage().fit.present) {
+    while (gap_left(stage())) {
       stop_if_asked();
       stage().finer = try_finer_chain(stage().model, stage().effects, result_.floors,
                                       options_.max_links, workshop_);
@@ -202,21 +219,33 @@ class Physician {
            comparison.misfit_share > kWorthwhile && generalises;
   }
 
-  /// The explanation to add: the one that leaves least, one with fewer unknowns where the data do
-  /// not decide; a freer start before any effect, if that alone closes the gap.
+  /// The explanation to add: the one that leaves least, unless the data do not decide against
+  /// something simpler: a freer start in place of any effect, or an effect inside the other.
   const Explanation* choose(const std::vector<Explanation>& explanations) {
-    const Explanation* best = nullptr;
     const auto worth = [&](const Explanation& explanation) {
       return sum_of_squares(explanation.model, result_.floors) +
              std::log(static_cast<double>(std::max(2L, explanation.fit.count))) *
                  explanation.comparison.added;
     };
+    const Explanation* best = nullptr;
+    for (const Explanation& explanation : explanations)
+      if (acceptable(explanation) && (!best || worth(explanation) < worth(*best)))
+        best = &explanation;
+    if (!best || best->candidate < 0) return best;
+    const Explanation* simplest = best;
     for (const Explanation& explanation : explanations) {
-      if (!acceptable(explanation)) continue;
-      if (explanation.candidate < 0 && !explanation.fit.present) return &explanation;
-      if (!best || worth(explanation) < worth(*best)) best = &explanation;
+      if (!acceptable(explanation) || &explanation == best || !simpler(explanation, *best) ||
+          decide(best->model, explanation.model, result_.floors).decided)
+        continue;
+      if (simplest == best || worth(explanation) < worth(*simplest)) simplest = &explanation;
     }
-    return best;
+    return simplest;
+  }
+
+  bool simpler(const Explanation& a, const Explanation& b) {
+    if (b.candidate < 0) return false;
+    return a.candidate < 0 || is_special_case(*workshop_.find(a.id), *workshop_.find(b.id),
+                                              workshop_.model_with_all(stage().links));
   }
 
   /// Amplitudes that the data do not need are put back to their neutral values.
@@ -254,6 +283,7 @@ class Physician {
       others.push_back(better);
       result_.effects = others;
       result_.alternatives.clear();
+      result_.forms.clear();
       result_.runners_up.clear();
       i = 0;
       if (++swaps_ > 3) break;
@@ -294,33 +324,45 @@ class Physician {
   }
 
   /// Sorts the explanations that could stand in the place of `id` into undecided ones and
-  /// runners-up. Returns the id of one that is clearly better, after entering its model; else
-  /// nothing.
+  /// runners-up. Returns the id of the one that has a better claim to the name, after entering its
+  /// model; else nothing.
   std::string weigh_alternatives(const std::string& id, const Stage& without) {
+    const Candidate& named = *workshop_.find(id);
+    const double squares = sum_of_squares(stage().model, result_.floors);
+    const Explanation* successor = nullptr;
     for (const Explanation& explanation : without.explanations) {
       if (!explanation.refitted || explanation.id == id) continue;
-      const bool better = sum_of_squares(explanation.model, result_.floors) <
-                          sum_of_squares(stage().model, result_.floors);
+      const double its_squares = sum_of_squares(explanation.model, result_.floors);
+      const bool better = its_squares < squares;
       const FittedModel& first = better ? explanation.model : stage().model;
       const FittedModel& second = better ? stage().model : explanation.model;
       const Decision decision = decide(first, second, result_.floors);
-      if (better && decision.decided && explanation.candidate >= 0) {
-        std::vector<std::string> effects = without.effects;
-        effects.push_back(explanation.id);
-        enter(trimmed(explanation.model), effects, explanation.id, id);
-        return explanation.id;
-      }
-      // Of two that explain the same, one inside the other, the smaller has the name.
-      const bool contains = explanation.candidate >= 0 &&
-                            is_special_case(*workshop_.find(id), *workshop_.find(explanation.id),
-                                            workshop_.model_with_all(stage().links));
-      (decision.decided || contains ? result_.runners_up : result_.alternatives)
+      const Candidate* effect =
+          explanation.candidate < 0 ? nullptr : workshop_.find(explanation.id);
+      if (effect && better && decision.decided &&
+          (!successor || its_squares < sum_of_squares(successor->model, result_.floors)))
+        successor = &explanation;
+      // Of two that explain the same, one inside the other, the smaller has the name; of two laws
+      // of one effect, the one that the other is declared a form of.
+      if (effect && !successor && !decision.decided && named.effect.form_of == effect->id &&
+          acceptable(explanation))
+        successor = &explanation;
+      const bool contains =
+          effect && is_special_case(named, *effect, workshop_.model_with_all(stage().links));
+      const bool form = effect && effect->effect.form_of == id;
+      (decision.decided || contains ? result_.runners_up
+       : form                       ? result_.forms
+                                    : result_.alternatives)
           .push_back({id, explanation, decision});
     }
-    return {};
+    if (!successor) return {};
+    std::vector<std::string> effects = without.effects;
+    effects.push_back(successor->id);
+    enter(trimmed(successor->model), effects, successor->id, id);
+    return result_.stages.back().added;
   }
 
-  void conclude();
+  void conclude(const Case& study);
 
   Workshop& workshop_;
   const DiagnosisOptions& options_;
@@ -335,10 +377,10 @@ std::string listed_ids(const std::vector<std::string>& ids) {
   return text;
 }
 
-void Physician::conclude() {
+void Physician::conclude(const Case& study) {
   Diagnosis& d = result_;
   d.final = stage().model;
-  if (!d.effects.empty()) make_final_model(d, workshop_);
+  make_final_model(d, study, workshop_);
   d.final_fit = fit_gap(d.final, d.floors);
   d.final_held_out = held_out_gap(d.final, d.floors);
   d.parameters = final_parameters(d);
@@ -350,7 +392,7 @@ void Physician::conclude() {
                                       std::to_string(d.stages.front().links) + " were too few)"
                                 : "";
   if (d.effects.empty() &&
-      (!d.final_fit.present || d.final_fit.misfit < kTooSmallToName * d.final_fit.floor)) {
+      (!gap_left(stage()) || (closed && d.final_fit.misfit < kTooSmallToName * d.final_fit.floor))) {
     d.verdict = DiagnosisVerdict::kNone;
     d.sentence =
         "No missing effect" + (links.empty() ? std::string() : links) +
@@ -372,6 +414,8 @@ void Physician::conclude() {
   });
   d.verdict = d.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
   d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";
+  for (const Alternative& form : d.forms)
+    d.sentence += " Its other form " + form.explanation.id + " would do as well.";
   if (d.verdict == DiagnosisVerdict::kAmbiguous) {
     std::vector<std::string> others;
     for (const Alternative& alternative : d.alternatives)

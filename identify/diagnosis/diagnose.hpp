@@ -57,6 +57,7 @@ struct Diagnosis {
   std::vector<std::string> effects;  ///< of the final model
   bool freer_start = false;
   std::vector<Alternative> alternatives;  ///< undecided ones
+  std::vector<Alternative> forms;         ///< undecided too, but laws of the effect that is named
   std::vector<Alternative> runners_up;    ///< refitted and decided against
   FittedModel final;
   GapTest final_fit, final_held_out;

@@ -163,7 +163,7 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
                         what, alternative.explanation.id, 1e3 * alternative.explanation.fit.rms,
                         unit, alternative.decision.difference);
   };
-  if (!d.alternatives.empty() || !d.runners_up.empty()) text += "\n";
+  if (!d.alternatives.empty() || !d.forms.empty() || !d.runners_up.empty()) text += "\n";
   for (std::size_t i = 0; i < d.alternatives.size(); ++i) {
     rival("undecided:", d.alternatives[i]);
     if (i < findings.telling.size() && !findings.telling[i].words.empty())
@@ -171,6 +171,7 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
           fmt::format("    to tell them apart: {}; they differ by {:.3g} times the noise there\n",
                       findings.telling[i].words, findings.telling[i].difference);
   }
+  for (const Alternative& alternative : d.forms) rival("form:", alternative);
   for (const Alternative& alternative : d.runners_up) rival("runner-up:", alternative);
   text += fmt::format("\n{} candidates, {:.1f} s\n", d.tried, d.seconds);
   return text;
@@ -298,6 +299,7 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
     members.push_back(alternative.explanation.id);
   json["members"] = members;
   json["undecided"] = others(d.alternatives, true);
+  json["forms"] = others(d.forms, false);
   json["runners_up"] = others(d.runners_up, false);
   if (!findings.telling.empty()) json["experiment_that_tells"] = findings.telling.front().words;
   json["equality_at_neutral"] = number(d.equality);

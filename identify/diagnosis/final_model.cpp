@@ -196,10 +196,13 @@ bool is_special_case(const Candidate& special, const Candidate& general, const M
   return size > 0 && worst < 1e-9 * size;
 }
 
-void make_final_model(Diagnosis& diagnosis, Workshop& workshop) {
-  const Case study = diagnosis.final.problem->with(diagnosis.final.x);
+void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& workshop) {
+  Case study = diagnosis.final.problem->with(diagnosis.final.x);
+  study.simulation = asked.simulation;
+  study.optimiser = asked.optimiser;
   const Model model = workshop.model_with(diagnosis.effects, study.links);
-  diagnosis.equality = largest_difference(workshop.model_with({}, study.links), model, 1);
+  if (!diagnosis.effects.empty())
+    diagnosis.equality = largest_difference(workshop.model_with({}, study.links), model, 1);
   const auto problem = std::make_shared<const Problem>(study, model);
   FittedModel refitted =
       fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),

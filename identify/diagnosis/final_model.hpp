@@ -21,8 +21,9 @@ FittedModel trim(const FittedModel& model, const std::vector<double>& floors, Wo
 Eigen::VectorXd standard_errors(const FittedModel& model, const std::vector<double>& floors);
 
 /// Replaces the final model by one that has its effects and no others: derived, compiled, loaded,
-/// shown to equal the case's model where the effects vanish, and fitted once more.
-void make_final_model(Diagnosis& diagnosis, Workshop& workshop);
+/// shown to equal the case's model where the effects vanish, and fitted once more, simulated and
+/// optimised as `asked` says.
+void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& workshop);
 
 /// The fitted parameters, physics first, with standard errors.
 std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis);

@@ -135,9 +135,8 @@ std::shared_ptr<const Problem> Search::problem_with(const Candidate& candidate) 
   const Case& study = base_.problem->study();
   std::vector<std::string> effects = effects_;
   effects.push_back(candidate.id);
-  return std::make_shared<const Problem>(
-      with_effects(study, {candidate}, true),
-      candidate.own_model ? workshop_.model_with(effects, study.links) : all_->model());
+  return std::make_shared<const Problem>(with_effects(study, {candidate}, true),
+                                         workshop_.model_with(effects, study.links));
 }
 
 MatrixXd Search::columns(const Problem& problem, const VectorXd& x,

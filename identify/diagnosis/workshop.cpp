@@ -31,15 +31,32 @@ void Workshop::write_description_with(const std::vector<std::string>& effects, i
 }
 
 Model Workshop::model_with(const std::vector<std::string>& effects, int links) {
-  const std::lock_guard lock(mutex_);
-  std::string id = original_.id;
-  for (const std::string& effect : effects) id += "_" + effect;
-  if (effects.size() > 4) id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
-  const fs::path file = folder_ / (id + "_" + std::to_string(links) + ".toml");
-  write_description_with(effects, links, id, file);
-  const auto known = models_.find(file.string());
-  if (known != models_.end()) return known->second;
-  return models_.emplace(file.string(), provide_model(file, links, provider)).first->second;
+  std::string key = std::to_string(links);
+  for (const std::string& effect : effects) key += " " + effect;
+  std::promise<Model> promise;
+  std::shared_future<Model> model;
+  bool mine = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [place, added] = models_.try_emplace(key);
+    if (added) place->second = promise.get_future().share();
+    model = place->second;
+    mine = added;
+  }
+  if (mine) {
+    try {
+      std::string id = original_.id;
+      for (const std::string& effect : effects) id += "_" + effect;
+      if (effects.size() > 4)
+        id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
+      const fs::path file = folder_ / (sha256_hex(key) + ".toml");
+      write_description_with(effects, links, id, file);
+      promise.set_value(provide_model(file, links, provider));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return model.get();
 }
 
 Model Workshop::model_with_all(int links, const std::vector<std::string>& needed) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string>
@@ -37,7 +38,7 @@ class Workshop {
   /// cannot. Derived and compiled once for every number of links: at the neutral values it is the
   /// case's model.
   Model model_with_all(int links, const std::vector<std::string>& needed = {});
-  /// The case's model with these effects alone.
+  /// The case's model with these effects alone. Several threads may each have theirs made at once.
   Model model_with(const std::vector<std::string>& effects, int links);
 
   LeastSquares least_squares;
@@ -53,7 +54,7 @@ class Workshop {
   Description original_;
   std::filesystem::path folder_;
   std::vector<Candidate> library_;
-  std::map<std::string, Model> models_;  // by the description's file
+  std::map<std::string, std::shared_future<Model>> models_;  // by links and effects
   std::mutex mutex_;
 };
 
