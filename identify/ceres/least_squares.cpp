@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "generator/description/input_error.hpp"
+#include "identify/ceres/bounded_solve.hpp"
 #include "identify/error.hpp"
 #include "identify/fit_journal.hpp"
 
@@ -164,13 +165,14 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
                             y.data());
     i += count;
   }
+  VectorXd lower(unknowns), upper(unknowns);
   for (int j = 0; j < unknowns; ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    const double lower = logarithmic ? std::log(unknown.lower) : unknown.lower;
-    const double upper = logarithmic ? std::log(unknown.upper) : unknown.upper;
-    if (std::isfinite(lower)) solver.SetParameterLowerBound(y.data(), j, lower);
-    if (std::isfinite(upper)) solver.SetParameterUpperBound(y.data(), j, upper);
+    lower[j] = logarithmic ? std::log(unknown.lower) : unknown.lower;
+    upper[j] = logarithmic ? std::log(unknown.upper) : unknown.upper;
+    if (std::isfinite(lower[j])) solver.SetParameterLowerBound(y.data(), j, lower[j]);
+    if (std::isfinite(upper[j])) solver.SetParameterUpperBound(y.data(), j, upper[j]);
   }
 
   Watch watch(journal);
@@ -182,9 +184,8 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
   settings.gradient_tolerance = 0;
   settings.logging_type = ceres::SILENT;
   settings.callbacks.push_back(&watch);
-  settings.update_state_every_iteration = true;
-  ceres::Solver::Summary summary;
-  ceres::Solve(settings, &solver, &summary);
+  const ceres::Solver::Summary summary =
+      solve_within_bounds(settings, solver, y, lower, upper);
   FitStatus status = FitStatus::kConverged;
   if (summary.termination_type == ceres::USER_FAILURE)
     status = journal.why_stopped();

@@ -48,7 +48,6 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
     failed.message = result.message;
     return failed;
   }
-  if (getenv("DBG")) { fprintf(stderr, "fit n=%d unknowns=%zu evals=%d iters=%d work=%.0f %.2fs status=%s err=%.9g start=%.6g failures=%d :", problem->model().links(), problem->unknowns().size(), result.evaluations, result.iterations, result.work, result.seconds, name_of(result.status), result.error, result.start_error, result.failures); for (size_t j=0;j<problem->unknowns().size();++j) if (problem->unknowns()[j].parameter>=0) fprintf(stderr, " %s=%.4g", problem->unknowns()[j].name.c_str(), result.x[j]); fprintf(stderr, "\n"); }
   FittedModel model = assess(std::move(problem), result.x);
   model.status = result.status;
   if (model.message.empty()) model.message = result.message;
