@@ -14,6 +14,7 @@
 #include "dense.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
+#include "semiseparable.hpp"
 
 extern "C" {
 struct catena_model;
@@ -55,70 +56,70 @@ void residual(const Point<T>& at, T* r) {
   const FromOne<T> theta_ddot(at.a);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
-  T joint_side_acceleration[13];
-  T joint_down_acceleration[13];
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
   T joint_moment[13];
-  T centre_down_force[13];
-  T centre_side_force[13];
   {
-    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
-    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
         + theta_ddot[1] * sine[1]);
-    joint_side_acceleration[1] = span_side_acceleration;
-    joint_down_acceleration[1] = span_down_acceleration;
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
+  }
+  for (int i = 2; i <= 12; ++i) {
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
+        - theta_dot[i] * theta_dot[i] * sine[i]);
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+        + theta_ddot[i] * sine[i]);
+    const T joint_angle = theta[i] - theta[i - 1];
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
+  }
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  for (int i = 2; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
     centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
     centre_side_force[1] = mass[1] * centre_side_acceleration;
   }
   for (int i = 2; i <= 12; ++i) {
-    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
-        - theta_dot[i] * theta_dot[i] * sine[i]);
-    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
-        + theta_ddot[i] * sine[i]);
-    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
-    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
-    const T joint_angle = theta[i] - theta[i - 1];
-    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-    joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
         + joint_down_acceleration[i - 1];
     centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
     centre_side_force[i] = mass[i] * centre_side_acceleration;
   }
   T cut_force_down[14];
   T cut_force_side[14];
-  {
-    cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
-    cut_force_side[13] = load_mass * joint_side_acceleration[12];
-  }
-  {
-    cut_force_down[12] = cut_force_down[13] + centre_down_force[12];
-    cut_force_side[12] = cut_force_side[13] + centre_side_force[12];
-    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
-    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
-    r[11] = inertia[12] * theta_ddot[12] - torque[12] + joint_moment[12]
-        + length[12] * (cosine[12] * span_side_force - sine[12] * span_down_force);
-  }
-  for (int i = 11; i >= 2; --i) {
+  cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
+  cut_force_side[13] = load_mass * joint_side_acceleration[12];
+  for (int i = 12; i >= 2; --i) {
     cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+  }
+  for (int i = 1; i <= 11; ++i) {
     const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
     const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
     r[i - 1] = inertia[i] * theta_ddot[i] - torque[i] + joint_moment[i] - joint_moment[i + 1]
         + length[i] * (cosine[i] * span_side_force - sine[i] * span_down_force);
   }
   {
-    const T span_down_force = cut_force_down[2] + ratio<T>(1, 2) * centre_down_force[1];
-    const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
-    r[0] = inertia[1] * theta_ddot[1] - torque[1] + joint_moment[1] - joint_moment[2]
-        + length[1] * (cosine[1] * span_side_force - sine[1] * span_down_force);
+    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
+    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
+    r[11] = inertia[12] * theta_ddot[12] - torque[12] + joint_moment[12]
+        + length[12] * (cosine[12] * span_side_force - sine[12] * span_down_force);
   }
 }
 
@@ -149,24 +150,16 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T joint_side_acceleration[13];
-  T joint_down_acceleration[13];
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
   T d_joint_moment[13];
   T d_span_down_acceleration[13];
-  T d_joint_down_acceleration[13];
   T d_span_side_acceleration[13];
-  T d_joint_side_acceleration[13];
-  T centre_down_force[13];
-  T centre_side_force[13];
-  T d_centre_down_force[13];
-  T d_centre_side_force[13];
   {
-    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
-    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
         + theta_ddot[1] * sine[1]);
-    joint_side_acceleration[1] = span_side_acceleration;
-    joint_down_acceleration[1] = span_down_acceleration;
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     d_joint_moment[1] = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
@@ -175,66 +168,16 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1])
         - (theta_ddot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_ddot[1]))
         - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1] + theta_ddot[1] * sine[1]);
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
     d_span_side_acceleration[1] = d_length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
         - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
         + theta_dot[1] * cosine[1] * d_theta[1]));
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
-    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
-    centre_side_force[1] = mass[1] * centre_side_acceleration;
-    d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
-        + mass[1] * (d_centre_down_acceleration - d_gravity);
-    d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
-        + centre_side_acceleration * d_mass[1];
   }
-  {
-    const T span_side_acceleration = length[2] * (theta_ddot[2] * cosine[2]
-        - theta_dot[2] * theta_dot[2] * sine[2]);
-    const T span_down_acceleration = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
-        + theta_ddot[2] * sine[2]);
-    joint_side_acceleration[2] = span_side_acceleration + joint_side_acceleration[1];
-    joint_down_acceleration[2] = span_down_acceleration + joint_down_acceleration[1];
-    const T joint_angle = theta[2] - theta[1];
-    const T joint_rate = theta_dot[2] - theta_dot[1];
-    const T d_joint_angle = d_theta[2] - d_theta[1];
-    const T d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
-    d_joint_moment[2] = stiffness[2] * d_joint_angle + damping[2] * d_joint_rate
-        + joint_angle * d_stiffness[2] + joint_rate * d_damping[2];
-    d_span_down_acceleration[2] = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
-        * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2])
-        - (theta_ddot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_ddot[2]))
-        - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2] + theta_ddot[2] * sine[2]);
-    d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
-    const T d_centre_down_acceleration = d_span_down_acceleration[1]
-        + ratio<T>(1, 2) * d_span_down_acceleration[2];
-    d_span_side_acceleration[2] = d_length[2] * (theta_ddot[2] * cosine[2]
-        - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
-        - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
-        + theta_dot[2] * cosine[2] * d_theta[2]));
-    d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
-    const T d_centre_side_acceleration = d_span_side_acceleration[1]
-        + ratio<T>(1, 2) * d_span_side_acceleration[2];
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
-        + joint_side_acceleration[1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
-        + joint_down_acceleration[1];
-    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
-    centre_side_force[2] = mass[2] * centre_side_acceleration;
-    d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
-        + mass[2] * (d_centre_down_acceleration - d_gravity);
-    d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
-        + centre_side_acceleration * d_mass[2];
-  }
-  for (int i = 3; i <= 12; ++i) {
-    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
+  for (int i = 2; i <= 12; ++i) {
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
-    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
-    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
     const T d_joint_angle = d_theta[i] - d_theta[i - 1];
@@ -245,19 +188,67 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         * d_theta[i] - T(2) * cosine[i] * d_theta_dot[i])
         - (theta_ddot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_ddot[i]))
         - d_length[i] * (theta_dot[i] * theta_dot[i] * cosine[i] + theta_ddot[i] * sine[i]);
-    d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
-        + d_joint_down_acceleration[i - 1];
     d_span_side_acceleration[i] = d_length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]) + length[i] * (cosine[i] * d_theta_ddot[i]
         - theta_ddot[i] * sine[i] * d_theta[i] - theta_dot[i] * (T(2) * sine[i] * d_theta_dot[i]
         + theta_dot[i] * cosine[i] * d_theta[i]));
+  }
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  T d_joint_down_acceleration[13];
+  T d_joint_side_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  joint_side_acceleration[2] = span_side_acceleration[2] + joint_side_acceleration[1];
+  joint_down_acceleration[2] = span_down_acceleration[2] + joint_down_acceleration[1];
+  d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
+  d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+    d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
     d_joint_side_acceleration[i] = d_span_side_acceleration[i] + d_joint_side_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  T d_centre_down_force[13];
+  T d_centre_side_force[13];
+  {
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
+    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+    d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
+        + mass[1] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[1];
+  }
+  {
+    const T d_centre_down_acceleration = d_span_down_acceleration[1]
+        + ratio<T>(1, 2) * d_span_down_acceleration[2];
+    const T d_centre_side_acceleration = d_span_side_acceleration[1]
+        + ratio<T>(1, 2) * d_span_side_acceleration[2];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[2]
+        + joint_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[2]
+        + joint_down_acceleration[1];
+    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
+    centre_side_force[2] = mass[2] * centre_side_acceleration;
+    d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
+        + mass[2] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[2];
+  }
+  for (int i = 3; i <= 12; ++i) {
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
+        + d_joint_down_acceleration[i - 1];
     const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
         + d_joint_side_acceleration[i - 1];
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
         + joint_down_acceleration[i - 1];
     centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
     centre_side_force[i] = mass[i] * centre_side_acceleration;
@@ -270,37 +261,22 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   T cut_force_side[14];
   T d_cut_force_down[14];
   T d_cut_force_side[14];
-  {
-    cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
-    cut_force_side[13] = load_mass * joint_side_acceleration[12];
-    d_cut_force_down[13] = d_load_mass * (joint_down_acceleration[12] - gravity)
-        + load_mass * (d_joint_down_acceleration[12] - d_gravity);
-    d_cut_force_side[13] = load_mass * d_joint_side_acceleration[12]
-        + joint_side_acceleration[12] * d_load_mass;
-  }
-  {
-    cut_force_down[12] = cut_force_down[13] + centre_down_force[12];
-    cut_force_side[12] = cut_force_side[13] + centre_side_force[12];
-    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
-    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
-    d_cut_force_down[12] = d_cut_force_down[13] + d_centre_down_force[12];
-    const T d_span_down_force = d_cut_force_down[13] + ratio<T>(1, 2) * d_centre_down_force[12];
-    d_cut_force_side[12] = d_cut_force_side[13] + d_centre_side_force[12];
-    const T d_span_side_force = d_cut_force_side[13] + ratio<T>(1, 2) * d_centre_side_force[12];
-    dr[11] = inertia[12] * d_theta_ddot[12] + theta_ddot[12] * d_inertia[12] - d_torque[12]
-        + d_joint_moment[12] + d_length[12] * (cosine[12] * span_side_force
-        - sine[12] * span_down_force) + length[12] * (cosine[12] * (d_span_side_force
-        - span_down_force * d_theta[12]) - sine[12] * (span_side_force * d_theta[12]
-        + d_span_down_force));
-  }
-  for (int i = 11; i >= 2; --i) {
+  cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
+  cut_force_side[13] = load_mass * joint_side_acceleration[12];
+  d_cut_force_down[13] = d_load_mass * (joint_down_acceleration[12] - gravity)
+      + load_mass * (d_joint_down_acceleration[12] - d_gravity);
+  d_cut_force_side[13] = load_mass * d_joint_side_acceleration[12]
+      + joint_side_acceleration[12] * d_load_mass;
+  for (int i = 12; i >= 2; --i) {
     cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+    d_cut_force_down[i] = d_cut_force_down[i + 1] + d_centre_down_force[i];
+    d_cut_force_side[i] = d_cut_force_side[i + 1] + d_centre_side_force[i];
+  }
+  for (int i = 1; i <= 11; ++i) {
     const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
     const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
-    d_cut_force_down[i] = d_cut_force_down[i + 1] + d_centre_down_force[i];
     const T d_span_down_force = d_cut_force_down[i + 1] + ratio<T>(1, 2) * d_centre_down_force[i];
-    d_cut_force_side[i] = d_cut_force_side[i + 1] + d_centre_side_force[i];
     const T d_span_side_force = d_cut_force_side[i + 1] + ratio<T>(1, 2) * d_centre_side_force[i];
     dr[i - 1] = inertia[i] * d_theta_ddot[i] + theta_ddot[i] * d_inertia[i] - d_torque[i]
         + d_joint_moment[i] - d_joint_moment[i + 1] + d_length[i] * (cosine[i] * span_side_force
@@ -309,14 +285,14 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         + d_span_down_force));
   }
   {
-    const T span_down_force = cut_force_down[2] + ratio<T>(1, 2) * centre_down_force[1];
-    const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
-    const T d_span_down_force = d_cut_force_down[2] + ratio<T>(1, 2) * d_centre_down_force[1];
-    const T d_span_side_force = d_cut_force_side[2] + ratio<T>(1, 2) * d_centre_side_force[1];
-    dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
-        + d_joint_moment[1] - d_joint_moment[2] + d_length[1] * (cosine[1] * span_side_force
-        - sine[1] * span_down_force) + length[1] * (cosine[1] * (d_span_side_force
-        - span_down_force * d_theta[1]) - sine[1] * (span_side_force * d_theta[1]
+    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
+    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
+    const T d_span_down_force = d_cut_force_down[13] + ratio<T>(1, 2) * d_centre_down_force[12];
+    const T d_span_side_force = d_cut_force_side[13] + ratio<T>(1, 2) * d_centre_side_force[12];
+    dr[11] = inertia[12] * d_theta_ddot[12] + theta_ddot[12] * d_inertia[12] - d_torque[12]
+        + d_joint_moment[12] + d_length[12] * (cosine[12] * span_side_force
+        - sine[12] * span_down_force) + length[12] * (cosine[12] * (d_span_side_force
+        - span_down_force * d_theta[12]) - sine[12] * (span_side_force * d_theta[12]
         + d_span_down_force));
   }
 }
@@ -333,70 +309,62 @@ void term_inertia(const Point<T>& at, T* r) {
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T span_down_acceleration_inertial[13];
-  T joint_down_acceleration_inertial[13];
-  T centre_down_force_inertial[13];
   T span_side_acceleration_inertial[13];
+  for (int i = 1; i <= 12; ++i) {
+    span_down_acceleration_inertial[i] = -length[i] * theta_ddot[i] * sine[i];
+    span_side_acceleration_inertial[i] = length[i] * theta_ddot[i] * cosine[i];
+  }
+  T joint_down_acceleration_inertial[13];
   T joint_side_acceleration_inertial[13];
+  joint_down_acceleration_inertial[2] = span_down_acceleration_inertial[1]
+      + span_down_acceleration_inertial[2];
+  joint_side_acceleration_inertial[2] = span_side_acceleration_inertial[1]
+      + span_side_acceleration_inertial[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_down_acceleration_inertial[i] = span_down_acceleration_inertial[i]
+        + joint_down_acceleration_inertial[i - 1];
+    joint_side_acceleration_inertial[i] = span_side_acceleration_inertial[i]
+        + joint_side_acceleration_inertial[i - 1];
+  }
+  T centre_down_force_inertial[13];
   T centre_side_force_inertial[13];
   {
-    span_down_acceleration_inertial[1] = -length[1] * theta_ddot[1] * sine[1];
     const T centre_down_acceleration_inertial = ratio<T>(1, 2) * span_down_acceleration_inertial[1];
     centre_down_force_inertial[1] = mass[1] * centre_down_acceleration_inertial;
-    span_side_acceleration_inertial[1] = length[1] * theta_ddot[1] * cosine[1];
     const T centre_side_acceleration_inertial = ratio<T>(1, 2) * span_side_acceleration_inertial[1];
     centre_side_force_inertial[1] = mass[1] * centre_side_acceleration_inertial;
   }
   {
-    span_down_acceleration_inertial[2] = -length[2] * theta_ddot[2] * sine[2];
-    joint_down_acceleration_inertial[2] = span_down_acceleration_inertial[1]
-        + span_down_acceleration_inertial[2];
     const T centre_down_acceleration_inertial = span_down_acceleration_inertial[1]
         + ratio<T>(1, 2) * span_down_acceleration_inertial[2];
     centre_down_force_inertial[2] = mass[2] * centre_down_acceleration_inertial;
-    span_side_acceleration_inertial[2] = length[2] * theta_ddot[2] * cosine[2];
-    joint_side_acceleration_inertial[2] = span_side_acceleration_inertial[1]
-        + span_side_acceleration_inertial[2];
     const T centre_side_acceleration_inertial = span_side_acceleration_inertial[1]
         + ratio<T>(1, 2) * span_side_acceleration_inertial[2];
     centre_side_force_inertial[2] = mass[2] * centre_side_acceleration_inertial;
   }
   for (int i = 3; i <= 12; ++i) {
-    span_down_acceleration_inertial[i] = -length[i] * theta_ddot[i] * sine[i];
-    joint_down_acceleration_inertial[i] = span_down_acceleration_inertial[i]
-        + joint_down_acceleration_inertial[i - 1];
     const T centre_down_acceleration_inertial = ratio<T>(1, 2)
         * span_down_acceleration_inertial[i] + joint_down_acceleration_inertial[i - 1];
     centre_down_force_inertial[i] = mass[i] * centre_down_acceleration_inertial;
-    span_side_acceleration_inertial[i] = length[i] * theta_ddot[i] * cosine[i];
-    joint_side_acceleration_inertial[i] = span_side_acceleration_inertial[i]
-        + joint_side_acceleration_inertial[i - 1];
     const T centre_side_acceleration_inertial = ratio<T>(1, 2)
         * span_side_acceleration_inertial[i] + joint_side_acceleration_inertial[i - 1];
     centre_side_force_inertial[i] = mass[i] * centre_side_acceleration_inertial;
   }
   T cut_force_down_inertial[14];
   T cut_force_side_inertial[14];
-  {
-    cut_force_down_inertial[13] = load_mass * joint_down_acceleration_inertial[12];
-    cut_force_side_inertial[13] = load_mass * joint_side_acceleration_inertial[12];
-  }
+  cut_force_down_inertial[13] = load_mass * joint_down_acceleration_inertial[12];
+  cut_force_side_inertial[13] = load_mass * joint_side_acceleration_inertial[12];
   for (int i = 12; i >= 2; --i) {
     cut_force_down_inertial[i] = cut_force_down_inertial[i + 1] + centre_down_force_inertial[i];
+    cut_force_side_inertial[i] = cut_force_side_inertial[i + 1] + centre_side_force_inertial[i];
+  }
+  for (int i = 1; i <= 12; ++i) {
     const T span_down_force_inertial = cut_force_down_inertial[i + 1]
         + ratio<T>(1, 2) * centre_down_force_inertial[i];
-    cut_force_side_inertial[i] = cut_force_side_inertial[i + 1] + centre_side_force_inertial[i];
     const T span_side_force_inertial = cut_force_side_inertial[i + 1]
         + ratio<T>(1, 2) * centre_side_force_inertial[i];
     r[i - 1] = inertia[i] * theta_ddot[i] + length[i] * (cosine[i] * span_side_force_inertial
         - sine[i] * span_down_force_inertial);
-  }
-  {
-    const T span_down_force_inertial = cut_force_down_inertial[2]
-        + ratio<T>(1, 2) * centre_down_force_inertial[1];
-    const T span_side_force_inertial = cut_force_side_inertial[2]
-        + ratio<T>(1, 2) * centre_side_force_inertial[1];
-    r[0] = inertia[1] * theta_ddot[1] + length[1] * (cosine[1] * span_side_force_inertial
-        - sine[1] * span_down_force_inertial);
   }
 }
 
@@ -411,68 +379,59 @@ void term_coriolis(const Point<T>& at, T* r) {
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T span_down_acceleration_bias[13];
-  T joint_down_acceleration_bias[13];
-  T centre_down_force_bias[13];
   T span_side_acceleration_bias[13];
+  for (int i = 1; i <= 12; ++i) {
+    span_down_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
+    span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
+  }
+  T joint_down_acceleration_bias[13];
   T joint_side_acceleration_bias[13];
+  joint_down_acceleration_bias[2] = span_down_acceleration_bias[1] + span_down_acceleration_bias[2];
+  joint_side_acceleration_bias[2] = span_side_acceleration_bias[1] + span_side_acceleration_bias[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
+        + joint_down_acceleration_bias[i - 1];
+    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
+        + joint_side_acceleration_bias[i - 1];
+  }
+  T centre_down_force_bias[13];
   T centre_side_force_bias[13];
   {
-    span_down_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
     const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[1];
     centre_down_force_bias[1] = mass[1] * centre_down_acceleration_bias;
-    span_side_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
     const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[1];
     centre_side_force_bias[1] = mass[1] * centre_side_acceleration_bias;
   }
   {
-    span_down_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
-    joint_down_acceleration_bias[2] = span_down_acceleration_bias[1]
-        + span_down_acceleration_bias[2];
     const T centre_down_acceleration_bias = span_down_acceleration_bias[1]
         + ratio<T>(1, 2) * span_down_acceleration_bias[2];
     centre_down_force_bias[2] = mass[2] * centre_down_acceleration_bias;
-    span_side_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
-    joint_side_acceleration_bias[2] = span_side_acceleration_bias[1]
-        + span_side_acceleration_bias[2];
     const T centre_side_acceleration_bias = span_side_acceleration_bias[1]
         + ratio<T>(1, 2) * span_side_acceleration_bias[2];
     centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
   }
   for (int i = 3; i <= 12; ++i) {
-    span_down_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
-    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
-        + joint_down_acceleration_bias[i - 1];
     const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[i]
         + joint_down_acceleration_bias[i - 1];
     centre_down_force_bias[i] = mass[i] * centre_down_acceleration_bias;
-    span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
-    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
-        + joint_side_acceleration_bias[i - 1];
     const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[i]
         + joint_side_acceleration_bias[i - 1];
     centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
   }
   T cut_force_down_bias[14];
   T cut_force_side_bias[14];
-  {
-    cut_force_down_bias[13] = load_mass * joint_down_acceleration_bias[12];
-    cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
-  }
+  cut_force_down_bias[13] = load_mass * joint_down_acceleration_bias[12];
+  cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
   for (int i = 12; i >= 2; --i) {
     cut_force_down_bias[i] = cut_force_down_bias[i + 1] + centre_down_force_bias[i];
+    cut_force_side_bias[i] = cut_force_side_bias[i + 1] + centre_side_force_bias[i];
+  }
+  for (int i = 1; i <= 12; ++i) {
     const T span_down_force_bias = cut_force_down_bias[i + 1]
         + ratio<T>(1, 2) * centre_down_force_bias[i];
-    cut_force_side_bias[i] = cut_force_side_bias[i + 1] + centre_side_force_bias[i];
     const T span_side_force_bias = cut_force_side_bias[i + 1]
         + ratio<T>(1, 2) * centre_side_force_bias[i];
     r[i - 1] = length[i] * (cosine[i] * span_side_force_bias - sine[i] * span_down_force_bias);
-  }
-  {
-    const T span_down_force_bias = cut_force_down_bias[2]
-        + ratio<T>(1, 2) * centre_down_force_bias[1];
-    const T span_side_force_bias = cut_force_side_bias[2]
-        + ratio<T>(1, 2) * centre_side_force_bias[1];
-    r[0] = length[1] * (cosine[1] * span_side_force_bias - sine[1] * span_down_force_bias);
   }
 }
 
@@ -486,20 +445,18 @@ void term_gravity(const Point<T>& at, T* r) {
   const T gravity = at.p[73];
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  T centre_down_force[13];
+  for (int i = 1; i <= 12; ++i) {
+    centre_down_force[i] = -mass[i] * gravity;
+  }
   T cut_force_down[14];
-  {
-    cut_force_down[13] = -load_mass * gravity;
-  }
+  cut_force_down[13] = -load_mass * gravity;
   for (int i = 12; i >= 2; --i) {
-    const T centre_down_force = -mass[i] * gravity;
-    cut_force_down[i] = cut_force_down[i + 1] + centre_down_force;
-    const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force;
-    r[i - 1] = -length[i] * sine[i] * span_down_force;
+    cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
   }
-  {
-    const T centre_down_force = -mass[1] * gravity;
-    const T span_down_force = cut_force_down[2] + ratio<T>(1, 2) * centre_down_force;
-    r[0] = -length[1] * sine[1] * span_down_force;
+  for (int i = 1; i <= 12; ++i) {
+    const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
+    r[i - 1] = -length[i] * sine[i] * span_down_force;
   }
 }
 
@@ -603,89 +560,78 @@ void bias(const Point<T>& at, T* h) {
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_moment[13];
   T span_down_acceleration_bias[13];
-  T joint_down_acceleration_bias[13];
-  T centre_down_force_bias[13];
   T span_side_acceleration_bias[13];
-  T joint_side_acceleration_bias[13];
-  T centre_side_force_bias[13];
   {
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
     span_down_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+    span_side_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+  }
+  for (int i = 2; i <= 12; ++i) {
+    const T joint_angle = theta[i] - theta[i - 1];
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
+    span_down_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
+    span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
+  }
+  T joint_down_acceleration_bias[13];
+  T joint_side_acceleration_bias[13];
+  joint_down_acceleration_bias[2] = span_down_acceleration_bias[1] + span_down_acceleration_bias[2];
+  joint_side_acceleration_bias[2] = span_side_acceleration_bias[1] + span_side_acceleration_bias[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
+        + joint_down_acceleration_bias[i - 1];
+    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
+        + joint_side_acceleration_bias[i - 1];
+  }
+  T centre_down_force_bias[13];
+  T centre_side_force_bias[13];
+  {
     const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[1];
     centre_down_force_bias[1] = mass[1] * (centre_down_acceleration_bias - gravity);
-    span_side_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
     const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[1];
     centre_side_force_bias[1] = mass[1] * centre_side_acceleration_bias;
   }
   {
-    const T joint_angle = theta[2] - theta[1];
-    const T joint_rate = theta_dot[2] - theta_dot[1];
-    joint_moment[2] = stiffness[2] * joint_angle + damping[2] * joint_rate;
-    span_down_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
-    joint_down_acceleration_bias[2] = span_down_acceleration_bias[1]
-        + span_down_acceleration_bias[2];
     const T centre_down_acceleration_bias = span_down_acceleration_bias[1]
         + ratio<T>(1, 2) * span_down_acceleration_bias[2];
     centre_down_force_bias[2] = mass[2] * (centre_down_acceleration_bias - gravity);
-    span_side_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
-    joint_side_acceleration_bias[2] = span_side_acceleration_bias[1]
-        + span_side_acceleration_bias[2];
     const T centre_side_acceleration_bias = span_side_acceleration_bias[1]
         + ratio<T>(1, 2) * span_side_acceleration_bias[2];
     centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
   }
   for (int i = 3; i <= 12; ++i) {
-    const T joint_angle = theta[i] - theta[i - 1];
-    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-    joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
-    span_down_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
-    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
-        + joint_down_acceleration_bias[i - 1];
     const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[i]
         + joint_down_acceleration_bias[i - 1];
     centre_down_force_bias[i] = mass[i] * (centre_down_acceleration_bias - gravity);
-    span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
-    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
-        + joint_side_acceleration_bias[i - 1];
     const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[i]
         + joint_side_acceleration_bias[i - 1];
     centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
   }
   T cut_force_down_bias[14];
   T cut_force_side_bias[14];
-  {
-    cut_force_down_bias[13] = load_mass * (joint_down_acceleration_bias[12] - gravity);
-    cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
-  }
-  {
-    cut_force_down_bias[12] = cut_force_down_bias[13] + centre_down_force_bias[12];
-    const T span_down_force_bias = cut_force_down_bias[13]
-        + ratio<T>(1, 2) * centre_down_force_bias[12];
-    cut_force_side_bias[12] = cut_force_side_bias[13] + centre_side_force_bias[12];
-    const T span_side_force_bias = cut_force_side_bias[13]
-        + ratio<T>(1, 2) * centre_side_force_bias[12];
-    h[11] = joint_moment[12] - torque[12] + length[12] * (cosine[12] * span_side_force_bias
-        - sine[12] * span_down_force_bias);
-  }
-  for (int i = 11; i >= 2; --i) {
+  cut_force_down_bias[13] = load_mass * (joint_down_acceleration_bias[12] - gravity);
+  cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
+  for (int i = 12; i >= 2; --i) {
     cut_force_down_bias[i] = cut_force_down_bias[i + 1] + centre_down_force_bias[i];
+    cut_force_side_bias[i] = cut_force_side_bias[i + 1] + centre_side_force_bias[i];
+  }
+  for (int i = 1; i <= 11; ++i) {
     const T span_down_force_bias = cut_force_down_bias[i + 1]
         + ratio<T>(1, 2) * centre_down_force_bias[i];
-    cut_force_side_bias[i] = cut_force_side_bias[i + 1] + centre_side_force_bias[i];
     const T span_side_force_bias = cut_force_side_bias[i + 1]
         + ratio<T>(1, 2) * centre_side_force_bias[i];
     h[i - 1] = joint_moment[i] - torque[i] - joint_moment[i + 1]
         + length[i] * (cosine[i] * span_side_force_bias - sine[i] * span_down_force_bias);
   }
   {
-    const T span_down_force_bias = cut_force_down_bias[2]
-        + ratio<T>(1, 2) * centre_down_force_bias[1];
-    const T span_side_force_bias = cut_force_side_bias[2]
-        + ratio<T>(1, 2) * centre_side_force_bias[1];
-    h[0] = joint_moment[1] - torque[1] - joint_moment[2]
-        + length[1] * (cosine[1] * span_side_force_bias - sine[1] * span_down_force_bias);
+    const T span_down_force_bias = cut_force_down_bias[13]
+        + ratio<T>(1, 2) * centre_down_force_bias[12];
+    const T span_side_force_bias = cut_force_side_bias[13]
+        + ratio<T>(1, 2) * centre_side_force_bias[12];
+    h[11] = joint_moment[12] - torque[12] + length[12] * (cosine[12] * span_side_force_bias
+        - sine[12] * span_down_force_bias);
   }
 }
 
@@ -700,42 +646,34 @@ void mass_matrix(const Point<T>& at, T* M) {
   const T load_mass = at.p[72];
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
-  T mass_cut_force_down_per_joint_down_acceleration[13];
-  {
-    const T mass_joint_down_acceleration_gain = -length[12] * sine[12];
-    const T mass_joint_side_acceleration_gain = length[12] * cosine[12];
-    mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
-    matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.column[11][0] = mass_joint_down_acceleration_gain;
-    matrix.column[11][1] = mass_joint_side_acceleration_gain;
-    matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
-        + load_mass);
-  }
-  for (int i = 11; i >= 2; --i) {
+  for (int i = 1; i <= 12; ++i) {
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
+    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
+    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+  }
+  T mass_cut_force_down_per_joint_down_acceleration[13];
+  mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
+  for (int i = 11; i >= 2; --i) {
     mass_cut_force_down_per_joint_down_acceleration[i] = mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1];
+  }
+  matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+  matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
+      + mass_cut_force_down_per_joint_down_acceleration[2]);
+  for (int i = 2; i <= 11; ++i) {
     matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
   }
-  {
-    const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
-    const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
-    matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.column[0][0] = mass_joint_down_acceleration_gain;
-    matrix.column[0][1] = mass_joint_side_acceleration_gain;
-    matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
-        + mass_cut_force_down_per_joint_down_acceleration[2]);
-  }
+  matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+  matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+  matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
+      + load_mass);
   matrix.to_dense(M);
 }
 
@@ -758,107 +696,76 @@ int acceleration(const Point<T>& at, T* a) {
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T joint_moment[13];
   T span_down_acceleration_bias[13];
-  T joint_down_acceleration_bias[13];
-  T centre_down_force_bias[13];
   T span_side_acceleration_bias[13];
-  T joint_side_acceleration_bias[13];
-  T centre_side_force_bias[13];
   {
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
     span_down_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
-    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[1];
-    centre_down_force_bias[1] = mass[1] * (centre_down_acceleration_bias - gravity);
     span_side_acceleration_bias[1] = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
-    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[1];
-    centre_side_force_bias[1] = mass[1] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
     const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
     matrix.column[0][0] = mass_joint_down_acceleration_gain;
     matrix.column[0][1] = mass_joint_side_acceleration_gain;
   }
-  {
-    const T joint_angle = theta[2] - theta[1];
-    const T joint_rate = theta_dot[2] - theta_dot[1];
-    joint_moment[2] = stiffness[2] * joint_angle + damping[2] * joint_rate;
-    span_down_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
-    joint_down_acceleration_bias[2] = span_down_acceleration_bias[1]
-        + span_down_acceleration_bias[2];
-    const T centre_down_acceleration_bias = span_down_acceleration_bias[1]
-        + ratio<T>(1, 2) * span_down_acceleration_bias[2];
-    centre_down_force_bias[2] = mass[2] * (centre_down_acceleration_bias - gravity);
-    span_side_acceleration_bias[2] = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
-    joint_side_acceleration_bias[2] = span_side_acceleration_bias[1]
-        + span_side_acceleration_bias[2];
-    const T centre_side_acceleration_bias = span_side_acceleration_bias[1]
-        + ratio<T>(1, 2) * span_side_acceleration_bias[2];
-    centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
-    const T mass_joint_down_acceleration_gain = -length[2] * sine[2];
-    const T mass_joint_side_acceleration_gain = length[2] * cosine[2];
-    matrix.column[1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[1][1] = mass_joint_side_acceleration_gain;
-  }
-  for (int i = 3; i <= 12; ++i) {
+  for (int i = 2; i <= 12; ++i) {
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
     joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
     span_down_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
-    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
-        + joint_down_acceleration_bias[i - 1];
-    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[i]
-        + joint_down_acceleration_bias[i - 1];
-    centre_down_force_bias[i] = mass[i] * (centre_down_acceleration_bias - gravity);
     span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
-    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
-        + joint_side_acceleration_bias[i - 1];
-    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[i]
-        + joint_side_acceleration_bias[i - 1];
-    centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
     matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
     matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
   }
+  T joint_down_acceleration_bias[13];
+  T joint_side_acceleration_bias[13];
+  joint_down_acceleration_bias[2] = span_down_acceleration_bias[1] + span_down_acceleration_bias[2];
+  joint_side_acceleration_bias[2] = span_side_acceleration_bias[1] + span_side_acceleration_bias[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_down_acceleration_bias[i] = span_down_acceleration_bias[i]
+        + joint_down_acceleration_bias[i - 1];
+    joint_side_acceleration_bias[i] = span_side_acceleration_bias[i]
+        + joint_side_acceleration_bias[i - 1];
+  }
+  T centre_down_force_bias[13];
+  T centre_side_force_bias[13];
+  {
+    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[1];
+    centre_down_force_bias[1] = mass[1] * (centre_down_acceleration_bias - gravity);
+    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[1];
+    centre_side_force_bias[1] = mass[1] * centre_side_acceleration_bias;
+  }
+  {
+    const T centre_down_acceleration_bias = span_down_acceleration_bias[1]
+        + ratio<T>(1, 2) * span_down_acceleration_bias[2];
+    centre_down_force_bias[2] = mass[2] * (centre_down_acceleration_bias - gravity);
+    const T centre_side_acceleration_bias = span_side_acceleration_bias[1]
+        + ratio<T>(1, 2) * span_side_acceleration_bias[2];
+    centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
+  }
+  for (int i = 3; i <= 12; ++i) {
+    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias[i]
+        + joint_down_acceleration_bias[i - 1];
+    centre_down_force_bias[i] = mass[i] * (centre_down_acceleration_bias - gravity);
+    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias[i]
+        + joint_side_acceleration_bias[i - 1];
+    centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
+  }
   T cut_force_down_bias[14];
   T cut_force_side_bias[14];
   T mass_cut_force_down_per_joint_down_acceleration[13];
-  {
-    cut_force_down_bias[13] = load_mass * (joint_down_acceleration_bias[12] - gravity);
-    cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
-  }
-  {
-    cut_force_down_bias[12] = cut_force_down_bias[13] + centre_down_force_bias[12];
-    const T span_down_force_bias = cut_force_down_bias[13]
-        + ratio<T>(1, 2) * centre_down_force_bias[12];
-    cut_force_side_bias[12] = cut_force_side_bias[13] + centre_side_force_bias[12];
-    const T span_side_force_bias = cut_force_side_bias[13]
-        + ratio<T>(1, 2) * centre_side_force_bias[12];
-    mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
-    matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
-        + load_mass);
-    a[11] = torque[12] - joint_moment[12] + length[12] * (sine[12] * span_down_force_bias
-        - cosine[12] * span_side_force_bias);
-  }
+  cut_force_down_bias[13] = load_mass * (joint_down_acceleration_bias[12] - gravity);
+  cut_force_side_bias[13] = load_mass * joint_side_acceleration_bias[12];
+  cut_force_down_bias[12] = cut_force_down_bias[13] + centre_down_force_bias[12];
+  cut_force_side_bias[12] = cut_force_side_bias[13] + centre_side_force_bias[12];
+  mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
   for (int i = 11; i >= 2; --i) {
     cut_force_down_bias[i] = cut_force_down_bias[i + 1] + centre_down_force_bias[i];
-    const T span_down_force_bias = cut_force_down_bias[i + 1]
-        + ratio<T>(1, 2) * centre_down_force_bias[i];
     cut_force_side_bias[i] = cut_force_side_bias[i + 1] + centre_side_force_bias[i];
-    const T span_side_force_bias = cut_force_side_bias[i + 1]
-        + ratio<T>(1, 2) * centre_side_force_bias[i];
     mass_cut_force_down_per_joint_down_acceleration[i] = mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1];
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
-        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
-        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
-        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    a[i - 1] = torque[i] - joint_moment[i] + joint_moment[i + 1]
-        + length[i] * (sine[i] * span_down_force_bias - cosine[i] * span_side_force_bias);
   }
   {
     const T span_down_force_bias = cut_force_down_bias[2]
@@ -872,7 +779,33 @@ int acceleration(const Point<T>& at, T* a) {
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
         + length[1] * (sine[1] * span_down_force_bias - cosine[1] * span_side_force_bias);
   }
-  return matrix.solve_in_place(a);
+  for (int i = 2; i <= 11; ++i) {
+    const T span_down_force_bias = cut_force_down_bias[i + 1]
+        + ratio<T>(1, 2) * centre_down_force_bias[i];
+    const T span_side_force_bias = cut_force_side_bias[i + 1]
+        + ratio<T>(1, 2) * centre_side_force_bias[i];
+    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
+    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
+    matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
+    a[i - 1] = torque[i] - joint_moment[i] + joint_moment[i + 1]
+        + length[i] * (sine[i] * span_down_force_bias - cosine[i] * span_side_force_bias);
+  }
+  {
+    const T span_down_force_bias = cut_force_down_bias[13]
+        + ratio<T>(1, 2) * centre_down_force_bias[12];
+    const T span_side_force_bias = cut_force_side_bias[13]
+        + ratio<T>(1, 2) * centre_side_force_bias[12];
+    matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
+        + load_mass);
+    a[11] = torque[12] - joint_moment[12] + length[12] * (sine[12] * span_down_force_bias
+        - cosine[12] * span_side_force_bias);
+  }
+  return matrix.solve(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).
@@ -891,42 +824,30 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   const FromOne<T> theta_ddot(at.a);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
-  T joint_side_acceleration[13];
-  T joint_down_acceleration[13];
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
   T newton_joint_down_acceleration_gain[13];
   T newton_joint_side_acceleration_gain[13];
-  T centre_down_force[13];
-  T centre_side_force[13];
-  {
-    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
-        - theta_dot[1] * theta_dot[1] * sine[1]);
-    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-        + theta_ddot[1] * sine[1]);
-    joint_side_acceleration[1] = span_side_acceleration;
-    joint_down_acceleration[1] = span_down_acceleration;
-    newton_joint_down_acceleration_gain[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-        * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
-    newton_joint_side_acceleration_gain[1] = length[1] * (cosine[1] * ca
-        - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
-        + theta_dot[1] * cosine[1] * cq));
-    matrix.upper_row[0][0] = -length[1] * sine[1];
-    matrix.upper_row[0][1] = length[1] * cosine[1];
-    matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-    matrix.lower_column[0][1] = newton_joint_side_acceleration_gain[1];
-    matrix.below[0] = T(0);
-    matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
-    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
-    centre_side_force[1] = mass[1] * centre_side_acceleration;
-  }
+  span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  newton_joint_down_acceleration_gain[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+      * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+  newton_joint_side_acceleration_gain[1] = length[1] * (cosine[1] * ca
+      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+      + theta_dot[1] * cosine[1] * cq));
+  matrix.upper_row[0][0] = -length[1] * sine[1];
+  matrix.upper_row[0][1] = length[1] * cosine[1];
+  matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
+  matrix.lower_column[0][1] = newton_joint_side_acceleration_gain[1];
+  matrix.below[0] = T(0);
+  matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
   for (int i = 2; i <= 11; ++i) {
-    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
-    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
-    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
     newton_joint_down_acceleration_gain[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
         * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
     newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
@@ -938,76 +859,82 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
     matrix.lower_column[i - 1][1] = newton_joint_side_acceleration_gain[i];
     matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
     matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+  }
+  span_side_acceleration[12] = length[12] * (theta_ddot[12] * cosine[12]
+      - theta_dot[12] * theta_dot[12] * sine[12]);
+  span_down_acceleration[12] = -length[12] * (theta_dot[12] * theta_dot[12] * cosine[12]
+      + theta_ddot[12] * sine[12]);
+  newton_joint_down_acceleration_gain[12] = length[12] * (theta_dot[12] * (theta_dot[12]
+      * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
+      + sine[12] * ca));
+  newton_joint_side_acceleration_gain[12] = length[12] * (cosine[12] * ca
+      - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
+      + theta_dot[12] * cosine[12] * cq));
+  matrix.upper_row[11][0] = T(0);
+  matrix.upper_row[11][1] = T(0);
+  matrix.lower_column[11][0] = newton_joint_down_acceleration_gain[12];
+  matrix.lower_column[11][1] = newton_joint_side_acceleration_gain[12];
+  matrix.below[11] = -(stiffness[12] * cq + damping[12] * cv);
+  matrix.above[11] = T(0);
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  for (int i = 2; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+  }
+  for (int i = 2; i <= 12; ++i) {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
         + joint_down_acceleration[i - 1];
     centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
     centre_side_force[i] = mass[i] * centre_side_acceleration;
   }
-  {
-    const T span_side_acceleration = length[12] * (theta_ddot[12] * cosine[12]
-        - theta_dot[12] * theta_dot[12] * sine[12]);
-    const T span_down_acceleration = -length[12] * (theta_dot[12] * theta_dot[12] * cosine[12]
-        + theta_ddot[12] * sine[12]);
-    joint_side_acceleration[12] = span_side_acceleration + joint_side_acceleration[11];
-    joint_down_acceleration[12] = span_down_acceleration + joint_down_acceleration[11];
-    newton_joint_down_acceleration_gain[12] = length[12] * (theta_dot[12] * (theta_dot[12]
-        * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
-        + sine[12] * ca));
-    newton_joint_side_acceleration_gain[12] = length[12] * (cosine[12] * ca
-        - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
-        + theta_dot[12] * cosine[12] * cq));
-    matrix.upper_row[11][0] = T(0);
-    matrix.upper_row[11][1] = T(0);
-    matrix.lower_column[11][0] = newton_joint_down_acceleration_gain[12];
-    matrix.lower_column[11][1] = newton_joint_side_acceleration_gain[12];
-    matrix.below[11] = -(stiffness[12] * cq + damping[12] * cv);
-    matrix.above[11] = T(0);
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
-        + joint_side_acceleration[11];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
-        + joint_down_acceleration[11];
-    centre_down_force[12] = mass[12] * (centre_down_acceleration - gravity);
-    centre_side_force[12] = mass[12] * centre_side_acceleration;
-  }
   T cut_force_down[14];
   T cut_force_side[14];
   T mass_cut_force_down_per_joint_down_acceleration[13];
-  {
-    cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
-    cut_force_side[13] = load_mass * joint_side_acceleration[12];
-  }
-  {
-    cut_force_down[12] = cut_force_down[13] + centre_down_force[12];
-    cut_force_side[12] = cut_force_side[13] + centre_side_force[12];
-    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
-    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
-    mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
-    matrix.upper_column[11][0] = length[12] * (load_mass * (theta_dot[12] * (theta_dot[12]
-        * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
-        + sine[12] * ca)) + mass[12] * (theta_dot[12] * (ratio<T>(1, 2) * theta_dot[12]
-        * sine[12] * cq - cosine[12] * cv) - ratio<T>(1, 2) * (theta_ddot[12] * cosine[12] * cq
-        + sine[12] * ca)));
-    matrix.upper_column[11][1] = length[12] * (load_mass * (cosine[12] * ca
-        - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
-        + theta_dot[12] * cosine[12] * cq)) + mass[12] * (ratio<T>(1, 2) * (cosine[12] * ca
-        - theta_ddot[12] * sine[12] * cq) - theta_dot[12] * (sine[12] * cv
-        + ratio<T>(1, 2) * theta_dot[12] * cosine[12] * cq)));
-    matrix.lower_row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.lower_row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.diagonal[11] = inertia[12] * ca + stiffness[12] * cq + damping[12] * cv
-        + length[12] * (length[12] * (load_mass * (ca - theta_dot[12] * theta_dot[12] * cq)
-        + ratio<T>(1, 4) * mass[12] * (ca - theta_dot[12] * theta_dot[12] * cq))
-        - cq * (sine[12] * span_side_force + cosine[12] * span_down_force));
-  }
+  cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
+  cut_force_side[13] = load_mass * joint_side_acceleration[12];
+  cut_force_down[12] = cut_force_down[13] + centre_down_force[12];
+  cut_force_side[12] = cut_force_side[13] + centre_side_force[12];
+  mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
   for (int i = 11; i >= 2; --i) {
     cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
-    const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
-    const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
     mass_cut_force_down_per_joint_down_acceleration[i] = mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1];
+  }
+  {
+    const T span_down_force = cut_force_down[2] + ratio<T>(1, 2) * centre_down_force[1];
+    const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
+    matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration[2]
+        * newton_joint_down_acceleration_gain[1];
+    matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration[2]
+        * newton_joint_side_acceleration_gain[1];
+    matrix.lower_row[0][0] = -length[1] * sine[1]
+        * mass_cut_force_down_per_joint_down_acceleration[2];
+    matrix.lower_row[0][1] = length[1] * cosine[1]
+        * mass_cut_force_down_per_joint_down_acceleration[2];
+    matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
+        + damping[2]) + length[1] * (length[1]
+        * (mass_cut_force_down_per_joint_down_acceleration[2] * (ca
+        - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca
+        - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine[1] * span_side_force
+        + cosine[1] * span_down_force));
+  }
+  for (int i = 2; i <= 11; ++i) {
+    const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
+    const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
     matrix.upper_column[i - 1][0] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
         * newton_joint_down_acceleration_gain[i]
         + length[i] * mass[i] * (theta_dot[i] * (ratio<T>(1, 2) * theta_dot[i] * sine[i] * cq
@@ -1028,22 +955,24 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
         + cosine[i] * span_down_force));
   }
   {
-    const T span_down_force = cut_force_down[2] + ratio<T>(1, 2) * centre_down_force[1];
-    const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
-    matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration[2]
-        * newton_joint_down_acceleration_gain[1];
-    matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration[2]
-        * newton_joint_side_acceleration_gain[1];
-    matrix.lower_row[0][0] = -length[1] * sine[1]
-        * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.lower_row[0][1] = length[1] * cosine[1]
-        * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
-        + damping[2]) + length[1] * (length[1]
-        * (mass_cut_force_down_per_joint_down_acceleration[2] * (ca
-        - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca
-        - theta_dot[1] * theta_dot[1] * cq)) - cq * (sine[1] * span_side_force
-        + cosine[1] * span_down_force));
+    const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
+    const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
+    matrix.upper_column[11][0] = length[12] * (load_mass * (theta_dot[12] * (theta_dot[12]
+        * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
+        + sine[12] * ca)) + mass[12] * (theta_dot[12] * (ratio<T>(1, 2) * theta_dot[12]
+        * sine[12] * cq - cosine[12] * cv) - ratio<T>(1, 2) * (theta_ddot[12] * cosine[12] * cq
+        + sine[12] * ca)));
+    matrix.upper_column[11][1] = length[12] * (load_mass * (cosine[12] * ca
+        - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
+        + theta_dot[12] * cosine[12] * cq)) + mass[12] * (ratio<T>(1, 2) * (cosine[12] * ca
+        - theta_ddot[12] * sine[12] * cq) - theta_dot[12] * (sine[12] * cv
+        + ratio<T>(1, 2) * theta_dot[12] * cosine[12] * cq)));
+    matrix.lower_row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.lower_row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.diagonal[11] = inertia[12] * ca + stiffness[12] * cq + damping[12] * cv
+        + length[12] * (length[12] * (load_mass * (ca - theta_dot[12] * theta_dot[12] * cq)
+        + ratio<T>(1, 4) * mass[12] * (ca - theta_dot[12] * theta_dot[12] * cq))
+        - cq * (sine[12] * span_side_force + cosine[12] * span_down_force));
   }
 }
 
@@ -1063,6 +992,23 @@ void energy(const Point<T>& at, T* e) {
   const FromOne<T> theta_dot(at.v);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  T span_side_velocity[13];
+  T span_down[13];
+  T span_down_velocity[13];
+  T joint_angle[13];
+  T joint_rate[13];
+  span_side_velocity[1] = length[1] * theta_dot[1] * cosine[1];
+  span_down[1] = length[1] * cosine[1];
+  span_down_velocity[1] = -length[1] * theta_dot[1] * sine[1];
+  joint_angle[1] = theta[1];
+  joint_rate[1] = theta_dot[1];
+  for (int i = 2; i <= 12; ++i) {
+    span_side_velocity[i] = length[i] * theta_dot[i] * cosine[i];
+    span_down[i] = length[i] * cosine[i];
+    span_down_velocity[i] = -length[i] * theta_dot[i] * sine[i];
+    joint_angle[i] = theta[i] - theta[i - 1];
+    joint_rate[i] = theta_dot[i] - theta_dot[i - 1];
+  }
   T joint_side_velocity[13];
   T joint_down_velocity[13];
   T arc[13];
@@ -1076,42 +1022,33 @@ void energy(const Point<T>& at, T* e) {
     joint_down[0] = T(0);
   }
   {
-    const T span_side_velocity = length[1] * theta_dot[1] * cosine[1];
-    const T span_down = length[1] * cosine[1];
-    const T span_down_velocity = -length[1] * theta_dot[1] * sine[1];
-    joint_side_velocity[1] = span_side_velocity;
-    joint_down_velocity[1] = span_down_velocity;
-    const T joint_angle = theta[1];
-    const T joint_rate = theta_dot[1];
-    joint_elastic_energy_sum[1] = ratio<T>(1, 2) * stiffness[1] * joint_angle * joint_angle;
-    joint_damping_power_sum[1] = damping[1] * joint_rate * joint_rate;
+    joint_side_velocity[1] = span_side_velocity[1];
+    joint_down_velocity[1] = span_down_velocity[1];
+    joint_elastic_energy_sum[1] = ratio<T>(1, 2) * stiffness[1] * joint_angle[1] * joint_angle[1];
+    joint_damping_power_sum[1] = damping[1] * joint_rate[1] * joint_rate[1];
     torque_power_sum[1] = torque[1] * theta_dot[1];
-    joint_down[1] = joint_down[0] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity;
-    const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity;
+    joint_down[1] = joint_down[0] + span_down[1];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[1];
+    const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down[1];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[1];
     kinetic_energy_sum[1] = ratio<T>(1, 2) * (inertia[1] * theta_dot[1] * theta_dot[1]
         + mass[1] * (centre_side_velocity * centre_side_velocity
         + centre_down_velocity * centre_down_velocity));
     gravity_energy_sum[1] = mass[1] * gravity * (ratio<T>(1, 2) * length[1] - centre_down);
   }
   {
-    const T span_side_velocity = length[2] * theta_dot[2] * cosine[2];
-    const T span_down = length[2] * cosine[2];
-    const T span_down_velocity = -length[2] * theta_dot[2] * sine[2];
-    joint_side_velocity[2] = span_side_velocity + joint_side_velocity[1];
-    joint_down_velocity[2] = span_down_velocity + joint_down_velocity[1];
-    const T joint_angle = theta[2] - theta[1];
-    const T joint_rate = theta_dot[2] - theta_dot[1];
+    joint_side_velocity[2] = span_side_velocity[2] + joint_side_velocity[1];
+    joint_down_velocity[2] = span_down_velocity[2] + joint_down_velocity[1];
     arc[2] = length[1] + length[2];
-    joint_elastic_energy_sum[2] = ratio<T>(1, 2) * stiffness[2] * joint_angle * joint_angle
+    joint_elastic_energy_sum[2] = ratio<T>(1, 2) * stiffness[2] * joint_angle[2] * joint_angle[2]
         + joint_elastic_energy_sum[1];
-    joint_damping_power_sum[2] = damping[2] * joint_rate * joint_rate + joint_damping_power_sum[1];
+    joint_damping_power_sum[2] = damping[2] * joint_rate[2] * joint_rate[2]
+        + joint_damping_power_sum[1];
     torque_power_sum[2] = torque[2] * theta_dot[2] + torque_power_sum[1];
-    joint_down[2] = joint_down[1] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[1];
-    const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[1];
+    joint_down[2] = joint_down[1] + span_down[2];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[2] + joint_side_velocity[1];
+    const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down[2];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[2] + joint_down_velocity[1];
     kinetic_energy_sum[2] = ratio<T>(1, 2) * inertia[2] * theta_dot[2] * theta_dot[2]
         + kinetic_energy_sum[1] + ratio<T>(1, 2) * mass[2] * (centre_side_velocity
         * centre_side_velocity + centre_down_velocity * centre_down_velocity);
@@ -1119,23 +1056,20 @@ void energy(const Point<T>& at, T* e) {
         + ratio<T>(1, 2) * length[2] - centre_down);
   }
   for (int i = 3; i <= 12; ++i) {
-    const T span_side_velocity = length[i] * theta_dot[i] * cosine[i];
-    const T span_down = length[i] * cosine[i];
-    const T span_down_velocity = -length[i] * theta_dot[i] * sine[i];
-    joint_side_velocity[i] = span_side_velocity + joint_side_velocity[i - 1];
-    joint_down_velocity[i] = span_down_velocity + joint_down_velocity[i - 1];
-    const T joint_angle = theta[i] - theta[i - 1];
-    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_side_velocity[i] = span_side_velocity[i] + joint_side_velocity[i - 1];
+    joint_down_velocity[i] = span_down_velocity[i] + joint_down_velocity[i - 1];
     arc[i] = length[i] + arc[i - 1];
-    joint_elastic_energy_sum[i] = ratio<T>(1, 2) * stiffness[i] * joint_angle * joint_angle
+    joint_elastic_energy_sum[i] = ratio<T>(1, 2) * stiffness[i] * joint_angle[i] * joint_angle[i]
         + joint_elastic_energy_sum[i - 1];
-    joint_damping_power_sum[i] = damping[i] * joint_rate * joint_rate
+    joint_damping_power_sum[i] = damping[i] * joint_rate[i] * joint_rate[i]
         + joint_damping_power_sum[i - 1];
     torque_power_sum[i] = torque[i] * theta_dot[i] + torque_power_sum[i - 1];
-    joint_down[i] = joint_down[i - 1] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[i - 1];
-    const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[i - 1];
+    joint_down[i] = joint_down[i - 1] + span_down[i];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[i]
+        + joint_side_velocity[i - 1];
+    const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down[i];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[i]
+        + joint_down_velocity[i - 1];
     kinetic_energy_sum[i] = ratio<T>(1, 2) * inertia[i] * theta_dot[i] * theta_dot[i]
         + kinetic_energy_sum[i - 1] + ratio<T>(1, 2) * mass[i] * (centre_side_velocity
         * centre_side_velocity + centre_down_velocity * centre_down_velocity);
@@ -1182,15 +1116,46 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const T d_gravity = along.p[73];
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
+  T span_side_velocity[13];
+  T span_down[13];
+  T span_down_velocity[13];
+  T joint_angle[13];
+  T joint_rate[13];
+  T d_joint_angle[13];
+  T d_joint_rate[13];
+  T d_span_side_velocity[13];
+  T d_span_down_velocity[13];
+  T d_span_down[13];
+  span_side_velocity[1] = length[1] * theta_dot[1] * cosine[1];
+  span_down[1] = length[1] * cosine[1];
+  span_down_velocity[1] = -length[1] * theta_dot[1] * sine[1];
+  joint_angle[1] = theta[1];
+  joint_rate[1] = theta_dot[1];
+  d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
+      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
+  d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
+      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+  d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  for (int i = 2; i <= 12; ++i) {
+    span_side_velocity[i] = length[i] * theta_dot[i] * cosine[i];
+    span_down[i] = length[i] * cosine[i];
+    span_down_velocity[i] = -length[i] * theta_dot[i] * sine[i];
+    joint_angle[i] = theta[i] - theta[i - 1];
+    joint_rate[i] = theta_dot[i] - theta_dot[i - 1];
+    d_joint_angle[i] = d_theta[i] - d_theta[i - 1];
+    d_joint_rate[i] = d_theta_dot[i] - d_theta_dot[i - 1];
+    d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
+        + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
+    d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
+        + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
+    d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
+  }
   T joint_side_velocity[13];
   T joint_down_velocity[13];
   T arc[13];
-  T d_span_side_velocity[13];
   T d_joint_side_velocity[13];
-  T d_span_down_velocity[13];
   T d_joint_down_velocity[13];
   T d_arc[13];
-  T d_span_down[13];
   T d_joint_down[13];
   T d_joint_elastic_energy_sum[13];
   T d_joint_damping_power_sum[13];
@@ -1202,30 +1167,20 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
     joint_down[0] = T(0);
   }
   {
-    const T span_side_velocity = length[1] * theta_dot[1] * cosine[1];
-    const T span_down = length[1] * cosine[1];
-    const T span_down_velocity = -length[1] * theta_dot[1] * sine[1];
-    joint_side_velocity[1] = span_side_velocity;
-    joint_down_velocity[1] = span_down_velocity;
-    const T joint_angle = theta[1];
-    const T joint_rate = theta_dot[1];
-    d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
-        + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-    d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
-        + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
+    joint_side_velocity[1] = span_side_velocity[1];
+    joint_down_velocity[1] = span_down_velocity[1];
     const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[1];
     const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[1];
-    d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
     const T d_centre_down = ratio<T>(1, 2) * d_span_down[1];
-    d_joint_elastic_energy_sum[1] = joint_angle * (stiffness[1] * d_theta[1]
-        + ratio<T>(1, 2) * joint_angle * d_stiffness[1]);
-    d_joint_damping_power_sum[1] = joint_rate * (T(2) * damping[1] * d_theta_dot[1]
-        + joint_rate * d_damping[1]);
+    d_joint_elastic_energy_sum[1] = joint_angle[1] * (stiffness[1] * d_theta[1]
+        + ratio<T>(1, 2) * joint_angle[1] * d_stiffness[1]);
+    d_joint_damping_power_sum[1] = joint_rate[1] * (T(2) * damping[1] * d_theta_dot[1]
+        + joint_rate[1] * d_damping[1]);
     d_torque_power_sum[1] = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
-    joint_down[1] = joint_down[0] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity;
-    const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity;
+    joint_down[1] = joint_down[0] + span_down[1];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[1];
+    const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down[1];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[1];
     d_kinetic_energy_sum[1] = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity
         * centre_side_velocity + centre_down_velocity * centre_down_velocity)
         + theta_dot[1] * (inertia[1] * d_theta_dot[1]
@@ -1237,41 +1192,29 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
         + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down));
   }
   {
-    const T span_side_velocity = length[2] * theta_dot[2] * cosine[2];
-    const T span_down = length[2] * cosine[2];
-    const T span_down_velocity = -length[2] * theta_dot[2] * sine[2];
-    joint_side_velocity[2] = span_side_velocity + joint_side_velocity[1];
-    joint_down_velocity[2] = span_down_velocity + joint_down_velocity[1];
-    const T joint_angle = theta[2] - theta[1];
-    const T joint_rate = theta_dot[2] - theta_dot[1];
+    joint_side_velocity[2] = span_side_velocity[2] + joint_side_velocity[1];
+    joint_down_velocity[2] = span_down_velocity[2] + joint_down_velocity[1];
     arc[2] = length[1] + length[2];
-    const T d_joint_angle = d_theta[2] - d_theta[1];
-    const T d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
-    d_span_side_velocity[2] = theta_dot[2] * cosine[2] * d_length[2]
-        + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
     d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
-    d_span_down_velocity[2] = -(theta_dot[2] * sine[2] * d_length[2]
-        + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
     d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
     const T d_centre_side_velocity = d_span_side_velocity[1]
         + ratio<T>(1, 2) * d_span_side_velocity[2];
     const T d_centre_down_velocity = d_span_down_velocity[1]
         + ratio<T>(1, 2) * d_span_down_velocity[2];
     d_arc[2] = d_length[1] + d_length[2];
-    d_span_down[2] = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
     d_joint_down[2] = d_span_down[1] + d_span_down[2];
     const T d_centre_down = d_span_down[1] + ratio<T>(1, 2) * d_span_down[2];
     d_joint_elastic_energy_sum[2] = d_joint_elastic_energy_sum[1]
-        + joint_angle * (stiffness[2] * d_joint_angle
-        + ratio<T>(1, 2) * joint_angle * d_stiffness[2]);
+        + joint_angle[2] * (stiffness[2] * d_joint_angle[2]
+        + ratio<T>(1, 2) * joint_angle[2] * d_stiffness[2]);
     d_joint_damping_power_sum[2] = d_joint_damping_power_sum[1]
-        + joint_rate * (T(2) * damping[2] * d_joint_rate + joint_rate * d_damping[2]);
+        + joint_rate[2] * (T(2) * damping[2] * d_joint_rate[2] + joint_rate[2] * d_damping[2]);
     d_torque_power_sum[2] = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
         + d_torque_power_sum[1];
-    joint_down[2] = joint_down[1] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[1];
-    const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[1];
+    joint_down[2] = joint_down[1] + span_down[2];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[2] + joint_side_velocity[1];
+    const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down[2];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[2] + joint_down_velocity[1];
     d_kinetic_energy_sum[2] = d_kinetic_energy_sum[1]
         + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity * centre_side_velocity
         + centre_down_velocity * centre_down_velocity)
@@ -1285,41 +1228,31 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
         + ratio<T>(1, 2) * d_length[2] - d_centre_down));
   }
   for (int i = 3; i <= 12; ++i) {
-    const T span_side_velocity = length[i] * theta_dot[i] * cosine[i];
-    const T span_down = length[i] * cosine[i];
-    const T span_down_velocity = -length[i] * theta_dot[i] * sine[i];
-    joint_side_velocity[i] = span_side_velocity + joint_side_velocity[i - 1];
-    joint_down_velocity[i] = span_down_velocity + joint_down_velocity[i - 1];
-    const T joint_angle = theta[i] - theta[i - 1];
-    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_side_velocity[i] = span_side_velocity[i] + joint_side_velocity[i - 1];
+    joint_down_velocity[i] = span_down_velocity[i] + joint_down_velocity[i - 1];
     arc[i] = length[i] + arc[i - 1];
-    const T d_joint_angle = d_theta[i] - d_theta[i - 1];
-    const T d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
-    d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
-        + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
     d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
-    d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
-        + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
     d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
     const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[i]
         + d_joint_side_velocity[i - 1];
     const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[i]
         + d_joint_down_velocity[i - 1];
     d_arc[i] = d_length[i] + d_arc[i - 1];
-    d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
     d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
     const T d_centre_down = ratio<T>(1, 2) * d_span_down[i] + d_joint_down[i - 1];
     d_joint_elastic_energy_sum[i] = d_joint_elastic_energy_sum[i - 1]
-        + joint_angle * (stiffness[i] * d_joint_angle
-        + ratio<T>(1, 2) * joint_angle * d_stiffness[i]);
+        + joint_angle[i] * (stiffness[i] * d_joint_angle[i]
+        + ratio<T>(1, 2) * joint_angle[i] * d_stiffness[i]);
     d_joint_damping_power_sum[i] = d_joint_damping_power_sum[i - 1]
-        + joint_rate * (T(2) * damping[i] * d_joint_rate + joint_rate * d_damping[i]);
+        + joint_rate[i] * (T(2) * damping[i] * d_joint_rate[i] + joint_rate[i] * d_damping[i]);
     d_torque_power_sum[i] = torque[i] * d_theta_dot[i] + theta_dot[i] * d_torque[i]
         + d_torque_power_sum[i - 1];
-    joint_down[i] = joint_down[i - 1] + span_down;
-    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity + joint_side_velocity[i - 1];
-    const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down;
-    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity + joint_down_velocity[i - 1];
+    joint_down[i] = joint_down[i - 1] + span_down[i];
+    const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[i]
+        + joint_side_velocity[i - 1];
+    const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down[i];
+    const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[i]
+        + joint_down_velocity[i - 1];
     d_kinetic_energy_sum[i] = d_kinetic_energy_sum[i - 1]
         + ratio<T>(1, 2) * d_mass[i] * (centre_side_velocity * centre_side_velocity
         + centre_down_velocity * centre_down_velocity)
@@ -1356,26 +1289,26 @@ void positions(const Point<T>& at, T* side, T* down) {
   const FromOne<T> length(at.p);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  T span_side[13];
+  T span_down[13];
+  for (int i = 1; i <= 12; ++i) {
+    span_side[i] = length[i] * sine[i];
+    span_down[i] = length[i] * cosine[i];
+  }
   T joint_side[13];
   T joint_down[13];
-  {
-    joint_side[0] = T(0);
-    joint_down[0] = T(0);
-    side[0] = joint_side[0];
-    down[0] = joint_down[0];
-  }
+  joint_side[0] = T(0);
+  joint_down[0] = T(0);
   for (int i = 1; i <= 12; ++i) {
-    const T span_side = length[i] * sine[i];
-    const T span_down = length[i] * cosine[i];
-    joint_side[i] = joint_side[i - 1] + span_side;
-    joint_down[i] = joint_down[i - 1] + span_down;
+    joint_side[i] = joint_side[i - 1] + span_side[i];
+    joint_down[i] = joint_down[i - 1] + span_down[i];
+  }
+  for (int i = 0; i <= 12; ++i) {
     side[i] = joint_side[i];
     down[i] = joint_down[i];
   }
-  {
-    side[13] = joint_side[12];
-    down[13] = joint_down[12];
-  }
+  side[13] = joint_side[12];
+  down[13] = joint_down[12];
 }
 
 /// Derivative of the positions along `along`.
@@ -1388,26 +1321,24 @@ void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* d
   const FromOne<T> d_length(along.p);
   const FromOne<T> d_theta(along.q);
   T d_span_down[13];
-  T d_joint_down[13];
   T d_span_side[13];
+  for (int i = 1; i <= 12; ++i) {
+    d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
+    d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
+  }
+  T d_joint_down[13];
   T d_joint_side[13];
+  d_joint_down[2] = d_span_down[1] + d_span_down[2];
+  d_joint_side[2] = d_span_side[1] + d_span_side[2];
+  for (int i = 3; i <= 12; ++i) {
+    d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
+    d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
+  }
   dside[0] = T(0);
   ddown[0] = T(0);
-  d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  d_span_side[1] = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
   dside[1] = d_span_side[1];
   ddown[1] = d_span_down[1];
-  d_span_down[2] = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  d_joint_down[2] = d_span_down[1] + d_span_down[2];
-  d_span_side[2] = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
-  d_joint_side[2] = d_span_side[1] + d_span_side[2];
-  dside[2] = d_joint_side[2];
-  ddown[2] = d_joint_down[2];
-  for (int i = 3; i <= 12; ++i) {
-    d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
-    d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
-    d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
-    d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
+  for (int i = 2; i <= 12; ++i) {
     dside[i] = d_joint_side[i];
     ddown[i] = d_joint_down[i];
   }
@@ -1423,32 +1354,28 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   const FromOne<T> theta_dot(at.v);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  T span_side_velocity[13];
+  T span_down_velocity[13];
+  for (int i = 1; i <= 12; ++i) {
+    span_side_velocity[i] = length[i] * theta_dot[i] * cosine[i];
+    span_down_velocity[i] = -length[i] * theta_dot[i] * sine[i];
+  }
   T joint_side_velocity[13];
   T joint_down_velocity[13];
-  {
-    side_rate[0] = T(0);
-    down_rate[0] = T(0);
-  }
-  {
-    const T span_side_velocity = length[1] * theta_dot[1] * cosine[1];
-    const T span_down_velocity = -length[1] * theta_dot[1] * sine[1];
-    joint_side_velocity[1] = span_side_velocity;
-    joint_down_velocity[1] = span_down_velocity;
-    side_rate[1] = joint_side_velocity[1];
-    down_rate[1] = joint_down_velocity[1];
-  }
+  joint_side_velocity[1] = span_side_velocity[1];
+  joint_down_velocity[1] = span_down_velocity[1];
   for (int i = 2; i <= 12; ++i) {
-    const T span_side_velocity = length[i] * theta_dot[i] * cosine[i];
-    const T span_down_velocity = -length[i] * theta_dot[i] * sine[i];
-    joint_side_velocity[i] = span_side_velocity + joint_side_velocity[i - 1];
-    joint_down_velocity[i] = span_down_velocity + joint_down_velocity[i - 1];
+    joint_side_velocity[i] = span_side_velocity[i] + joint_side_velocity[i - 1];
+    joint_down_velocity[i] = span_down_velocity[i] + joint_down_velocity[i - 1];
+  }
+  side_rate[0] = T(0);
+  down_rate[0] = T(0);
+  for (int i = 1; i <= 12; ++i) {
     side_rate[i] = joint_side_velocity[i];
     down_rate[i] = joint_down_velocity[i];
   }
-  {
-    side_rate[13] = joint_side_velocity[12];
-    down_rate[13] = joint_down_velocity[12];
-  }
+  side_rate[13] = joint_side_velocity[12];
+  down_rate[13] = joint_down_velocity[12];
 }
 
 /// Derivative of the velocities along `along`.
@@ -1464,32 +1391,26 @@ void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   T d_span_side_velocity[13];
-  T d_joint_side_velocity[13];
   T d_span_down_velocity[13];
-  T d_joint_down_velocity[13];
-  dside_rate[0] = T(0);
-  ddown_rate[0] = T(0);
-  d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
-      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
-      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  dside_rate[1] = d_span_side_velocity[1];
-  ddown_rate[1] = d_span_down_velocity[1];
-  d_span_side_velocity[2] = theta_dot[2] * cosine[2] * d_length[2]
-      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
-  d_span_down_velocity[2] = -(theta_dot[2] * sine[2] * d_length[2]
-      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
-  dside_rate[2] = d_joint_side_velocity[2];
-  ddown_rate[2] = d_joint_down_velocity[2];
-  for (int i = 3; i <= 12; ++i) {
+  for (int i = 1; i <= 12; ++i) {
     d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
         + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
-    d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
     d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
         + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
+  }
+  T d_joint_side_velocity[13];
+  T d_joint_down_velocity[13];
+  d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
+  d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
+  for (int i = 3; i <= 12; ++i) {
+    d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
     d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
+  }
+  dside_rate[0] = T(0);
+  ddown_rate[0] = T(0);
+  dside_rate[1] = d_span_side_velocity[1];
+  ddown_rate[1] = d_span_down_velocity[1];
+  for (int i = 2; i <= 12; ++i) {
     dside_rate[i] = d_joint_side_velocity[i];
     ddown_rate[i] = d_joint_down_velocity[i];
   }
@@ -1512,63 +1433,63 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> theta_ddot(at.a);
   T sine[13], cosine[13];
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
-  T joint_side_acceleration[13];
-  T joint_down_acceleration[13];
-  T centre_down_force[13];
-  T centre_side_force[13];
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
   {
-    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
-    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
         + theta_ddot[1] * sine[1]);
-    joint_side_acceleration[1] = span_side_acceleration;
-    joint_down_acceleration[1] = span_down_acceleration;
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     const T joint_moment = stiffness[1] * joint_angle + damping[1] * joint_rate;
     moment[0] = -joint_moment;
     curvature[0] = theta[1] / length[1];
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
-    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
-    centre_side_force[1] = mass[1] * centre_side_acceleration;
   }
   {
-    const T span_side_acceleration = length[2] * (theta_ddot[2] * cosine[2]
+    span_side_acceleration[2] = length[2] * (theta_ddot[2] * cosine[2]
         - theta_dot[2] * theta_dot[2] * sine[2]);
-    const T span_down_acceleration = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+    span_down_acceleration[2] = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
         + theta_ddot[2] * sine[2]);
-    joint_side_acceleration[2] = span_side_acceleration + joint_side_acceleration[1];
-    joint_down_acceleration[2] = span_down_acceleration + joint_down_acceleration[1];
     const T joint_angle = theta[2] - theta[1];
     const T joint_rate = theta_dot[2] - theta_dot[1];
     const T arc = length[1] + length[2];
     const T joint_moment = stiffness[2] * joint_angle + damping[2] * joint_rate;
     moment[1] = -joint_moment;
     curvature[1] = T(2) * (theta[2] - theta[1]) / arc;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
-        + joint_side_acceleration[1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
-        + joint_down_acceleration[1];
-    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
-    centre_side_force[2] = mass[2] * centre_side_acceleration;
   }
   for (int i = 3; i <= 12; ++i) {
-    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
-    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
-    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
     const T joint_moment = stiffness[i] * joint_angle + damping[i] * joint_rate;
     const T curvature_divisor = length[i - 1] + length[i];
     moment[i - 1] = -joint_moment;
     curvature[i - 1] = T(2) * (theta[i] - theta[i - 1]) / curvature_divisor;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+  }
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  for (int i = 2; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+  }
+  for (int i = 2; i <= 12; ++i) {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
         + joint_down_acceleration[i - 1];
     centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
     centre_side_force[i] = mass[i] * centre_side_acceleration;
@@ -1580,6 +1501,8 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   for (int i = 12; i >= 1; --i) {
     cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+  }
+  for (int i = 1; i <= 12; ++i) {
     tension[i - 1] = -(sine[i] * cut_force_side[i] + cosine[i] * cut_force_down[i]);
   }
 }
@@ -1609,23 +1532,15 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const FromOne<T> d_theta(along.q);
   const FromOne<T> d_theta_dot(along.v);
   const FromOne<T> d_theta_ddot(along.a);
-  T joint_side_acceleration[13];
-  T joint_down_acceleration[13];
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
   T d_span_down_acceleration[13];
-  T d_joint_down_acceleration[13];
   T d_span_side_acceleration[13];
-  T d_joint_side_acceleration[13];
-  T centre_down_force[13];
-  T centre_side_force[13];
-  T d_centre_down_force[13];
-  T d_centre_side_force[13];
   {
-    const T span_side_acceleration = length[1] * (theta_ddot[1] * cosine[1]
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
-    const T span_down_acceleration = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
         + theta_ddot[1] * sine[1]);
-    joint_side_acceleration[1] = span_side_acceleration;
-    joint_down_acceleration[1] = span_down_acceleration;
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
     const T d_joint_moment = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
@@ -1634,30 +1549,18 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1])
         - (theta_ddot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_ddot[1]))
         - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1] + theta_ddot[1] * sine[1]);
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
     d_span_side_acceleration[1] = d_length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
         - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
         + theta_dot[1] * cosine[1] * d_theta[1]));
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
     dmoment[0] = -d_joint_moment;
     dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration;
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration;
-    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
-    centre_side_force[1] = mass[1] * centre_side_acceleration;
-    d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
-        + mass[1] * (d_centre_down_acceleration - d_gravity);
-    d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
-        + centre_side_acceleration * d_mass[1];
   }
   {
-    const T span_side_acceleration = length[2] * (theta_ddot[2] * cosine[2]
+    span_side_acceleration[2] = length[2] * (theta_ddot[2] * cosine[2]
         - theta_dot[2] * theta_dot[2] * sine[2]);
-    const T span_down_acceleration = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+    span_down_acceleration[2] = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
         + theta_ddot[2] * sine[2]);
-    joint_side_acceleration[2] = span_side_acceleration + joint_side_acceleration[1];
-    joint_down_acceleration[2] = span_down_acceleration + joint_down_acceleration[1];
     const T joint_angle = theta[2] - theta[1];
     const T joint_rate = theta_dot[2] - theta_dot[1];
     const T arc = length[1] + length[2];
@@ -1669,37 +1572,19 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2])
         - (theta_ddot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_ddot[2]))
         - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2] + theta_ddot[2] * sine[2]);
-    d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
-    const T d_centre_down_acceleration = d_span_down_acceleration[1]
-        + ratio<T>(1, 2) * d_span_down_acceleration[2];
     d_span_side_acceleration[2] = d_length[2] * (theta_ddot[2] * cosine[2]
         - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
         - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
         + theta_dot[2] * cosine[2] * d_theta[2]));
-    d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
-    const T d_centre_side_acceleration = d_span_side_acceleration[1]
-        + ratio<T>(1, 2) * d_span_side_acceleration[2];
     const T d_arc = d_length[1] + d_length[2];
     dmoment[1] = -d_joint_moment;
     dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc * (theta[1] - theta[2]) / arc) / arc;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
-        + joint_side_acceleration[1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
-        + joint_down_acceleration[1];
-    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
-    centre_side_force[2] = mass[2] * centre_side_acceleration;
-    d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
-        + mass[2] * (d_centre_down_acceleration - d_gravity);
-    d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
-        + centre_side_acceleration * d_mass[2];
   }
   for (int i = 3; i <= 12; ++i) {
-    const T span_side_acceleration = length[i] * (theta_ddot[i] * cosine[i]
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
-    const T span_down_acceleration = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    joint_side_acceleration[i] = span_side_acceleration + joint_side_acceleration[i - 1];
-    joint_down_acceleration[i] = span_down_acceleration + joint_down_acceleration[i - 1];
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
     const T curvature_divisor = length[i - 1] + length[i];
@@ -1711,23 +1596,71 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         * d_theta[i] - T(2) * cosine[i] * d_theta_dot[i])
         - (theta_ddot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_ddot[i]))
         - d_length[i] * (theta_dot[i] * theta_dot[i] * cosine[i] + theta_ddot[i] * sine[i]);
-    d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
-        + d_joint_down_acceleration[i - 1];
     d_span_side_acceleration[i] = d_length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]) + length[i] * (cosine[i] * d_theta_ddot[i]
         - theta_ddot[i] * sine[i] * d_theta[i] - theta_dot[i] * (T(2) * sine[i] * d_theta_dot[i]
         + theta_dot[i] * cosine[i] * d_theta[i]));
-    d_joint_side_acceleration[i] = d_span_side_acceleration[i] + d_joint_side_acceleration[i - 1];
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
-        + d_joint_side_acceleration[i - 1];
     const T d_curvature_divisor = d_length[i - 1] + d_length[i];
     dmoment[i - 1] = -d_joint_moment;
     dcurvature[i - 1] = T(2) * (d_theta[i] - d_theta[i - 1] + d_curvature_divisor * (theta[i - 1]
         - theta[i]) / curvature_divisor) / curvature_divisor;
-    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration
+  }
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  T d_joint_down_acceleration[13];
+  T d_joint_side_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  joint_side_acceleration[2] = span_side_acceleration[2] + joint_side_acceleration[1];
+  joint_down_acceleration[2] = span_down_acceleration[2] + joint_down_acceleration[1];
+  d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
+  d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
+  for (int i = 3; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+    d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
+    d_joint_side_acceleration[i] = d_span_side_acceleration[i] + d_joint_side_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  T d_centre_down_force[13];
+  T d_centre_side_force[13];
+  {
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
+    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+    d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
+        + mass[1] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[1];
+  }
+  {
+    const T d_centre_down_acceleration = d_span_down_acceleration[1]
+        + ratio<T>(1, 2) * d_span_down_acceleration[2];
+    const T d_centre_side_acceleration = d_span_side_acceleration[1]
+        + ratio<T>(1, 2) * d_span_side_acceleration[2];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[2]
+        + joint_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[2]
+        + joint_down_acceleration[1];
+    centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
+    centre_side_force[2] = mass[2] * centre_side_acceleration;
+    d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
+        + mass[2] * (d_centre_down_acceleration - d_gravity);
+    d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
+        + centre_side_acceleration * d_mass[2];
+  }
+  for (int i = 3; i <= 12; ++i) {
+    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
+        + d_joint_down_acceleration[i - 1];
+    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
+        + d_joint_side_acceleration[i - 1];
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
-    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
         + joint_down_acceleration[i - 1];
     centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
     centre_side_force[i] = mass[i] * centre_side_acceleration;
@@ -1751,6 +1684,8 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
     cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
     d_cut_force_down[i] = d_cut_force_down[i + 1] + d_centre_down_force[i];
     d_cut_force_side[i] = d_cut_force_side[i + 1] + d_centre_side_force[i];
+  }
+  for (int i = 1; i <= 12; ++i) {
     dtension[i - 1] = sine[i] * (cut_force_down[i] * d_theta[i] - d_cut_force_side[i])
         - cosine[i] * (cut_force_side[i] * d_theta[i] + d_cut_force_down[i]);
   }

@@ -14,6 +14,7 @@
 #include "dense.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
+#include "semiseparable.hpp"
 
 extern "C" {
 struct catena_model;
@@ -551,7 +552,7 @@ int acceleration(const Point<T>& at, T* a) {
       + length[1] * (sine[1] * span_down_force_bias_1 - cosine[1] * span_side_force_bias_1);
   a[1] = torque[2] - joint_moment_2 + length[2] * (sine[2] * span_down_force_bias_2
       - cosine[2] * span_side_force_bias_2);
-  return matrix.solve_in_place(a);
+  return matrix.solve(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).

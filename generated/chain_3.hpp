@@ -14,6 +14,7 @@
 #include "dense.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
+#include "semiseparable.hpp"
 
 extern "C" {
 struct catena_model;
@@ -741,7 +742,7 @@ int acceleration(const Point<T>& at, T* a) {
       + length[2] * (sine[2] * span_down_force_bias_2 - cosine[2] * span_side_force_bias_2);
   a[2] = torque[3] - joint_moment_3 + length[3] * (sine[3] * span_down_force_bias_3
       - cosine[3] * span_side_force_bias_3);
-  return matrix.solve_in_place(a);
+  return matrix.solve(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).

@@ -14,6 +14,7 @@
 #include "dense.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
+#include "semiseparable.hpp"
 
 extern "C" {
 struct catena_model;
@@ -931,7 +932,7 @@ int acceleration(const Point<T>& at, T* a) {
       + length[3] * (sine[3] * span_down_force_bias_3 - cosine[3] * span_side_force_bias_3);
   a[3] = torque[4] - joint_moment_4 + length[4] * (sine[4] * span_down_force_bias_4
       - cosine[4] * span_side_force_bias_4);
-  return matrix.solve_in_place(a);
+  return matrix.solve(a);
 }
 
 /// ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).

@@ -187,6 +187,51 @@ class Body {
     sweeps_.push_back({direction, std::move(members)});
   }
 
+  // A sweep as up to three: what needs no neighbour's result, what does, and what follows from that.
+  // Only the middle one has to go link by link; of the others, upwards in memory, the compiler makes
+  // vectors.
+  void add_sweeps(int direction, const std::vector<size_t>& members) {
+    std::map<size_t, std::set<size_t>> needs;  // within the sweep, directly or not
+    for (const size_t k : members) {
+      std::vector<size_t> open{k};
+      while (!open.empty()) {
+        const Family& family = families_[open.back()];
+        open.pop_back();
+        for (const Dependency& d : family.dependencies) {
+          const size_t read = position_.at(d.family);
+          if (families_[read].sweep < 0 && needs[k].insert(read).second) open.push_back(read);
+        }
+      }
+    }
+    std::set<size_t> chained;  // needs itself, of the link before
+    for (const size_t k : members) {
+      if (needs[k].count(k)) chained.insert(k);
+    }
+    std::vector<size_t> before, between, after;
+    for (const size_t k : members) {
+      const auto leads_to = [&](size_t other) { return needs[other].count(k) > 0; };
+      const auto comes_of = [&](size_t other) { return needs[k].count(other) > 0; };
+      if (std::none_of(chained.begin(), chained.end(), comes_of)) {
+        before.push_back(k);
+      } else if (std::any_of(chained.begin(), chained.end(), leads_to)) {
+        between.push_back(k);
+      } else {
+        after.push_back(k);
+      }
+    }
+    for (const auto& part : {before, between, after}) {
+      if (!part.empty()) add_sweep(in_any_order(part) ? 1 : direction, part);
+    }
+  }
+
+  // Whether no family of a sweep reads another's neighbour.
+  bool in_any_order(const std::vector<size_t>& members) const {
+    return std::all_of(members.begin(), members.end(), [&](size_t k) {
+      return std::all_of(families_[k].dependencies.begin(), families_[k].dependencies.end(),
+                         [&](const Dependency& d) { return d.offset == 0 || done(d.family); });
+    });
+  }
+
   void schedule() {
     for (;;) {
       bool open = false, alone = false;
@@ -203,9 +248,9 @@ class Body {
       const auto forward = sweep_in(1), backward = sweep_in(-1);
       if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
       if (forward.size() >= backward.size()) {
-        add_sweep(1, forward);
+        add_sweeps(1, forward);
       } else {
-        add_sweep(-1, backward);
+        add_sweeps(-1, backward);
       }
     }
     for (const Family& family : families_) {

@@ -356,7 +356,7 @@ class Builder {
     add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
         body(all, at_), acceleration_wrapper, matrix,
         in_c()      ? "  return solve_in_place(&matrix, a);\n"
-        : symmetric ? "  return matrix.solve_in_place(a);\n"
+        : symmetric ? "  return matrix.solve(a);\n"
                     : "  const int failed = matrix.factor();\n"
                       "  if (failed == 0) matrix.solve(a);\n"
                       "  return failed;\n");

@@ -57,7 +57,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
          "scalar.hpp.\n//\n// Structure found:\n"
       << structure_text(functions)
       << "#pragma once\n\n#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n"
-         "#include \"scalar.hpp\"\n\n";
+         "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
   out << "extern \"C\" {\nstruct catena_model;\n}\n\n";
   out << "namespace catena::" << s.name << " {\n\n";
   out << "inline constexpr int kLinks = " << s.links << ";\n"

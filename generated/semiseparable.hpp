@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Linear equations whose matrix is symmetric, positive definite and semiseparable, in time
+// proportional to n:
+//
+//     A_ij = row_i . column_j for j < i,  A_ii = diagonal_i.
+#pragma once
+
+#include "pair.hpp"
+#include "scalar.hpp"
+
+namespace catena {
+
+template <class T, int n, int rank>
+struct SymmetricSemiseparable {
+  static_assert(rank > 0 || n == 1);
+  static constexpr int rr = rank > 0 ? rank : 1;
+  T row[n][rr], column[n][rr], diagonal[n];
+
+  /// Overwrites x, the right-hand side, with the solution. Returns 0, or the 1-based row whose pivot
+  /// is not positive: then x is not to be used.
+  int solve(T* x) const {
+    if constexpr (n < 6)
+      return solve_short(x);
+    else
+      return solve_from_both_ends(x);
+  }
+
+  /// The whole matrix, row by row.
+  void to_dense(T* matrix) const {
+    for (int i = 0; i < n; ++i) {
+      matrix[i * n + i] = diagonal[i];
+      for (int j = 0; j < i; ++j) {
+        T entry = T(0);
+        for (int r = 0; r < rank; ++r) entry += row[i][r] * column[j][r];
+        matrix[i * n + j] = matrix[j * n + i] = entry;
+      }
+    }
+  }
+
+ private:
+  using Both = Pair<T>;  // what belongs to the top sweep, and to the bottom sweep
+
+  // Rows 0, 1, ... are eliminated from the first on, rows n-1, n-2, ... from the last up. The two
+  // sweeps do the same and do not depend on each other: one vector operation serves both. A step
+  // waits for the one before, through W; so each takes two rows, whose pivots alpha and
+  // beta - gamma^2 / alpha = determinant / alpha are divided by at the same time, and what can be
+  // formed without W is.
+  //
+  // What couples the halves is a vector each way, sum = C' x_top and carried = R' x_bottom (C the
+  // columns of the top, R the rows of the bottom), found from
+  //
+  //     sum = sum_0 - V carried,   carried = carried_0 - W sum,
+  //     V = C' A_top^-1 C,         W = R' A_bottom^-1 R.
+  int solve_from_both_ends(T* x) const {
+    constexpr int m = n / 4 * 2;  // rows of the top sweep; those between are the bottom's last
+    const Both zero{T(0), T(0)}, one{T(1), T(1)};
+    Both other[m][rr], scaled[m][rr], solved[m];
+    Both w[rr][rr], carried[rr];
+    for (int r = 0; r < rr; ++r) {
+      carried[r] = zero;
+      for (int s = 0; s < rr; ++s) w[r][s] = zero;
+    }
+    for (int i = 0; i < m; i += 2) {
+      // `own` couples a row to those left, `other` those left to it.
+      Both own[2][rr], pivot[2], y[2];
+      for (int k = 0; k < 2; ++k) {
+        const int top = i + k, bottom = n - 1 - top;
+        for (int r = 0; r < rank; ++r) {
+          own[k][r] = Both{column[top][r], row[bottom][r]};
+          other[top][r] = Both{row[top][r], column[bottom][r]};
+        }
+        pivot[k] = reduced_pivot(Both{diagonal[top], diagonal[bottom]}, other[top], w);
+        y[k] = Both{x[top], x[bottom]} - product(other[top], carried);
+        for (int r = 0; r < rank; ++r) own[k][r] = own[k][r] - product_with_row(w, r, other[top]);
+      }
+      const Both gamma = product(own[0], other[i + 1]);
+      const Both determinant = pivot[0] * pivot[1] - gamma * gamma;
+      if (!positive_pivot(pivot[0].first())) return i + 1;
+      if (!positive_pivot(pivot[0].second())) return n - i;
+      if (!positive_pivot(determinant.first())) return i + 2;
+      if (!positive_pivot(determinant.second())) return n - i - 1;
+      const Both factor = gamma / pivot[0];
+      const Both reciprocal[2] = {one / pivot[0], pivot[0] / determinant};
+      y[1] = y[1] - factor * y[0];
+      for (int r = 0; r < rank; ++r) own[1][r] = own[1][r] - factor * own[0][r];
+      for (int k = 0; k < 2; ++k) {
+        solved[i + k] = y[k] * reciprocal[k];
+        for (int r = 0; r < rank; ++r) {
+          for (int s = 0; s <= r; ++s)
+            w[r][s] = w[r][s] + (own[k][r] * own[k][s]) * reciprocal[k];
+          scaled[i + k][r] = own[k][r] * reciprocal[k];
+          carried[r] = carried[r] + scaled[i + k][r] * y[k];
+        }
+      }
+    }
+
+    T v_top[rr][rr], w_bottom[rr][rr], sum[rr], known[rr];
+    for (int r = 0; r < rr; ++r) {
+      sum[r] = carried[r].first();
+      known[r] = carried[r].second();
+      for (int s = 0; s <= r; ++s) {
+        v_top[r][s] = v_top[s][r] = w[r][s].first();
+        w_bottom[r][s] = w_bottom[s][r] = w[r][s].second();
+      }
+    }
+    T middle_scaled[n - 2 * m + 1][rr];
+    for (int j = n - 1 - m; j >= m; --j) {
+      if (!eliminate(j, w_bottom, known, middle_scaled[j - m], x[j])) return j + 1;
+    }
+    join(v_top, w_bottom, sum, known);
+    for (int j = m; j < n - m; ++j) {
+      x[j] -= product(middle_scaled[j - m], sum);
+      for (int r = 0; r < rank; ++r) sum[r] += column[j][r] * x[j];
+    }
+
+    // x = solved - scaled . from, and `from` grows by other x: with x put in, a step of `from` waits
+    // for one product and two sums.
+    Both from[rr];
+    for (int r = 0; r < rr; ++r) from[r] = Both{known[r], sum[r]};
+    for (int i = m - 1; i >= 0; --i) {
+      const Both solution = solved[i] - product(scaled[i], from);
+      x[i] = solution.first();
+      x[n - 1 - i] = solution.second();
+      Both next[rr];
+      for (int r = 0; r < rank; ++r) {
+        Both removed = (other[i][r] * scaled[i][0]) * from[0];
+        for (int s = 1; s < rank; ++s) removed = removed + (other[i][r] * scaled[i][s]) * from[s];
+        next[r] = (from[r] + other[i][r] * solved[i]) - removed;
+      }
+      for (int r = 0; r < rank; ++r) from[r] = next[r];
+    }
+    return 0;
+  }
+
+  // The same for one row, as the bottom's last: overwrites x, its right-hand side, with what a
+  // solution would be if nothing were left.
+  bool eliminate(int j, T (&w)[rr][rr], T* carried, T* scaled, T& x) const {
+    const T pivot = reduced_pivot(diagonal[j], column[j], w);
+    if (!positive_pivot(pivot)) return false;
+    const T reciprocal = T(1) / pivot;
+    const T y = x - product(column[j], carried);
+    T own[rr];
+    for (int r = 0; r < rank; ++r) own[r] = row[j][r] - product_with_row(w, r, column[j]);
+    for (int r = 0; r < rank; ++r) {
+      for (int s = 0; s < rank; ++s) w[r][s] += (own[r] * own[s]) * reciprocal;
+      scaled[r] = own[r] * reciprocal;
+      carried[r] += scaled[r] * y;
+    }
+    x = y * reciprocal;
+    return true;
+  }
+
+  template <class Number>
+  static Number product(const Number* a, const Number* b) {
+    Number sum = a[0] * b[0];
+    for (int r = 1; r < rank; ++r) sum = sum + a[r] * b[r];
+    return sum;
+  }
+
+  // Entry r of the product of a symmetric matrix, of which the lower triangle is read, and a vector.
+  template <class Number>
+  static Number product_with_row(const Number (&w)[rr][rr], int r, const Number* vector) {
+    Number sum = w[r][0] * vector[0];
+    for (int s = 1; s < rank; ++s) sum = sum + (s <= r ? w[r][s] : w[s][r]) * vector[s];
+    return sum;
+  }
+
+  // diagonal - other' W other; the products of `other` alone do not wait for W.
+  template <class Number>
+  static Number reduced_pivot(const Number& diagonal, const Number* other,
+                              const Number (&w)[rr][rr]) {
+    const Number reduced = diagonal - (other[0] * other[0]) * w[0][0];
+    if constexpr (rank == 1) {
+      return reduced;
+    } else {
+      Number rest = (other[1] * other[1]) * w[1][1];
+      for (int r = 2; r < rank; ++r) rest = rest + (other[r] * other[r]) * w[r][r];
+      for (int r = 1; r < rank; ++r) {
+        for (int s = 0; s < r; ++s) {
+          const Number half = other[r] * other[s];
+          rest = rest + (half + half) * w[r][s];
+        }
+      }
+      return reduced - rest;
+    }
+  }
+
+  // (1 - V W) sum = sum_0 - V carried_0, by elimination; then carried.
+  static void join(const T (&v)[rr][rr], const T (&w)[rr][rr], T* sum, T* carried) {
+    T a[rr][rr];
+    for (int r = 0; r < rank; ++r) {
+      for (int s = 0; s < rank; ++s) {
+        a[r][s] = T(r == s ? 1 : 0);
+        for (int t = 0; t < rank; ++t) a[r][s] -= v[r][t] * w[t][s];
+        sum[r] -= v[r][s] * carried[s];
+      }
+    }
+    for (int k = 0; k < rank; ++k) {
+      for (int r = k + 1; r < rank; ++r) {
+        const T factor = a[r][k] / a[k][k];
+        for (int s = k + 1; s < rank; ++s) a[r][s] -= factor * a[k][s];
+        sum[r] -= factor * sum[k];
+      }
+    }
+    for (int k = rank - 1; k >= 0; --k) {
+      for (int s = k + 1; s < rank; ++s) sum[k] -= a[k][s] * sum[s];
+      sum[k] = sum[k] / a[k][k];
+    }
+    for (int r = 0; r < rank; ++r) {
+      for (int s = 0; s < rank; ++s) carried[r] -= w[r][s] * sum[s];
+    }
+  }
+
+  // A few rows are solved faster as a full matrix, A = L D L' with D in the diagonal's place. Two
+  // columns at a time: the second pivot is (a b - c c) / a, so that its reciprocal need not wait for
+  // the first one's.
+  int solve_short(T* right) const {
+    T a[n][n], x[n], reciprocal[n];
+#pragma GCC unroll 8
+    for (int i = 0; i < n; ++i) {
+      x[i] = right[i];
+      a[i][i] = diagonal[i];
+#pragma GCC unroll 8
+      for (int j = 0; j < i; ++j) a[i][j] = product(row[i], column[j]);
+    }
+#pragma GCC unroll 8
+    for (int j = 0; j < n; j += 2) {
+      if (!positive_pivot(a[j][j])) return j + 1;
+      reciprocal[j] = T(1) / a[j][j];
+      if (j + 1 < n) {
+        const T determinant = a[j][j] * a[j + 1][j + 1] - a[j + 1][j] * a[j + 1][j];
+        if (!positive_pivot(determinant)) return j + 2;
+        reciprocal[j + 1] = a[j][j] / determinant;
+      }
+      const int end = j + 2 < n ? j + 2 : n;
+#pragma GCC unroll 2
+      for (int k = j; k < end; ++k) {
+#pragma GCC unroll 8
+        for (int i = k + 1; i < n; ++i) {
+          const T scaled = a[i][k] * reciprocal[k];
+          x[i] -= scaled * x[k];
+#pragma GCC unroll 8
+          for (int c = k + 1; c <= i; ++c) a[i][c] -= scaled * a[c][k];
+        }
+      }
+    }
+#pragma GCC unroll 8
+    for (int j = n - 1; j >= 0; --j) {
+#pragma GCC unroll 8
+      for (int i = n - 1; i > j; --i) x[j] -= a[i][j] * x[i];
+      right[j] = x[j] = x[j] * reciprocal[j];
+    }
+    return 0;
+  }
+};
+
+}  // namespace catena
