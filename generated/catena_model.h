@@ -139,6 +139,13 @@ typedef struct catena_model {
   void (*energy_tangent)(const catena_point* at, const catena_point* along, double* de);
   void (*internal_forces_tangent)(const catena_point* at, const catena_point* along,
                                   double* dmoment, double* dtension, double* dcurvature);
+  /* Gradient of weight . r + rate_weight . zdot with respect to q, v, z and p, at->a held fixed:
+     dq[coordinates], dv[coordinates], dz[states], dp[parameters]. weight[coordinates],
+     rate_weight[states]. */
+  void (*residual_adjoint)(const catena_point* at, const double* weight, const double* rate_weight,
+                           double* dq, double* dv, double* dz, double* dp);
+  /* as newton_solve, with the transpose of N; null unless structured */
+  void (*newton_solve_transposed)(const double* work, double* x);
 } catena_model;
 
 /* What a shared library holding one model exports. */

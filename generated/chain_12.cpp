@@ -160,6 +160,9 @@ CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca,
 CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
   reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
 }
+CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {
+  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);
+}
 CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
 CATENA_EACH_PROCESSOR void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {
   energy_tangent(point(at), point(along), de);
@@ -185,6 +188,11 @@ CATENA_EACH_PROCESSOR void c_internal_forces(const catena_point* at, double* mom
 CATENA_EACH_PROCESSOR void c_internal_forces_tangent(const catena_point* at, const catena_point* along,
                                double* dmoment, double* dtension, double* dcurvature) {
   internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);
+}
+CATENA_EACH_PROCESSOR void c_residual_adjoint(const catena_point* at, const double* weights,
+                        const double* rate_weights, double* dq, double* dv, double* dz,
+                        double* dp) {
+  residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp);
 }
 }  // namespace
 
@@ -233,6 +241,8 @@ const ::catena_model& table() {
       c_velocities_tangent,
       c_energy_tangent,
       c_internal_forces_tangent,
+      c_residual_adjoint,
+      c_newton_solve_transposed,
   };
   return model;
 }

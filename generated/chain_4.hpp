@@ -1924,4 +1924,300 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
       - theta[4]) / curvature_divisor_4) / curvature_divisor_4;
 }
 
+/// Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.
+/// 146 additions, 243 multiplications, 0 divisions, 0 functions
+template <class T>
+void residual_adjoint(const Point<T>& at, const T* weights,
+                      [[maybe_unused]] const T* rate_weights, T* dq, T* dv,
+                      [[maybe_unused]] T* dz, T* dp) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 4);
+  const FromOne<T> stiffness(at.p + 12);
+  const FromOne<T> damping(at.p + 16);
+  const T load_mass = at.p[24];
+  const T gravity = at.p[25];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[5], cosine[5];
+  sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
+  const FromOne<T> weight(weights);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
+  const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
+  const T joint_side_acceleration_1 = span_side_acceleration_1;
+  const T joint_down_acceleration_1 = span_down_acceleration_1;
+  const T joint_angle_1 = theta[1];
+  const T joint_rate_1 = theta_dot[1];
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
+  const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
+      + joint_side_acceleration_1;
+  const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
+      + joint_down_acceleration_1;
+  const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
+  const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
+  const T joint_angle_2 = theta[2] - theta[1];
+  const T joint_rate_2 = theta_dot[2] - theta_dot[1];
+  const T span_side_acceleration_3 = length[3] * (theta_ddot[3] * cosine[3]
+      - theta_dot[3] * theta_dot[3] * sine[3]);
+  const T span_down_acceleration_3 = -length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
+      + theta_ddot[3] * sine[3]);
+  const T centre_side_acceleration_3 = ratio<T>(1, 2) * span_side_acceleration_3
+      + joint_side_acceleration_2;
+  const T centre_down_acceleration_3 = ratio<T>(1, 2) * span_down_acceleration_3
+      + joint_down_acceleration_2;
+  const T joint_side_acceleration_3 = span_side_acceleration_3 + joint_side_acceleration_2;
+  const T joint_down_acceleration_3 = span_down_acceleration_3 + joint_down_acceleration_2;
+  const T joint_angle_3 = theta[3] - theta[2];
+  const T joint_rate_3 = theta_dot[3] - theta_dot[2];
+  const T span_side_acceleration_4 = length[4] * (theta_ddot[4] * cosine[4]
+      - theta_dot[4] * theta_dot[4] * sine[4]);
+  const T span_down_acceleration_4 = -length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
+      + theta_ddot[4] * sine[4]);
+  const T centre_side_acceleration_4 = ratio<T>(1, 2) * span_side_acceleration_4
+      + joint_side_acceleration_3;
+  const T centre_down_acceleration_4 = ratio<T>(1, 2) * span_down_acceleration_4
+      + joint_down_acceleration_3;
+  const T joint_side_acceleration_4 = span_side_acceleration_4 + joint_side_acceleration_3;
+  const T joint_down_acceleration_4 = span_down_acceleration_4 + joint_down_acceleration_3;
+  const T joint_angle_4 = theta[4] - theta[3];
+  const T joint_rate_4 = theta_dot[4] - theta_dot[3];
+  const T cut_force_down_5 = load_mass * (joint_down_acceleration_4 - gravity);
+  const T cut_force_side_5 = load_mass * joint_side_acceleration_4;
+  const T centre_down_force_4 = mass[4] * (centre_down_acceleration_4 - gravity);
+  const T centre_side_force_4 = mass[4] * centre_side_acceleration_4;
+  const T span_down_force_4 = cut_force_down_5 + ratio<T>(1, 2) * centre_down_force_4;
+  const T span_side_force_4 = cut_force_side_5 + ratio<T>(1, 2) * centre_side_force_4;
+  const T cut_force_down_4 = cut_force_down_5 + centre_down_force_4;
+  const T cut_force_side_4 = cut_force_side_5 + centre_side_force_4;
+  const T centre_down_force_3 = mass[3] * (centre_down_acceleration_3 - gravity);
+  const T centre_side_force_3 = mass[3] * centre_side_acceleration_3;
+  const T span_down_force_3 = cut_force_down_4 + ratio<T>(1, 2) * centre_down_force_3;
+  const T span_side_force_3 = cut_force_side_4 + ratio<T>(1, 2) * centre_side_force_3;
+  const T cut_force_down_3 = cut_force_down_4 + centre_down_force_3;
+  const T cut_force_side_3 = cut_force_side_4 + centre_side_force_3;
+  const T centre_down_force_2 = mass[2] * (centre_down_acceleration_2 - gravity);
+  const T centre_side_force_2 = mass[2] * centre_side_acceleration_2;
+  const T span_down_force_2 = cut_force_down_3 + ratio<T>(1, 2) * centre_down_force_2;
+  const T span_side_force_2 = cut_force_side_3 + ratio<T>(1, 2) * centre_side_force_2;
+  const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
+  const T cut_force_side_2 = cut_force_side_3 + centre_side_force_2;
+  const T centre_down_force_1 = mass[1] * (centre_down_acceleration_1 - gravity);
+  const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
+  const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
+  const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
+  const T adjoint_span_side_force_1 = length[1] * cosine[1] * weight[1];
+  const T adjoint_span_down_force_1 = -length[1] * sine[1] * weight[1];
+  const T adjoint_centre_side_force_1 = ratio<T>(1, 2) * adjoint_span_side_force_1;
+  const T adjoint_centre_down_force_1 = ratio<T>(1, 2) * adjoint_span_down_force_1;
+  const T adjoint_span_side_force_2 = length[2] * cosine[2] * weight[2];
+  const T adjoint_span_down_force_2 = -length[2] * sine[2] * weight[2];
+  const T adjoint_centre_side_force_2 = adjoint_span_side_force_1
+      + ratio<T>(1, 2) * adjoint_span_side_force_2;
+  const T adjoint_centre_down_force_2 = adjoint_span_down_force_1
+      + ratio<T>(1, 2) * adjoint_span_down_force_2;
+  const T adjoint_cut_force_side_3 = adjoint_span_side_force_1 + adjoint_span_side_force_2;
+  const T adjoint_cut_force_down_3 = adjoint_span_down_force_1 + adjoint_span_down_force_2;
+  const T adjoint_joint_moment_2 = weight[2] - weight[1];
+  const T adjoint_span_side_force_3 = length[3] * cosine[3] * weight[3];
+  const T adjoint_span_down_force_3 = -length[3] * sine[3] * weight[3];
+  const T adjoint_centre_side_force_3 = ratio<T>(1, 2) * adjoint_span_side_force_3
+      + adjoint_cut_force_side_3;
+  const T adjoint_centre_down_force_3 = ratio<T>(1, 2) * adjoint_span_down_force_3
+      + adjoint_cut_force_down_3;
+  const T adjoint_cut_force_side_4 = adjoint_span_side_force_3 + adjoint_cut_force_side_3;
+  const T adjoint_cut_force_down_4 = adjoint_span_down_force_3 + adjoint_cut_force_down_3;
+  const T adjoint_joint_moment_3 = weight[3] - weight[2];
+  const T adjoint_span_side_force_4 = length[4] * cosine[4] * weight[4];
+  const T adjoint_span_down_force_4 = -length[4] * sine[4] * weight[4];
+  const T adjoint_centre_side_force_4 = ratio<T>(1, 2) * adjoint_span_side_force_4
+      + adjoint_cut_force_side_4;
+  const T adjoint_centre_down_force_4 = ratio<T>(1, 2) * adjoint_span_down_force_4
+      + adjoint_cut_force_down_4;
+  const T adjoint_cut_force_side_5 = adjoint_span_side_force_4 + adjoint_cut_force_side_4;
+  const T adjoint_cut_force_down_5 = adjoint_span_down_force_4 + adjoint_cut_force_down_4;
+  const T adjoint_joint_moment_4 = weight[4] - weight[3];
+  const T adjoint_joint_rate_4 = damping[4] * adjoint_joint_moment_4;
+  const T adjoint_joint_angle_4 = stiffness[4] * adjoint_joint_moment_4;
+  const T adjoint_joint_down_acceleration_4 = load_mass * adjoint_cut_force_down_5;
+  const T adjoint_joint_side_acceleration_4 = load_mass * adjoint_cut_force_side_5;
+  const T adjoint_centre_down_acceleration_4 = mass[4] * adjoint_centre_down_force_4;
+  const T adjoint_centre_side_acceleration_4 = mass[4] * adjoint_centre_side_force_4;
+  const T adjoint_span_down_acceleration_4 = adjoint_joint_down_acceleration_4
+      + ratio<T>(1, 2) * adjoint_centre_down_acceleration_4;
+  const T adjoint_span_side_acceleration_4 = adjoint_joint_side_acceleration_4
+      + ratio<T>(1, 2) * adjoint_centre_side_acceleration_4;
+  const T adjoint_joint_rate_3 = damping[3] * adjoint_joint_moment_3;
+  const T adjoint_joint_angle_3 = stiffness[3] * adjoint_joint_moment_3;
+  const T adjoint_joint_down_acceleration_3 = adjoint_joint_down_acceleration_4
+      + adjoint_centre_down_acceleration_4;
+  const T adjoint_joint_side_acceleration_3 = adjoint_joint_side_acceleration_4
+      + adjoint_centre_side_acceleration_4;
+  const T adjoint_centre_down_acceleration_3 = mass[3] * adjoint_centre_down_force_3;
+  const T adjoint_centre_side_acceleration_3 = mass[3] * adjoint_centre_side_force_3;
+  const T adjoint_span_down_acceleration_3 = adjoint_joint_down_acceleration_3
+      + ratio<T>(1, 2) * adjoint_centre_down_acceleration_3;
+  const T adjoint_span_side_acceleration_3 = adjoint_joint_side_acceleration_3
+      + ratio<T>(1, 2) * adjoint_centre_side_acceleration_3;
+  const T adjoint_joint_rate_2 = damping[2] * adjoint_joint_moment_2;
+  const T adjoint_joint_angle_2 = stiffness[2] * adjoint_joint_moment_2;
+  const T adjoint_joint_down_acceleration_2 = adjoint_joint_down_acceleration_3
+      + adjoint_centre_down_acceleration_3;
+  const T adjoint_joint_side_acceleration_2 = adjoint_joint_side_acceleration_3
+      + adjoint_centre_side_acceleration_3;
+  const T adjoint_centre_down_acceleration_2 = mass[2] * adjoint_centre_down_force_2;
+  const T adjoint_centre_side_acceleration_2 = mass[2] * adjoint_centre_side_force_2;
+  const T adjoint_span_down_acceleration_2 = adjoint_joint_down_acceleration_2
+      + ratio<T>(1, 2) * adjoint_centre_down_acceleration_2;
+  const T adjoint_span_side_acceleration_2 = adjoint_joint_side_acceleration_2
+      + ratio<T>(1, 2) * adjoint_centre_side_acceleration_2;
+  const T adjoint_joint_rate_1 = damping[1] * weight[1];
+  const T adjoint_joint_angle_1 = stiffness[1] * weight[1];
+  const T adjoint_joint_down_acceleration_1 = adjoint_joint_down_acceleration_2
+      + adjoint_centre_down_acceleration_2;
+  const T adjoint_joint_side_acceleration_1 = adjoint_joint_side_acceleration_2
+      + adjoint_centre_side_acceleration_2;
+  const T adjoint_centre_down_acceleration_1 = mass[1] * adjoint_centre_down_force_1;
+  const T adjoint_centre_side_acceleration_1 = mass[1] * adjoint_centre_side_force_1;
+  const T adjoint_span_down_acceleration_1 = adjoint_joint_down_acceleration_1
+      + ratio<T>(1, 2) * adjoint_centre_down_acceleration_1;
+  const T adjoint_span_side_acceleration_1 = adjoint_joint_side_acceleration_1
+      + ratio<T>(1, 2) * adjoint_centre_side_acceleration_1;
+  const T adjoint_cosine_4 = length[4] * (theta_ddot[4] * adjoint_span_side_acceleration_4
+      - theta_dot[4] * theta_dot[4] * adjoint_span_down_acceleration_4
+      + span_side_force_4 * weight[4]);
+  const T adjoint_sine_4 = -length[4] * (theta_dot[4] * theta_dot[4]
+      * adjoint_span_side_acceleration_4 + theta_ddot[4] * adjoint_span_down_acceleration_4
+      + span_down_force_4 * weight[4]);
+  const T adjoint_cosine_3 = length[3] * (theta_ddot[3] * adjoint_span_side_acceleration_3
+      - theta_dot[3] * theta_dot[3] * adjoint_span_down_acceleration_3
+      + span_side_force_3 * weight[3]);
+  const T adjoint_sine_3 = -length[3] * (theta_dot[3] * theta_dot[3]
+      * adjoint_span_side_acceleration_3 + theta_ddot[3] * adjoint_span_down_acceleration_3
+      + span_down_force_3 * weight[3]);
+  const T adjoint_cosine_2 = length[2] * (theta_ddot[2] * adjoint_span_side_acceleration_2
+      - theta_dot[2] * theta_dot[2] * adjoint_span_down_acceleration_2
+      + span_side_force_2 * weight[2]);
+  const T adjoint_sine_2 = -length[2] * (theta_dot[2] * theta_dot[2]
+      * adjoint_span_side_acceleration_2 + theta_ddot[2] * adjoint_span_down_acceleration_2
+      + span_down_force_2 * weight[2]);
+  const T adjoint_cosine_1 = length[1] * (theta_ddot[1] * adjoint_span_side_acceleration_1
+      - theta_dot[1] * theta_dot[1] * adjoint_span_down_acceleration_1
+      + span_side_force_1 * weight[1]);
+  const T adjoint_sine_1 = -length[1] * (theta_dot[1] * theta_dot[1]
+      * adjoint_span_side_acceleration_1 + theta_ddot[1] * adjoint_span_down_acceleration_1
+      + span_down_force_1 * weight[1]);
+  const T adjoint_theta_dot_4 = adjoint_joint_rate_4
+      - T(2) * length[4] * theta_dot[4] * (sine[4] * adjoint_span_side_acceleration_4
+      + cosine[4] * adjoint_span_down_acceleration_4);
+  const T adjoint_theta_dot_3 = adjoint_joint_rate_3 - adjoint_joint_rate_4
+      - T(2) * length[3] * theta_dot[3] * (sine[3] * adjoint_span_side_acceleration_3
+      + cosine[3] * adjoint_span_down_acceleration_3);
+  const T adjoint_theta_dot_2 = adjoint_joint_rate_2 - adjoint_joint_rate_3
+      - T(2) * length[2] * theta_dot[2] * (sine[2] * adjoint_span_side_acceleration_2
+      + cosine[2] * adjoint_span_down_acceleration_2);
+  const T adjoint_theta_dot_1 = adjoint_joint_rate_1 - adjoint_joint_rate_2
+      - T(2) * length[1] * theta_dot[1] * (sine[1] * adjoint_span_side_acceleration_1
+      + cosine[1] * adjoint_span_down_acceleration_1);
+  const T adjoint_theta_4 = cosine[4] * adjoint_sine_4 - sine[4] * adjoint_cosine_4
+      + adjoint_joint_angle_4;
+  const T adjoint_theta_3 = cosine[3] * adjoint_sine_3 - sine[3] * adjoint_cosine_3
+      + adjoint_joint_angle_3 - adjoint_joint_angle_4;
+  const T adjoint_theta_2 = cosine[2] * adjoint_sine_2 - sine[2] * adjoint_cosine_2
+      + adjoint_joint_angle_2 - adjoint_joint_angle_3;
+  const T adjoint_theta_1 = cosine[1] * adjoint_sine_1 - sine[1] * adjoint_cosine_1
+      + adjoint_joint_angle_1 - adjoint_joint_angle_2;
+  const T adjoint_gravity_sum_1 = -mass[1] * adjoint_centre_down_force_1;
+  const T adjoint_gravity_sum_2 = adjoint_gravity_sum_1 - mass[2] * adjoint_centre_down_force_2;
+  const T adjoint_gravity_sum_3 = adjoint_gravity_sum_2 - mass[3] * adjoint_centre_down_force_3;
+  const T adjoint_gravity_sum_4 = adjoint_gravity_sum_3 - mass[4] * adjoint_centre_down_force_4;
+  const T adjoint_gravity_sum_5 = adjoint_gravity_sum_4 - load_mass * adjoint_cut_force_down_5;
+  const T adjoint_load_mass = joint_side_acceleration_4 * adjoint_cut_force_side_5
+      + adjoint_cut_force_down_5 * (joint_down_acceleration_4 - gravity);
+  const T adjoint_torque_4 = -weight[4];
+  const T adjoint_torque_3 = -weight[3];
+  const T adjoint_torque_2 = -weight[2];
+  const T adjoint_torque_1 = -weight[1];
+  const T adjoint_damping_4 = joint_rate_4 * adjoint_joint_moment_4;
+  const T adjoint_damping_3 = joint_rate_3 * adjoint_joint_moment_3;
+  const T adjoint_damping_2 = joint_rate_2 * adjoint_joint_moment_2;
+  const T adjoint_damping_1 = joint_rate_1 * weight[1];
+  const T adjoint_stiffness_4 = joint_angle_4 * adjoint_joint_moment_4;
+  const T adjoint_stiffness_3 = joint_angle_3 * adjoint_joint_moment_3;
+  const T adjoint_stiffness_2 = joint_angle_2 * adjoint_joint_moment_2;
+  const T adjoint_stiffness_1 = joint_angle_1 * weight[1];
+  const T adjoint_inertia_4 = theta_ddot[4] * weight[4];
+  const T adjoint_inertia_3 = theta_ddot[3] * weight[3];
+  const T adjoint_inertia_2 = theta_ddot[2] * weight[2];
+  const T adjoint_inertia_1 = theta_ddot[1] * weight[1];
+  const T adjoint_mass_4 = centre_side_acceleration_4 * adjoint_centre_side_force_4
+      + adjoint_centre_down_force_4 * (centre_down_acceleration_4 - gravity);
+  const T adjoint_mass_3 = centre_side_acceleration_3 * adjoint_centre_side_force_3
+      + adjoint_centre_down_force_3 * (centre_down_acceleration_3 - gravity);
+  const T adjoint_mass_2 = centre_side_acceleration_2 * adjoint_centre_side_force_2
+      + adjoint_centre_down_force_2 * (centre_down_acceleration_2 - gravity);
+  const T adjoint_mass_1 = centre_side_acceleration_1 * adjoint_centre_side_force_1
+      + adjoint_centre_down_force_1 * (centre_down_acceleration_1 - gravity);
+  const T adjoint_length_4 = cosine[4] * (theta_ddot[4] * adjoint_span_side_acceleration_4
+      - theta_dot[4] * theta_dot[4] * adjoint_span_down_acceleration_4
+      + span_side_force_4 * weight[4]) - sine[4] * (theta_dot[4] * theta_dot[4]
+      * adjoint_span_side_acceleration_4 + theta_ddot[4] * adjoint_span_down_acceleration_4
+      + span_down_force_4 * weight[4]);
+  const T adjoint_length_3 = cosine[3] * (theta_ddot[3] * adjoint_span_side_acceleration_3
+      - theta_dot[3] * theta_dot[3] * adjoint_span_down_acceleration_3
+      + span_side_force_3 * weight[3]) - sine[3] * (theta_dot[3] * theta_dot[3]
+      * adjoint_span_side_acceleration_3 + theta_ddot[3] * adjoint_span_down_acceleration_3
+      + span_down_force_3 * weight[3]);
+  const T adjoint_length_2 = cosine[2] * (theta_ddot[2] * adjoint_span_side_acceleration_2
+      - theta_dot[2] * theta_dot[2] * adjoint_span_down_acceleration_2
+      + span_side_force_2 * weight[2]) - sine[2] * (theta_dot[2] * theta_dot[2]
+      * adjoint_span_side_acceleration_2 + theta_ddot[2] * adjoint_span_down_acceleration_2
+      + span_down_force_2 * weight[2]);
+  const T adjoint_length_1 = cosine[1] * (theta_ddot[1] * adjoint_span_side_acceleration_1
+      - theta_dot[1] * theta_dot[1] * adjoint_span_down_acceleration_1
+      + span_side_force_1 * weight[1]) - sine[1] * (theta_dot[1] * theta_dot[1]
+      * adjoint_span_side_acceleration_1 + theta_ddot[1] * adjoint_span_down_acceleration_1
+      + span_down_force_1 * weight[1]);
+  dp[0] = adjoint_length_1;
+  dp[1] = adjoint_length_2;
+  dp[2] = adjoint_length_3;
+  dp[3] = adjoint_length_4;
+  dp[4 + 0] = adjoint_mass_1;
+  dp[4 + 1] = adjoint_mass_2;
+  dp[4 + 2] = adjoint_mass_3;
+  dp[4 + 3] = adjoint_mass_4;
+  dp[8 + 0] = adjoint_inertia_1;
+  dp[8 + 1] = adjoint_inertia_2;
+  dp[8 + 2] = adjoint_inertia_3;
+  dp[8 + 3] = adjoint_inertia_4;
+  dp[12 + 0] = adjoint_stiffness_1;
+  dp[12 + 1] = adjoint_stiffness_2;
+  dp[12 + 2] = adjoint_stiffness_3;
+  dp[12 + 3] = adjoint_stiffness_4;
+  dp[16 + 0] = adjoint_damping_1;
+  dp[16 + 1] = adjoint_damping_2;
+  dp[16 + 2] = adjoint_damping_3;
+  dp[16 + 3] = adjoint_damping_4;
+  dp[20 + 0] = adjoint_torque_1;
+  dp[20 + 1] = adjoint_torque_2;
+  dp[20 + 2] = adjoint_torque_3;
+  dp[20 + 3] = adjoint_torque_4;
+  dp[24] = adjoint_load_mass;
+  dp[25] = adjoint_gravity_sum_5;
+  dq[0] = adjoint_theta_1;
+  dq[1] = adjoint_theta_2;
+  dq[2] = adjoint_theta_3;
+  dq[3] = adjoint_theta_4;
+  dv[0] = adjoint_theta_dot_1;
+  dv[1] = adjoint_theta_dot_2;
+  dv[2] = adjoint_theta_dot_3;
+  dv[3] = adjoint_theta_dot_4;
+}
+
 }  // namespace catena::chain_4

@@ -14,6 +14,8 @@
 namespace catena {
 namespace {
 
+constexpr long kStepsPerCheckPoint = 500;
+
 double cpu_seconds() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -201,6 +203,20 @@ int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
   return 0;
 }
 
+void Integrator::keep_check_points() {
+  require(CVodeAdjInit(cvodes_.get(), kStepsPerCheckPoint, CV_POLYNOMIAL), "CVodeAdjInit");
+  keeps_check_points_ = true;
+}
+
+int Integrator::step(long number, double last, double& t) {
+  if (!keeps_check_points_) return CVode(cvodes_.get(), last, y_.get(), &t, CV_ONE_STEP);
+  // What is repeated from a check point has no factors from before it: nor has the first run, so
+  // that both take the same steps.
+  if (number % kStepsPerCheckPoint == 0) step_solver_->forget_factors();
+  int check_points = 0;
+  return CVodeF(cvodes_.get(), last, y_.get(), &t, CV_ONE_STEP, &check_points);
+}
+
 void Integrator::run(const std::vector<double>& times, SensitiveSimulation& result) {
   const double begin = cpu_seconds();
   const Model& model = dynamics_.model();
@@ -238,7 +254,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
                        number_text(times.back()) + " s";
       break;
     }
-    const int flag = CVode(cvodes_.get(), times.back(), y_.get(), &t, CV_ONE_STEP);
+    const int flag = this->step(step, times.back(), t);
     if (flag < 0) {
       explain(flag, result);
       break;

@@ -41,6 +41,11 @@ class Integrator {
   /// Fills `result`, whose sensitivity has one entry per seed.
   void run(const std::vector<double>& times, SensitiveSimulation& result);
 
+  /// Before run: keeps check points from which the motion can be had again, for AdjointSolver.
+  void keep_check_points();
+  void* cvodes() const { return cvodes_.get(); }
+  SUNContext context() const { return context_.get(); }
+
  private:
   static int rates(double t, N_Vector y, N_Vector ydot, void* self);
   static int powers(double t, N_Vector y, N_Vector power, void* self);
@@ -50,6 +55,7 @@ class Integrator {
 
   void start_quadratures();
   void start_sensitivities(const std::vector<Seed>& seeds);
+  int step(long number, double last, double& t);
   void record(double t, std::size_t column, SensitiveSimulation& result);
   void record_energy(double t, std::size_t column, SensitiveSimulation& result);
   void explain(int flag, SensitiveSimulation& result);
@@ -70,6 +76,7 @@ class Integrator {
   std::vector<int> integrated_;  // energy items that are powers
   std::vector<double> energies_;
   StepSolver::Failure rates_failure_;
+  bool keeps_check_points_ = false;
   CvodesHandle cvodes_;  // last: freed first
 };
 

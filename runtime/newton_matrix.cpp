@@ -9,6 +9,7 @@ namespace catena {
 StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
     : factor_(model.table().newton_factor),
       solve_(model.table().newton_solve),
+      solve_transposed_(model.table().newton_solve_transposed),
       work_(static_cast<std::size_t>(model.table().newton_work)) {}
 
 int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
@@ -16,6 +17,10 @@ int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gam
 }
 
 void StructuredNewtonMatrix::solve(double* x) const { solve_(work_.data(), x); }
+
+void StructuredNewtonMatrix::solve_transposed(double* x) const {
+  solve_transposed_(work_.data(), x);
+}
 
 DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) {
   const int n = model.coordinates(), size = n + model.states();
@@ -68,6 +73,14 @@ void DenseNewtonMatrix::solve(double* x) const {
   factors_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(permuted_);
   factors_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(permuted_);
   unknown = permuted_;
+}
+
+void DenseNewtonMatrix::solve_transposed(double* x) const {
+  Eigen::Map<Eigen::VectorXd> unknown(x, permuted_.size());
+  permuted_ = unknown;
+  factors_.matrixLU().transpose().triangularView<Eigen::Lower>().solveInPlace(permuted_);
+  factors_.matrixLU().transpose().triangularView<Eigen::UnitUpper>().solveInPlace(permuted_);
+  unknown.noalias() = factors_.permutationP().transpose() * permuted_;
 }
 
 std::unique_ptr<NewtonMatrix> make_newton_matrix(const Model& model, LinearSolver requested,

@@ -25,6 +25,8 @@ class NewtonMatrix {
   virtual int factor(Dynamics& dynamics, const catena_point& at, double gamma) = 0;
   /// Overwrites the right-hand side (coordinates, then states) with the solution.
   virtual void solve(double* x) const = 0;
+  /// The same with the transpose of the matrix.
+  virtual void solve_transposed(double* x) const = 0;
 };
 
 /// By the emitted factorisation, O(links); for models without extra states.
@@ -33,10 +35,11 @@ class StructuredNewtonMatrix : public NewtonMatrix {
   explicit StructuredNewtonMatrix(const Model& model);
   int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
   void solve(double* x) const override;
+  void solve_transposed(double* x) const override;
 
  private:
   decltype(catena_model::newton_factor) factor_;
-  decltype(catena_model::newton_solve) solve_;
+  decltype(catena_model::newton_solve) solve_, solve_transposed_;
   std::vector<double> work_;
 };
 
@@ -46,6 +49,7 @@ class DenseNewtonMatrix : public NewtonMatrix {
   explicit DenseNewtonMatrix(const Model& model);
   int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
   void solve(double* x) const override;
+  void solve_transposed(double* x) const override;
 
  private:
   Eigen::MatrixXd matrix_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "runtime/adjoint_solver.hpp"
 #include "runtime/integrator.hpp"
 #include "runtime/number_text.hpp"
 #include "runtime/sensitivity.hpp"
@@ -62,6 +63,23 @@ void check_signals(const Model& model, const Signals& signals, const std::vector
            number_text(times.front()) + " to " + number_text(times.back()) + " s");
 }
 
+template <class Values>
+void check_state(const std::string& name, const Values& state, const Model& model) {
+  check_vector(name + " q", state.q, model.coordinates());
+  check_vector(name + " v", state.v, model.coordinates());
+  check_vector(name + " z", state.z, model.states());
+}
+
+void check_run(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+               const std::vector<double>& times, const SimulationOptions& options,
+               const Signals& signals) {
+  model.check_parameters(parameters);
+  check_state("initial", initial, model);
+  check_times(times);
+  check_options(options);
+  check_signals(model, signals, times);
+}
+
 }  // namespace
 
 Seed Seed::zero(const Model& model) {
@@ -85,23 +103,42 @@ SensitiveSimulation simulate_with_sensitivities(
     const Model& model, const Eigen::VectorXd& parameters, const State& initial,
     const std::vector<Seed>& seeds, const std::vector<double>& times,
     const SimulationOptions& options, const Signals& signals) {
-  model.check_parameters(parameters);
-  const auto check_state = [&](const std::string& name, const auto& state) {
-    check_vector(name + " q", state.q, model.coordinates());
-    check_vector(name + " v", state.v, model.coordinates());
-    check_vector(name + " z", state.z, model.states());
-  };
-  check_state("initial", initial);
+  check_run(model, parameters, initial, times, options, signals);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const std::string name = "seed " + std::to_string(i + 1);
     check_vector(name + " parameters", seeds[i].parameters, model.parameters());
-    check_state(name, seeds[i]);
+    check_state(name, seeds[i], model);
   }
-  check_times(times);
-  check_options(options);
-  check_signals(model, signals, times);
   SensitiveSimulation result;
   Integrator(model, parameters, initial, times.front(), options, signals, seeds).run(times, result);
+  return result;
+}
+
+AdjointSimulation simulate_with_gradient(const Model& model, const Eigen::VectorXd& parameters,
+                                         const State& initial, const std::vector<double>& times,
+                                         const Objective& objective,
+                                         const SimulationOptions& options,
+                                         const Signals& signals) {
+  check_run(model, parameters, initial, times, options, signals);
+  Integrator forward(model, parameters, initial, times.front(), options, signals, {});
+  forward.keep_check_points();
+  SensitiveSimulation motion;
+  forward.run(times, motion);
+  AdjointSimulation result;
+  static_cast<Simulation&>(result) = std::move(motion);
+  result.gradient = Seed::zero(model);
+  if (result.status != Status::kSuccess) return result;
+  const Trajectory& reached = result.trajectory;
+  Trajectory slope;
+  slope.time = reached.time;
+  slope.q.setZero(reached.q.rows(), reached.q.cols());
+  slope.v.setZero(reached.v.rows(), reached.v.cols());
+  slope.z.setZero(reached.z.rows(), reached.z.cols());
+  objective(reached, slope);
+  check_vector("the objective's slope q", slope.q.reshaped(), static_cast<int>(reached.q.size()));
+  check_vector("the objective's slope v", slope.v.reshaped(), static_cast<int>(reached.v.size()));
+  check_vector("the objective's slope z", slope.z.reshaped(), static_cast<int>(reached.z.size()));
+  AdjointSolver(forward, model, parameters, options, signals).run(times, slope, result);
   return result;
 }
 

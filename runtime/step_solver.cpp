@@ -59,6 +59,7 @@ int StepSolver::solve(SUNNonlinearSolver self, N_Vector predicted, N_Vector corr
 
 int StepSolver::solve(const Step& step) {
   iterations_ = 0;
+  if (step.t <= time_) forget_factors();  // begun again from a check point
   bool fresh = false;
   if (factors_are_old(step.gamma)) {
     if (const int flag = factor(step)) return flag;

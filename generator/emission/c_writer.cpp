@@ -137,11 +137,12 @@ std::string source_text(const Description& description, const ModelFunctions& fu
     out << "\n/* " << function.comment << " */\nstatic " << c_signature(function.signature)
         << " {\n";
     // What a function does not read it names all the same, so that compilers stay quiet.
-    for (const char* argument : {"t", "p", "dp", "in"}) {
-      const std::string whole = function.signature;
-      if (whole.find(std::string("[[maybe_unused]] const T* ") + argument) != std::string::npos ||
-          whole.find(std::string("[[maybe_unused]] const T& ") + argument) != std::string::npos) {
-        out << "  (void)" << argument << ";\n";
+    for (const std::string argument : {"t", "p", "dp", "in", "rate_weights", "dz"}) {
+      for (const std::string type : {"const T* ", "const T& ", "T* "}) {
+        for (const char* end : {",", ")"}) {
+          if (function.signature.find("[[maybe_unused]] " + type + argument + end) != std::string::npos)
+            out << "  (void)" << argument << ";\n";
+        }
       }
     }
     out << function.before << function.body.text << function.after << "}\n";

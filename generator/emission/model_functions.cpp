@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "generator/derivation/adjoint.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/parameter_table.hpp"
 
@@ -52,6 +53,7 @@ class Builder {
     positions();
     internal_forces();
     if (chain_.sensor().given) sensor();
+    adjoint();
     const std::vector<int> used = all_symbols();
     result_.uses_time = s.signals > 0 || std::any_of(used.begin(), used.end(), [&](int number) {
                           return definitions_[number].family == "time";
@@ -390,7 +392,9 @@ class Builder {
         "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
         "  return matrix.factor();\n}\n"
         "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
-        "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);\n}\n");
+        "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);\n}\n"
+        "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
+        "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);\n}\n");
   }
 
   void energy() {
@@ -520,6 +524,50 @@ class Builder {
         before, after);
   }
 
+  // The gradient of weight . r + rate_weight . zdot.
+  void adjoint() {
+    Adjoint gradient(definitions_, "adjoint_");
+    const auto add_all = [&](const std::vector<ex>& values, const std::string& weight) {
+      for (size_t i = 0; i < values.size(); ++i) {
+        const int link = static_cast<int>(i) + 1;
+        gradient.add(values[i], definitions_.input(weight, link), link);
+      }
+    };
+    add_all(chain_.residual(), "weight");
+    add_all(chain_.state_rates(), "rate_weight");
+    gradient.accumulate();
+    std::vector<Output> outputs;
+    for (const InputPlace& place : input_places(description_, links_)) {
+      if (std::string("qvzp").find(place.member) == std::string::npos) continue;
+      const std::string array = std::string("d") + place.member + "[";
+      const std::string offset = std::to_string(place.offset);
+      for (int i = 1; i <= place.count; ++i) {
+        const ex symbol = definitions_.input(place.family, place.indexed ? i : kNoIndex);
+        if (place.indexed) {
+          outputs.push_back({array + (place.offset == 0 ? "" : offset + " + "), i, -1, "]",
+                             gradient.of(symbol)});
+        } else {
+          outputs.push_back({array + offset, kNoIndex, 0, "]", gradient.of(symbol)});
+        }
+      }
+    }
+    InputDeclarations inputs = at_;
+    inputs["weight"] = in_c() ? "const double* const weight = weights;"
+                              : "const FromOne<T> weight(weights);";
+    inputs["rate_weight"] = in_c() ? "const double* const rate_weight = rate_weights;"
+                                   : "const FromOne<T> rate_weight(rate_weights);";
+    add("residual_adjoint",
+        "Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.",
+        "void residual_adjoint(const Point<T>& at, const T* weights,\n"
+        "                      [[maybe_unused]] const T* rate_weights, T* dq, T* dv,\n"
+        "                      [[maybe_unused]] T* dz, T* dp)",
+        body(outputs, inputs),
+        "void c_residual_adjoint(const catena_point* at, const double* weights,\n"
+        "                        const double* rate_weights, double* dq, double* dv, double* dz,\n"
+        "                        double* dp) {\n"
+        "  residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp);\n}\n");
+  }
+
   // Symbols the equations depend on.
   std::vector<int> all_symbols() {
     std::set<int> seen;
@@ -578,7 +626,9 @@ std::vector<std::string> ModelFunctions::table_entries() const {
           maybe(observes, "c_clock_tangent"),
           "c_velocities_tangent",
           "c_energy_tangent",
-          "c_internal_forces_tangent"};
+          "c_internal_forces_tangent",
+          "c_residual_adjoint",
+          maybe(summary.structured, "c_newton_solve_transposed")};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

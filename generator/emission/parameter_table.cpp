@@ -82,36 +82,59 @@ ModelTable model_table(const Description& description, int links) {
   return table;
 }
 
+std::vector<InputPlace> input_places(const Description& description, int links) {
+  std::vector<InputPlace> places;
+  int p = 0, q = 0, z = 0, u = 0;
+  const auto parameter = [&](const std::string& family, int count, bool indexed) {
+    places.push_back({family, 'p', p, count, indexed});
+    p += count;
+  };
+  const auto coordinate = [&](const std::string& family) {
+    places.push_back({family, 'q', q, links, true});
+    places.push_back({family + "_dot", 'v', q, links, true});
+    places.push_back({family + "_ddot", 'a', q, links, true});
+    q += links;
+  };
+  for (const ChainFamily& row : kPerLink) parameter(row.family, links, true);
+  for (const ChainFamily& row : kShared) parameter(row.family, 1, false);
+  coordinate("theta");  // angles are the first coordinates
+  for (const Effect& effect : description.effects) {
+    const auto name = [&](const auto& what) { return effect.id + "_" + what.name; };
+    for (const EffectParameter& row : effect.parameters) {
+      parameter(name(row), copies(row, links), row.scope != Scope::kModel);
+    }
+    for (const Coordinate& row : effect.coordinates) coordinate(name(row));
+    for (const ExtraState& state : effect.states) {
+      places.push_back({name(state), 'z', z, copies(state, links), true});
+      z += copies(state, links);
+    }
+    for (const SignalChannel& signal : effect.signals) {
+      for (const char* what : {"", "_rate", "_acceleration"}) {
+        places.push_back({name(signal) + what, 'u', u++, 1, false});
+      }
+    }
+  }
+  return places;
+}
+
 InputDeclarations input_declarations(const Description& description, int links,
                                      const std::string& point, const std::string& family_prefix,
                                      Language language) {
   InputDeclarations declarations;
   const bool c = language == Language::kC;
   const std::string scalar_type = c ? "double" : "T";
-  const auto array = [&](const std::string& family, const std::string& member, int offset) {
-    const std::string shift = offset == 0 ? "" : " + " + std::to_string(offset);
-    declarations[family_prefix + family] =
-        c ? "const double* const " + family_prefix + family + " = " + point + member + shift + ";"
-          : "const FromOne<T> " + family_prefix + family + "(" + point + member + shift + ");";
-  };
-  const auto scalar = [&](const std::string& family, const std::string& member, int offset) {
-    declarations[family_prefix + family] = "const " + scalar_type + " " + family_prefix + family +
-                                           " = " + point + member + "[" + std::to_string(offset) +
-                                           "];";
-  };
-  int p = 0;
-  for (const ChainFamily& row : kPerLink) {
-    array(row.family, "p", p);
-    p += links;
+  for (const InputPlace& place : input_places(description, links)) {
+    const std::string name = family_prefix + place.family, member = point + place.member;
+    const std::string shift = place.offset == 0 ? "" : " + " + std::to_string(place.offset);
+    declarations[name] =
+        !place.indexed ? "const " + scalar_type + " " + name + " = " + member + "[" +
+                             std::to_string(place.offset) + "];"
+        : c ? "const double* const " + name + " = " + member + shift + ";"
+            : "const FromOne<T> " + name + "(" + member + shift + ");";
   }
-  for (const ChainFamily& row : kShared) scalar(row.family, "p", p++);
-  array("theta", "q", 0);
-  array("theta_dot", "v", 0);
-  array("theta_ddot", "a", 0);
   declarations[family_prefix + "time"] =
       "const " + scalar_type + " " + family_prefix + "time = " + point + "t;";
   if (family_prefix.empty()) {
-    // Angles are the first coordinates.
     const std::string arrays = scalar_type + " sine[" + std::to_string(links + 1) + "], cosine[" +
                                std::to_string(links + 1) + "];\n";
     const std::string arguments = point + "q, sine + 1, cosine + 1);";
@@ -121,35 +144,6 @@ InputDeclarations input_declarations(const Description& description, int links,
   }
   declarations["pi"] = c ? "const double pi = 3.14159265358979323846;"
                          : "const T pi = T(3.14159265358979323846);";
-  int q = links, z = 0, u = 0;
-  for (const Effect& effect : description.effects) {
-    for (const EffectParameter& parameter : effect.parameters) {
-      const std::string family = effect.id + "_" + parameter.name;
-      if (parameter.scope == Scope::kModel) {
-        scalar(family, "p", p);
-      } else {
-        array(family, "p", p);
-      }
-      p += copies(parameter, links);
-    }
-    for (const Coordinate& coordinate : effect.coordinates) {
-      const std::string family = effect.id + "_" + coordinate.name;
-      array(family, "q", q);
-      array(family + "_dot", "v", q);
-      array(family + "_ddot", "a", q);
-      q += links;
-    }
-    for (const ExtraState& state : effect.states) {
-      array(effect.id + "_" + state.name, "z", z);
-      z += copies(state, links);
-    }
-    for (const SignalChannel& signal : effect.signals) {
-      const std::string family = effect.id + "_" + signal.name;
-      scalar(family, "u", u++);
-      scalar(family + "_rate", "u", u++);
-      scalar(family + "_acceleration", "u", u++);
-    }
-  }
   return declarations;
 }
 

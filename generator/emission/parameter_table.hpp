@@ -28,6 +28,16 @@ struct ModelTable {
 
 ModelTable model_table(const Description& description, int links);
 
+/// Where a family of the derivation's inputs stands in a point.
+struct InputPlace {
+  std::string family;
+  char member;   ///< 'q', 'v', 'a', 'z', 'u' or 'p'
+  int offset;    ///< of the first in the member
+  int count;     ///< symbols of the family
+  bool indexed;  ///< by link, from 1; else the one symbol has no index
+};
+std::vector<InputPlace> input_places(const Description& description, int links);
+
 /// Declarations that bring the derivation's inputs into an emitted function. `point` is how
 /// the point is reached ("at.", or "" for functions that are given t and p alone); `family_prefix`
 /// is "d_" for differentials.

@@ -124,6 +124,29 @@ struct Quasiseparable {
     }
   }
 
+  /// The same with the transpose of the matrix.
+  void solve_transposed(T* x) const {
+    T carried[ru], sum[rl];
+    for (int r = 0; r < ru; ++r) carried[r] = T(0);
+    for (int s = 0; s < rl; ++s) sum[s] = T(0);
+    for (int j = n - 2; j >= 0; --j) {
+      if (j + 2 < n) {
+        for (int s = 0; s < lower_rank; ++s) sum[s] += lower_row[j + 2][s] * x[j + 2];
+      }
+      for (int s = 0; s < lower_rank; ++s) x[j] -= lower_column[j][s] * sum[s];
+      x[j] -= below[j + 1] * x[j + 1];
+    }
+    // x is divided by the pivots where the rows after it have used it undivided
+    for (int j = 1; j < n; ++j) {
+      if (j > 1) {
+        for (int r = 0; r < upper_rank; ++r) carried[r] += upper_row[j - 2][r] * x[j - 2];
+      }
+      for (int r = 0; r < upper_rank; ++r) x[j] -= upper_column[j][r] * carried[r];
+      x[j] -= above[j - 1] * x[j - 1];
+    }
+    for (int j = 0; j < n; ++j) x[j] *= diagonal[j];
+  }
+
   /// The whole matrix, row by row. Not after factor().
   void to_dense(T* matrix) const {
     for (int i = 0; i < n; ++i) {

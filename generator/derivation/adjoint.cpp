@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/derivation/adjoint.hpp"
+
+#include <utility>
+
+namespace catena {
+
+using GiNaC::ex;
+
+Adjoint::Adjoint(Definitions& definitions, std::string prefix)
+    : definitions_(definitions), prefix_(std::move(prefix)) {}
+
+void Adjoint::add(const ex& expression, const ex& weight, int link) {
+  pass_on(expression, weight, link);
+}
+
+void Adjoint::accumulate() {
+  while (!open_.empty()) {
+    const auto [number, parts] = *open_.begin();
+    open_.erase(open_.begin());
+    const Symbol symbol = definitions_[number];
+    const ex arrived = total(number, parts);
+    done_[number] = arrived;
+    if (symbol.is_input) continue;
+    if (symbol.family == "sine" || symbol.family == "cosine") {
+      // Each is the other's derivative, by name.
+      const bool sine = symbol.family == "sine";
+      const ex angle = symbol.value.op(0);
+      const ex other = sine ? ex(definitions_.define("cosine", symbol.index, GiNaC::cos(angle)))
+                            : ex(definitions_.define("sine", symbol.index, GiNaC::sin(angle)));
+      open_[definitions_.number_of(angle)][symbol.index] += sine ? arrived * other : -arrived * other;
+    } else {
+      pass_on(symbol.value, arrived, symbol.index);
+    }
+  }
+}
+
+ex Adjoint::of(const ex& symbol) const {
+  const auto found = done_.find(definitions_.number_of(symbol));
+  return found == done_.end() ? ex(0) : found->second;
+}
+
+void Adjoint::pass_on(const ex& expression, const ex& arrived, int link) {
+  for (const int number : definitions_.symbols_of(expression)) {
+    const auto& symbol = GiNaC::ex_to<GiNaC::symbol>(definitions_[number].symbol);
+    open_[number][link] += arrived * expression.diff(symbol);
+  }
+}
+
+// What belongs to no link has parts from all: their sum goes link by link, as a loop does.
+ex Adjoint::total(int number, const std::map<int, ex>& parts) {
+  const Symbol symbol = definitions_[number];
+  ex sum = 0;
+  if (symbol.index == kNoIndex && parts.size() > 1) {
+    for (const auto& [link, part] : parts) {
+      sum = definitions_.define(prefix_ + symbol.family + "_sum", link, sum + part);
+    }
+    return sum;
+  }
+  for (const auto& [link, part] : parts) sum += part;
+  return definitions_.define(prefix_ + symbol.family, symbol.index, sum);
+}
+
+}  // namespace catena

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/adjoint.hpp"
+#include "runtime/integrator.hpp"
+
+namespace catena {
+
+/// The adjoint equations (adjoint.hpp) back from the last time to the first, after an Integrator that
+/// keeps check points has run. They are linear: each step is solved at once, with the transpose of
+/// the Newton matrix at the motion.
+class AdjointSolver {
+ public:
+  AdjointSolver(Integrator& forward, const Model& model, const Eigen::VectorXd& parameters,
+                const SimulationOptions& options, const Signals& signals);
+
+  /// Fills result.gradient, or status and message if it cannot.
+  void run(const std::vector<double>& times, const Trajectory& slope, AdjointSimulation& result);
+
+ private:
+  static int solve(SUNNonlinearSolver self, N_Vector predicted, N_Vector correction, N_Vector,
+                   double, booleantype, void* cvodes);
+  static int rates(double t, N_Vector y, N_Vector lambda, N_Vector rate, void* self);
+  static int parameter_rates(double t, N_Vector y, N_Vector lambda, N_Vector rate, void* self);
+
+  void begin(double t, const Trajectory& slope);
+  void add_slope(const Trajectory& slope, std::size_t column);
+  bool evaluate(double t, N_Vector y, double gamma, double* right);
+
+  void* cvodes_;
+  SimulationOptions options_;
+  Dynamics dynamics_;
+  LinearSolver used_;
+  std::unique_ptr<NewtonMatrix> matrix_;
+  int n_, states_, which_ = 0;
+  NVectorHandle motion_, lambda_, integral_;
+  std::vector<double> a_, right_, minus_z_;
+  std::vector<double> dq_, dv_, dz_, dp_;  // of mu.r - lambda_z.f at time_
+  double time_;
+  SunNonlinearSolverHandle handle_;
+};
+
+}  // namespace catena
