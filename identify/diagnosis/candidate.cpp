@@ -84,13 +84,13 @@ std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::
 }
 
 std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
-                                        const std::vector<double>& strongest_frequencies) {
+                                        const std::vector<double>& frequencies) {
   std::vector<Eigen::VectorXd> grid = {Eigen::VectorXd(0)};
   for (const int index : candidate.with_role(ParameterRole::kShape)) {
     const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(index)];
     std::vector<double> values;
     if (parameter.unit == "Hz") {
-      values = strongest_frequencies;
+      values = frequencies;
     } else if (parameter.lower < 0 && parameter.upper > 0) {
       for (const double share : {1.0 / 60, 1.0 / 20, 1.0 / 6}) {
         values.push_back(share * parameter.upper);

@@ -51,10 +51,9 @@ std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::
                                              const Description& present);
 
 /// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which
-/// the score is taken: frequencies where the residuals have their strongest lines, velocities of
-/// both signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their
+/// the score is taken: the frequencies given, velocities of both signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their
 /// default. One empty vector if the candidate has no shape.
 std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
-                                        const std::vector<double>& strongest_frequencies);
+                                        const std::vector<double>& frequencies);
 
 }  // namespace catena

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kWorthARefit = 0.25;  // predicted change over misfit
-constexpr double kWorthTaking = 0.15;  // of the squared misfit
+constexpr double kWorthTaking = 0.3;   // of the squared misfit
 
 }  // namespace
 
@@ -40,9 +40,9 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
                            const std::vector<double>& floors, int max_links, Workshop& workshop) {
   FinerChain finer;
   const Case& study = model.problem->study();
-  finer.links = 2 * study.links;
-  if (finer.links > max_links) {
-    finer.note = "more than the allowed " + std::to_string(max_links) + " links";
+  finer.links = std::min(2 * study.links, std::max(max_links, study.links));
+  if (finer.links <= study.links) {
+    finer.note = "no more than " + std::to_string(max_links) + " links are allowed";
     return finer;
   }
   const std::optional<Case> larger = with_links(study, finer.links, finer.note);
@@ -68,7 +68,7 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   const GapTest gap = fit_gap(model, floors);
   finer.predicted = gap.floor * left.norm() / std::sqrt(static_cast<double>(left.size()));
   if (finer.predicted < kWorthARefit * gap.misfit) {
-    finer.note = "twice the links would change the prediction by a small part of the misfit only";
+    finer.note = "the finer chain would change the prediction by a small part of the misfit only";
     return finer;
   }
   workshop.say("refitting with " + std::to_string(finer.links) + " links");

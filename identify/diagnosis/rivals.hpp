@@ -11,7 +11,7 @@
 
 namespace catena {
 
-/// What a chain of twice as many links says about a gap.
+/// What a finer chain says about a gap.
 struct FinerChain {
   int links = 0;
   std::string note;      ///< why it was not tried or not taken
@@ -22,8 +22,8 @@ struct FinerChain {
   bool taken = false;
 };
 
-/// Too few links, the first rival of every effect: simulates with twice the links at the same
-/// physical values. Where what changes, less what the free parameters absorb, is no small part of
+/// Too few links, the first rival of every effect: simulates with twice the links, or with as many
+/// as are allowed, at the same physical values. Where what changes, less what the free parameters absorb, is no small part of
 /// the misfit, refits; taken if that explains a good part of the misfit.
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<double>& floors, int max_links, Workshop& workshop);

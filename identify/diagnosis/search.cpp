@@ -19,7 +19,9 @@ namespace {
 
 constexpr int kMoreTerms = 4;  // of the start's shape, tried as a rival
 constexpr int kRateTerms = 3;  // of its velocity
-constexpr int kFrequencies = 8;
+constexpr int kLines = 8;        // frequencies where the residuals are strongest
+constexpr int kFrequencies = 24; // and others, evenly spaced
+constexpr double kHighestFrequency = 12;  // Hz
 
 double angle_of_frequency(double frequency, double t) {
   return 2 * std::numbers::pi * frequency * t;
@@ -49,21 +51,48 @@ void run_parallel(int threads, int count, const std::function<void(int)>& f) {
   if (failure) std::rethrow_exception(failure);
 }
 
-std::vector<double> strongest_frequencies(const FittedModel& model,
-                                          const std::vector<double>& floors, int count) {
-  double duration = 0, rate = 0;
+namespace {
+
+struct Sampling {
+  double duration = 0, rate = 0;  // s, 1/s
+  double highest() const { return std::min(rate / 4, kHighestFrequency); }
+};
+
+/// Of the longest fitted part.
+Sampling longest_sampling(const FittedModel& model) {
+  Sampling longest;
   for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
     const Index frames = model.fit_residual[e].cols();
     if (frames < 8) continue;
     const auto& time = model.problem->experiments()[e].recording.time;
     const double span = time[static_cast<std::size_t>(frames - 1)] - time.front();
-    if (span <= duration) continue;
-    duration = span;
-    rate = static_cast<double>(frames - 1) / span;
+    if (span <= longest.duration) continue;
+    longest.duration = span;
+    longest.rate = static_cast<double>(frames - 1) / span;
   }
-  if (duration == 0) return {};
-  // The power of the residuals at a quarter of the resolution, up to a quarter of the frame rate.
-  const double step = 0.25 / duration, highest = std::min(rate / 4, 12.0);
+  return longest;
+}
+
+/// Where a driven motion is looked for: at the strongest lines of the residuals, and, since what a
+/// force of one frequency leaves after a fit need not be strongest there, half a resolution apart.
+std::vector<double> driving_frequencies(const FittedModel& model,
+                                        const std::vector<double>& floors) {
+  std::vector<double> frequencies = strongest_frequencies(model, floors, kLines);
+  const Sampling sampling = longest_sampling(model);
+  if (sampling.duration == 0) return {};
+  const double step = std::max(0.5 / sampling.duration, sampling.highest() / kFrequencies);
+  for (double f = step; f <= sampling.highest(); f += step) frequencies.push_back(f);
+  return frequencies;
+}
+
+}  // namespace
+
+std::vector<double> strongest_frequencies(const FittedModel& model,
+                                          const std::vector<double>& floors, int count) {
+  const Sampling sampling = longest_sampling(model);
+  if (sampling.duration == 0) return {};
+  // The power of the residuals at a quarter of the resolution.
+  const double step = 0.25 / sampling.duration, highest = sampling.highest();
   std::vector<std::pair<double, double>> lines;  // power, frequency
   std::vector<double> power;
   for (double f = 2 * step; f <= highest; f += step) {
@@ -101,6 +130,34 @@ std::vector<double> strongest_frequencies(const FittedModel& model,
   return frequencies;
 }
 
+namespace {
+
+/// One point of a candidate's grid of shapes.
+struct ScoredStart {
+  Score score;
+  std::vector<int> columns;
+  std::vector<std::pair<std::string, double>> start;
+  VectorXd shape;
+};
+
+/// The start of the best score, and as another one the best whose shape is not next to that.
+void take_best(Explanation& explanation, std::vector<ScoredStart>& scores) {
+  std::stable_sort(scores.begin(), scores.end(), [](const ScoredStart& a, const ScoredStart& b) {
+    return a.score.removed > b.score.removed;
+  });
+  if (scores.empty()) return;
+  const ScoredStart& best = scores.front();
+  explanation.score = best.score;
+  explanation.start = best.start;
+  constexpr double kElsewhere = 0.2;  // relative
+  for (const ScoredStart& other : scores)
+    if (explanation.other_start.empty() && other.shape.size() > 0 &&
+        (other.shape - best.shape).norm() > kElsewhere * best.shape.norm())
+      explanation.other_start = other.start;
+}
+
+}  // namespace
+
 Search::Search(Workshop& workshop, FittedModel base, std::vector<std::string> effects,
                std::vector<double> floors)
     : workshop_(workshop),
@@ -117,7 +174,7 @@ Search::Search(Workshop& workshop, FittedModel base, std::vector<std::string> ef
       std::make_shared<const Problem>(with_effects(freer, others, true),
                                       workshop_.model_with_all(study.links, own_models_in_base()));
   x_ = transfer(*base_.problem, base_.x, *all_);
-  frequencies_ = strongest_frequencies(base_, floors_, kFrequencies);
+  frequencies_ = driving_frequencies(base_, floors_);
 }
 
 bool Search::in_base(const std::string& id) const {
@@ -292,6 +349,7 @@ std::vector<Explanation> Search::score(bool own_models) {
     };
     const auto phases = candidate.with_role(ParameterRole::kPhase);
     const auto shapes = candidate.with_role(ParameterRole::kShape);
+    std::vector<ScoredStart> scores;
     const auto consider = [&](const MatrixXd& at_zero, const MatrixXd* at_quarter,
                               const VectorXd& shape) {
       std::vector<int> columns;
@@ -303,26 +361,25 @@ std::vector<Explanation> Search::score(bool own_models) {
           columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));
       }
       const Score score = test.score(columns);
-      if (!score.admissible || score.removed <= explanation.score.removed) return;
-      explanation.score = score;
-      explanation.log10_p = significance(test, columns, score);
-      explanation.start.clear();
+      if (!score.admissible) return;
+      std::vector<std::pair<std::string, double>> start;
       for (std::size_t a = 0; a < amplitudes_of.size(); ++a) {
         const CandidateParameter& p = parameter(amplitudes_of[a]);
         if (!at_quarter) {
-          explanation.start.emplace_back(p.name, p.neutral + score.estimate[static_cast<Index>(a)]);
+          start.emplace_back(p.name, p.neutral + score.estimate[static_cast<Index>(a)]);
           continue;
         }
         // a sin(w t) + b cos(w t) = sqrt(a^2 + b^2) sin(w t + atan2(b, a))
         const double sine = score.estimate[static_cast<Index>(2 * a)];
         const double cosine = score.estimate[static_cast<Index>(2 * a + 1)];
-        explanation.start.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
+        start.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
         for (const int q : phases)
           if (parameter(q).amplitude == amplitudes_of[a])
-            explanation.start.emplace_back(parameter(q).name, std::atan2(cosine, sine));
+            start.emplace_back(parameter(q).name, std::atan2(cosine, sine));
       }
       for (std::size_t s = 0; s < shapes.size(); ++s)
-        explanation.start.emplace_back(parameter(shapes[s]).name, shape[static_cast<Index>(s)]);
+        start.emplace_back(parameter(shapes[s]).name, shape[static_cast<Index>(s)]);
+      scores.push_back({score, columns, std::move(start), shape});
     };
     if (shapes.empty() && phases.empty() && !candidate.own_model) {
       consider(runs[0].columns.middleCols(next, static_cast<Index>(amplitudes_of.size())), nullptr,
@@ -336,6 +393,9 @@ std::vector<Explanation> Search::score(bool own_models) {
         next_run += phases.empty() ? 1 : 2;
       }
     }
+    take_best(explanation, scores);
+    if (explanation.score.admissible)
+      explanation.log10_p = significance(test, scores.front().columns, explanation.score);
     if (!explanation.score.admissible) explanation.note = "would have to act the other way round";
     found.push_back(std::move(explanation));
   }
@@ -391,43 +451,41 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
 }
 
 void Search::refit(Explanation& explanation, bool far) const {
-  const Case& study = base_.problem->study();
-  std::shared_ptr<const Problem> problem;
-  std::vector<double> shares = {1.0};
-  if (far) shares.push_back(0.25);
+  const auto keep_better = [&](FittedModel model) {
+    if (!model.ok || (explanation.refitted && sum_of_squares(model, floors_) >=
+                                                  sum_of_squares(explanation.model, floors_)))
+      return;
+    explanation.refitted = true;
+    explanation.model = std::move(model);
+  };
   if (explanation.candidate < 0) {
-    const auto freer = with_freer_start(study, kMoreTerms, kRateTerms);
+    const auto freer = with_freer_start(base_.problem->study(), kMoreTerms, kRateTerms);
     if (!freer) return;
-    problem = std::make_shared<const Problem>(*freer, base_.problem->model());
-    shares = {1.0};
+    const auto problem = std::make_shared<const Problem>(*freer, base_.problem->model());
+    keep_better(fit_model(problem, transfer(*base_.problem, base_.x, *problem),
+                          workshop_.least_squares, workshop_.stop));
   } else {
     const Candidate& candidate =
         workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
-    Candidate started = candidate;
-    for (CandidateParameter& parameter : started.parameters)
-      for (const auto& [name, value] : explanation.start)
-        if (parameter.name == name) parameter.value = value;
-    problem = problem_with(started);
-  }
-  for (const double share : shares) {
-    if (workshop_.stopped()) return;
-    VectorXd start = transfer(*base_.problem, base_.x, *problem);
-    if (explanation.candidate >= 0)
-      for (const CandidateParameter& parameter :
-           workshop_.library()[static_cast<std::size_t>(explanation.candidate)].parameters) {
+    const auto problem = problem_with(candidate);
+    const auto fit_from = [&](const std::vector<std::pair<std::string, double>>& values,
+                              double share) {
+      if (workshop_.stopped()) return;
+      VectorXd start = transfer(*base_.problem, base_.x, *problem);
+      for (const CandidateParameter& parameter : candidate.parameters) {
         const Index j = unknown_index(*problem, parameter.name);
         if (j < 0) continue;
+        for (const auto& [name, value] : values)
+          if (name == parameter.name) start[j] = value;
         if (parameter.role == ParameterRole::kAmplitude)
           start[j] = parameter.neutral + share * (start[j] - parameter.neutral);
         start[j] = std::clamp(start[j], parameter.lower, parameter.upper);
       }
-    FittedModel model = fit_model(problem, start, workshop_.least_squares, workshop_.stop);
-    if (!model.ok) continue;
-    if (explanation.refitted &&
-        sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_))
-      continue;
-    explanation.refitted = true;
-    explanation.model = std::move(model);
+      keep_better(fit_model(problem, start, workshop_.least_squares, workshop_.stop));
+    };
+    fit_from(explanation.start, 1.0);
+    if (far) fit_from(explanation.start, 0.25);
+    if (far && !explanation.other_start.empty()) fit_from(explanation.other_start, 1.0);
   }
   if (!explanation.refitted) {
     explanation.note = "the refit failed";

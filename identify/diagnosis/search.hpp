@@ -23,6 +23,7 @@ struct Explanation {
   /// Starting values by the names of the unknowns: amplitudes, shapes and phases found by the
   /// score.
   std::vector<std::pair<std::string, double>> start;
+  std::vector<std::pair<std::string, double>> other_start;  ///< of the best shape elsewhere
   double log10_p = 0;  ///< of the predicted fall, for one candidate
   std::string note;    ///< why it was not tried, or what to know about it
 
@@ -48,7 +49,7 @@ class Search {
   std::vector<Explanation> score(bool own_models);
 
   /// Adds the explanation for real and fits everything again, from its start and, if `far`, from a
-  /// quarter of it as well; keeps the better.
+  /// quarter of it and from its other start as well; keeps the best.
   void refit(Explanation& explanation, bool far) const;
 
   /// The `count` most promising admissible ones, on several threads.

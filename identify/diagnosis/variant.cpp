@@ -99,11 +99,18 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
     why_not = reason;
     return std::nullopt;
   };
-  if (links % study.links != 0) return refuse("the number of links is no multiple");
   if (!study.cable.link_lengths.empty() || !study.cable.link_masses.empty() ||
       !study.cable.link_inertias.empty())
     return refuse("the links are real parts, given one by one");
-  const int ratio = links / study.links;
+  const double ratio = static_cast<double>(links) / study.links;
+  // Joint i of the case is joint (i - 1) ratio + 1 of the other chain, if there is one.
+  const auto whole = [&](int joint) {
+    const double place = (joint - 1) * ratio;
+    return std::abs(place - std::round(place)) < 1e-9;
+  };
+  const auto joint_of = [&](int joint) {
+    return static_cast<int>(std::lround((joint - 1) * ratio)) + 1;
+  };
   Case result = study;
   result.links = links;
   for (ParameterSpec& parameter : result.parameters) {
@@ -113,8 +120,11 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
     if (!family) continue;
     parameter.factor *= ratio;  // stiffness and damping of a joint go with 1 / spacing
     if (family->first == 0) continue;
-    const int first = family->first <= 2 ? family->first : (family->first - 1) * ratio + 1;
-    const int last = family->last == 1 ? 1 : family->last * ratio;
+    if ((family->first > 2 && !whole(family->first)) ||
+        (family->last != 1 && !whole(family->last + 1)))
+      return refuse("parameter " + parameter.name + " belongs to joints that chain has not");
+    const int first = family->first <= 2 ? family->first : joint_of(family->first);
+    const int last = family->last == 1 ? 1 : joint_of(family->last + 1) - 1;
     parameter.sets = family->family + "_" + std::to_string(first);
     if (last > first) parameter.sets += ".." + std::to_string(last);
   }
@@ -135,7 +145,10 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
     if (experiment.kind == DataKind::kAngles) return refuse("the data are angles of links");
     if (experiment.initial) refit_start(*experiment.initial, study.links);
     for (PointSpec& point : experiment.points)
-      if (point.joint > 0) point.joint *= ratio;
+      if (point.joint > 0) {
+        if (!whole(point.joint + 1)) return refuse("a marker sits at a joint that chain has not");
+        point.joint = joint_of(point.joint + 1) - 1;
+      }
   }
   return result;
 }
