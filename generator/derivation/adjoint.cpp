@@ -50,15 +50,19 @@ void Adjoint::pass_on(const ex& expression, const ex& arrived, int link) {
 // What belongs to no link has parts from all: their sum goes link by link, as a loop does.
 ex Adjoint::total(int number, const std::map<int, ex>& parts) {
   const Symbol symbol = definitions_[number];
-  ex sum = 0;
-  if (symbol.index == kNoIndex && parts.size() > 1) {
-    for (const auto& [link, part] : parts) {
+  const bool link_by_link = symbol.index == kNoIndex && parts.size() > 1;
+  ex sum = 0, of_no_link = 0;
+  for (const auto& [link, part] : parts) {
+    if (link == kNoIndex) {
+      of_no_link = part;
+    } else if (link_by_link) {
       sum = definitions_.define(prefix_ + symbol.family + "_sum", link, sum + part);
+    } else {
+      sum += part;
     }
-    return sum;
   }
-  for (const auto& [link, part] : parts) sum += part;
-  return definitions_.define(prefix_ + symbol.family, symbol.index, sum);
+  if (link_by_link && of_no_link.is_zero()) return sum;
+  return definitions_.define(prefix_ + symbol.family, symbol.index, sum + of_no_link);
 }
 
 }  // namespace catena
