@@ -61,6 +61,7 @@ struct SymmetricSemiseparable {
       carried[r] = zero;
       for (int s = 0; s < rr; ++s) w[r][s] = zero;
     }
+#pragma GCC unroll 4
     for (int i = 0; i < m; i += 2) {
       // `own` couples a row to those left, `other` those left to it.
       Both own[2][rr], pivot[2], y[2];
@@ -118,6 +119,7 @@ struct SymmetricSemiseparable {
     // for one product and two sums.
     Both from[rr];
     for (int r = 0; r < rr; ++r) from[r] = Both{known[r], sum[r]};
+#pragma GCC unroll 6
     for (int i = m - 1; i >= 0; --i) {
       const Both solution = solved[i] - product(scaled[i], from);
       x[i] = solution.first();
@@ -196,16 +198,23 @@ struct SymmetricSemiseparable {
         sum[r] -= v[r][s] * carried[s];
       }
     }
-    for (int k = 0; k < rank; ++k) {
-      for (int r = k + 1; r < rank; ++r) {
-        const T factor = a[r][k] / a[k][k];
-        for (int s = k + 1; s < rank; ++s) a[r][s] -= factor * a[k][s];
-        sum[r] -= factor * sum[k];
+    if constexpr (rank == 2) {  // the second pivot again without waiting for the first's reciprocal
+      const T determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+      const T reciprocal = T(1) / a[0][0], second = a[0][0] / determinant;
+      sum[1] = (sum[1] - a[1][0] * reciprocal * sum[0]) * second;
+      sum[0] = (sum[0] - a[0][1] * sum[1]) * reciprocal;
+    } else {
+      for (int k = 0; k < rank; ++k) {
+        for (int r = k + 1; r < rank; ++r) {
+          const T factor = a[r][k] / a[k][k];
+          for (int s = k + 1; s < rank; ++s) a[r][s] -= factor * a[k][s];
+          sum[r] -= factor * sum[k];
+        }
       }
-    }
-    for (int k = rank - 1; k >= 0; --k) {
-      for (int s = k + 1; s < rank; ++s) sum[k] -= a[k][s] * sum[s];
-      sum[k] = sum[k] / a[k][k];
+      for (int k = rank - 1; k >= 0; --k) {
+        for (int s = k + 1; s < rank; ++s) sum[k] -= a[k][s] * sum[s];
+        sum[k] = sum[k] / a[k][k];
+      }
     }
     for (int r = 0; r < rank; ++r) {
       for (int s = 0; s < rank; ++s) carried[r] -= w[r][s] * sum[s];

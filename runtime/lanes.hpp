@@ -8,19 +8,32 @@
 
 namespace catena {
 
-/// Eight numbers at once, one a lane: a scalar type for the emitted templates, with which one
-/// call evaluates a model for eight parameter sets and states. Every lane gets the bits that the
+/// The compiler's vectors of four and of eight.
+template <int count>
+struct LaneVectors;
+template <>
+struct LaneVectors<4> {
+  typedef double Vector __attribute__((vector_size(32)));
+  typedef std::uint64_t Bits __attribute__((vector_size(32)));
+};
+template <>
+struct LaneVectors<8> {
+  typedef double Vector __attribute__((vector_size(64)));
+  typedef std::uint64_t Bits __attribute__((vector_size(64)));
+};
+
+/// Several numbers at once, one a lane: a scalar type for the emitted templates, with which one
+/// call evaluates a model for as many parameter sets and states. Four fill a register of AVX2. Every lane gets the bits that the
 /// same text gives for that set alone in double precision: the operations are the same, in the same
 /// order.
 ///
 /// `Target` keeps apart what is compiled for different processors: template functions of the same
 /// name compiled with different flags would be merged into one.
-template <class Target>
+template <class Target, int count>
 class Lanes {
  public:
-  static constexpr int kCount = 8;
-  typedef double Vector __attribute__((vector_size(64)));
-  typedef std::uint64_t Bits __attribute__((vector_size(64)));
+  using Vector = typename LaneVectors<count>::Vector;
+  using Bits = typename LaneVectors<count>::Bits;
 
   Lanes() = default;
   // Written out so that a copy is a copy of vectors: as plain memory it goes in pieces smaller than
@@ -60,7 +73,7 @@ class Lanes {
   template <class Mask>
   static bool all(const Mask& mask) {
     bool result = true;
-    for (int lane = 0; lane < kCount; ++lane) result = result && mask[lane] != 0;
+    for (int lane = 0; lane < count; ++lane) result = result && mask[lane] != 0;
     return result;
   }
 

@@ -114,6 +114,11 @@ int main(int argc, char** argv) {
       rest.push_back(argv[i]);
     }
   }
+  std::vector<std::unique_ptr<Peer> (*)(const Cable&)> makers{
+      catena::benchmark::make_mujoco, catena::benchmark::make_simbody, catena::benchmark::make_dart};
+#ifdef CATENA_BENCHMARK_RBDL
+  makers.push_back(catena::benchmark::make_rbdl);
+#endif
   std::vector<std::unique_ptr<Peer>> peers;
   for (const auto& [n, model] : models) {
     const std::string size = "/" + std::to_string(n);
@@ -121,8 +126,7 @@ int main(int argc, char** argv) {
                                    [&model](auto& timer) { time_catena(timer, model, false); });
     ::benchmark::RegisterBenchmark(("catena, relative angles" + size).c_str(),
                                    [&model](auto& timer) { time_catena(timer, model, true); });
-    for (auto make : {catena::benchmark::make_mujoco, catena::benchmark::make_simbody,
-                      catena::benchmark::make_dart}) {
+    for (const auto make : makers) {
       try {
         peers.push_back(make(Cable(n)));
       } catch (const std::exception& error) {

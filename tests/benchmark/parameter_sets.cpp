@@ -14,8 +14,10 @@
 #include "tests/benchmark/cable.hpp"
 
 namespace catena::benchmark {
-int eight_sets_avx2(int links, const double* q, const double* v, const double* p, double* a);
-int eight_sets_baseline(int links, const double* q, const double* v, const double* p, double* a);
+int eight_sets_avx2(int links, int parameters, const double* q, const double* v, const double* p,
+                    double* a);
+int eight_sets_baseline(int links, int parameters, const double* q, const double* v,
+                        const double* p, double* a);
 }  // namespace catena::benchmark
 
 namespace {
@@ -43,18 +45,19 @@ int main() {
   namespace b = catena::benchmark;
   const bool avx2 = __builtin_cpu_supports("avx2") != 0;
   std::printf("links,one_ns,eight_baseline_ns_per_set,eight_avx2_ns_per_set\n");
-  for (const int n : {2, 4, 12, 60}) {
+  for (const int n : {2, 3, 4, 12, 60}) {
     const auto model = catena::Model::built_in(n);
     const b::Cable cable(n);
     std::vector<Eigen::VectorXd> q, v, p;
-    struct alignas(64) Lanes {
-      double set[8];
+    struct alignas(32) Four {
+      double set[4];
     };
     const auto packed = [](const std::vector<Eigen::VectorXd>& sets) {
-      std::vector<Lanes> all(static_cast<std::size_t>(sets[0].size()));
+      const auto size = static_cast<std::size_t>(sets[0].size());
+      std::vector<Four> all(2 * size);
       for (std::size_t k = 0; k < 8; ++k)
-        for (std::size_t i = 0; i < all.size(); ++i)
-          all[i].set[k] = sets[k][static_cast<Eigen::Index>(i)];
+        for (std::size_t i = 0; i < size; ++i)
+          all[k / 4 * size + i].set[k % 4] = sets[k][static_cast<Eigen::Index>(i)];
       return all;
     };
     for (int k = 0; k < 8; ++k) {
@@ -63,7 +66,7 @@ int main() {
       p.push_back(cable.parameters(model) * (1.0 + 0.01 * k));
     }
     const auto all_q = packed(q), all_v = packed(v), all_p = packed(p);
-    std::vector<Lanes> all_a(static_cast<std::size_t>(n));
+    std::vector<Four> all_a(static_cast<std::size_t>(2 * n));
     Eigen::VectorXd a(n);
     const auto one = [&](std::size_t k) {
       const catena_point at{0.0, q[k].data(), v[k].data(), nullptr, nullptr, nullptr, p[k].data()};
@@ -71,14 +74,16 @@ int main() {
     };
     const auto eight = [&](auto function) {
       return [&, function] {
-        if (function(n, all_q[0].set, all_v[0].set, all_p[0].set, all_a[0].set) != 0) std::abort();
+        if (function(n, model.parameters(), all_q[0].set, all_v[0].set, all_p[0].set,
+                     all_a[0].set) != 0)
+          std::abort();
       };
     };
     const auto same_bits = [&] {
       for (std::size_t k = 0; k < 8; ++k) {
         one(k);
         for (int i = 0; i < n; ++i)
-          if (std::memcmp(&a[i], &all_a[static_cast<std::size_t>(i)].set[k], sizeof(double)) != 0)
+          if (std::memcmp(&a[i], &all_a[k / 4 * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)].set[k % 4], sizeof(double)) != 0)
             return false;
       }
       return true;

@@ -29,6 +29,7 @@ struct Solution {
 std::unique_ptr<Peer> make_mujoco(const Cable& cable);
 std::unique_ptr<Peer> make_simbody(const Cable& cable);
 std::unique_ptr<Peer> make_dart(const Cable& cable);
+std::unique_ptr<Peer> make_rbdl(const Cable& cable);  // if compiled with CATENA_BENCHMARK_RBDL
 
 /// Simbody's CPodes (BDF) at the given accuracy.
 Solution simulate_simbody(const Cable& cable, double rest_angle, const std::vector<double>& times,

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// RBDL's articulated-body algorithm, where RBDL is installed.
+#include <rbdl/rbdl.h>
+
+#include "tests/benchmark/peer.hpp"
+
+namespace catena::benchmark {
+namespace {
+
+namespace rbd = RigidBodyDynamics;
+
+/// Links hang along -z; a positive turn about y moves them towards -x, which is this engine's +side.
+class Rbdl : public Peer {
+ public:
+  explicit Rbdl(const Cable& cable) : cable_(cable) {
+    model_.gravity = rbd::Math::Vector3d(0, 0, -cable.gravity);
+    unsigned parent = 0;
+    for (int i = 0; i < cable.links; ++i) {
+      // the load is part of the last link
+      const double load = i + 1 == cable.links ? cable.load : 0.0, mass = cable.mass + load;
+      const double centre = (cable.mass / 2 + load) * cable.length / mass;
+      const double inertia =
+          cable.inertia + cable.mass * (centre - cable.length / 2) * (centre - cable.length / 2) +
+          load * (cable.length - centre) * (cable.length - centre);
+      const rbd::Body body(mass, rbd::Math::Vector3d(0, 0, -centre),
+                           rbd::Math::Vector3d(inertia, inertia, inertia));
+      parent = model_.AddBody(
+          parent, rbd::Math::Xtrans(rbd::Math::Vector3d(0, 0, i == 0 ? 0.0 : -cable.length)),
+          rbd::Joint(rbd::JointTypeRevoluteY), body);
+    }
+    q_.resize(cable.links);
+    v_.resize(cable.links);
+    a_.resize(cable.links);
+    torque_.resize(cable.links);
+  }
+
+  const char* name() const override { return "RBDL"; }
+
+  void accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                     Eigen::VectorXd& a) override {
+    q_ = q;
+    v_ = v;
+    torque_ = -cable_.stiffness * q - cable_.damping * v;
+    rbd::ForwardDynamics(model_, q_, v_, torque_, a_);
+    a = a_;
+  }
+
+ private:
+  Cable cable_;
+  rbd::Model model_;
+  rbd::Math::VectorNd q_, v_, a_, torque_;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> make_rbdl(const Cable& cable) { return std::make_unique<Rbdl>(cable); }
+
+}  // namespace catena::benchmark
