@@ -180,6 +180,21 @@ class Physician {
       enter(trimmed(best->model), effects, best->id);
     }
     result_.effects = stage().effects;
+    if (!result_.effects.empty()) go_back_to_fewer_links();
+  }
+
+  /// More links may have taken what an effect explains better: with the effects in place, the number
+  /// of links is the smaller one if that leaves less.
+  void go_back_to_fewer_links() {
+    for (std::size_t s = result_.stages.size(); s-- > 0;) {
+      const int links = result_.stages[s].links;
+      if (links >= stage().links) continue;
+      FittedModel model = try_coarser_chain(stage().model, links, stage().effects, workshop_);
+      if (!model.ok || sum_of_squares(model, result_.floors) >=
+                           sum_of_squares(stage().model, result_.floors))
+        break;
+      enter(std::move(model), stage().effects, "", kTooFewLinks);
+    }
   }
 
   std::vector<Explanation> look(const FittedModel& model, const std::vector<std::string>& effects) {

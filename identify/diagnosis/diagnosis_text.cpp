@@ -123,7 +123,8 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
   };
   for (const Stage& stage : d.stages) {
     std::string change = stage.added.empty() && stage.removed.empty() ? "baseline"
-                         : stage.added.empty()                        ? "without " + stage.removed
+                         : stage.removed == kTooFewLinks ? fmt::format("{} links after all", stage.links)
+                         : stage.added.empty()           ? "without " + stage.removed
                          : stage.added == kTooFewLinks
                              ? fmt::format("{} links instead", stage.links)
                          : stage.removed.empty() ? "+ " + stage.added

@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kWorthARefit = 0.25;  // predicted change over misfit
-constexpr double kWorthTaking = 0.3;   // of the squared misfit
+constexpr double kWorthARefit = 0.15;  // predicted change over misfit
+constexpr double kWorthTaking = 0.05;  // of the squared misfit
+constexpr double kCertain = -3;        // log10 of the probability that it is chance
 
 }  // namespace
 
@@ -79,9 +80,22 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   }
   finer.refitted = true;
   finer.comparison = compare(model, finer.model, floors);
-  finer.taken = finer.comparison.misfit_share > kWorthTaking && finer.comparison.removed > 0;
+  finer.taken =
+      finer.comparison.misfit_share > kWorthTaking && finer.comparison.log10_p < kCertain;
   if (!finer.taken) finer.note = "refitted, and no better";
   return finer;
+}
+
+FittedModel try_coarser_chain(const FittedModel& model, int links,
+                              const std::vector<std::string>& effects, Workshop& workshop) {
+  std::string why_not;
+  const std::optional<Case> smaller = with_links(model.problem->study(), links, why_not);
+  if (!smaller) return {};
+  const auto problem =
+      std::make_shared<const Problem>(*smaller, workshop.model_with(effects, links));
+  workshop.say("refitting with " + std::to_string(links) + " links");
+  return fit_model(problem, transfer(*model.problem, model.x, *problem), workshop.least_squares,
+                   workshop.stop);
 }
 
 }  // namespace catena

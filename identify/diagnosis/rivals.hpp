@@ -28,6 +28,10 @@ struct FinerChain {
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<double>& floors, int max_links, Workshop& workshop);
 
+/// The same model with fewer links, fitted; not ok where the case cannot have them.
+FittedModel try_coarser_chain(const FittedModel& model, int links,
+                              const std::vector<std::string>& effects, Workshop& workshop);
+
 /// Derivative of the stacked residuals of the fitted part by all unknowns.
 Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& floors);
 

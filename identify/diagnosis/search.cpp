@@ -22,6 +22,7 @@ constexpr int kRateTerms = 3;  // of its velocity
 constexpr int kLines = 8;        // frequencies where the residuals are strongest
 constexpr int kFrequencies = 24; // and others, evenly spaced
 constexpr double kHighestFrequency = 12;  // Hz
+constexpr std::size_t kTriedElsewhere = 3;
 
 double angle_of_frequency(double frequency, double t) {
   return 2 * std::numbers::pi * frequency * t;
@@ -451,49 +452,63 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
 }
 
 void Search::refit(Explanation& explanation, bool far) const {
-  const auto keep_better = [&](FittedModel model) {
-    if (!model.ok || (explanation.refitted && sum_of_squares(model, floors_) >=
-                                                  sum_of_squares(explanation.model, floors_)))
-      return;
-    explanation.refitted = true;
-    explanation.model = std::move(model);
-  };
   if (explanation.candidate < 0) {
     const auto freer = with_freer_start(base_.problem->study(), kMoreTerms, kRateTerms);
     if (!freer) return;
     const auto problem = std::make_shared<const Problem>(*freer, base_.problem->model());
-    keep_better(fit_model(problem, transfer(*base_.problem, base_.x, *problem),
-                          workshop_.least_squares, workshop_.stop));
+    fit_from(explanation, problem, transfer(*base_.problem, base_.x, *problem));
   } else {
     const Candidate& candidate =
         workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
     const auto problem = problem_with(candidate);
-    const auto fit_from = [&](const std::vector<std::pair<std::string, double>>& values,
-                              double share) {
-      if (workshop_.stopped()) return;
-      VectorXd start = transfer(*base_.problem, base_.x, *problem);
-      for (const CandidateParameter& parameter : candidate.parameters) {
-        const Index j = unknown_index(*problem, parameter.name);
-        if (j < 0) continue;
-        for (const auto& [name, value] : values)
-          if (name == parameter.name) start[j] = value;
-        if (parameter.role == ParameterRole::kAmplitude)
-          start[j] = parameter.neutral + share * (start[j] - parameter.neutral);
-        start[j] = std::clamp(start[j], parameter.lower, parameter.upper);
-      }
-      keep_better(fit_model(problem, start, workshop_.least_squares, workshop_.stop));
+    const auto start = [&](const std::vector<std::pair<std::string, double>>& values) {
+      VectorXd x = transfer(*base_.problem, base_.x, *problem);
+      for (const auto& [name, value] : values)
+        if (const Index j = unknown_index(*problem, name); j >= 0) x[j] = value;
+      return x;
     };
-    fit_from(explanation.start, 1.0);
-    if (far) fit_from(explanation.start, 0.25);
-    if (far && !explanation.other_start.empty()) fit_from(explanation.other_start, 1.0);
+    const VectorXd x = start(explanation.start);
+    fit_from(explanation, problem, scaled(candidate, *problem, x, 1));
+    if (far) fit_from(explanation, problem, scaled(candidate, *problem, x, 0.25));
+    if (far && !explanation.other_start.empty())
+      fit_from(explanation, problem,
+               scaled(candidate, *problem, start(explanation.other_start), 1));
   }
-  if (!explanation.refitted) {
-    explanation.note = "the refit failed";
+  if (!explanation.refitted) explanation.note = "the refit failed";
+}
+
+void Search::refit_from_elsewhere(Explanation& explanation) const {
+  const Candidate& candidate = workshop_.library()[static_cast<std::size_t>(explanation.candidate)];
+  const std::shared_ptr<const Problem> problem = explanation.model.problem;
+  const VectorXd x = explanation.model.x;
+  for (const double factor : {3.0, 1.0 / 3})
+    fit_from(explanation, problem, scaled(candidate, *problem, x, factor));
+}
+
+VectorXd Search::scaled(const Candidate& candidate, const Problem& problem, VectorXd x,
+                        double factor) const {
+  for (const CandidateParameter& parameter : candidate.parameters) {
+    const Index j = unknown_index(problem, parameter.name);
+    if (j < 0) continue;
+    if (parameter.role == ParameterRole::kAmplitude)
+      x[j] = parameter.neutral + factor * (x[j] - parameter.neutral);
+    x[j] = std::clamp(x[j], parameter.lower, parameter.upper);
+  }
+  return x;
+}
+
+void Search::fit_from(Explanation& explanation, const std::shared_ptr<const Problem>& problem,
+                      const VectorXd& start) const {
+  if (workshop_.stopped()) return;
+  FittedModel model = fit_model(problem, start, workshop_.least_squares, workshop_.stop);
+  if (!model.ok || (explanation.refitted && sum_of_squares(model, floors_) >=
+                                                sum_of_squares(explanation.model, floors_)))
     return;
-  }
-  explanation.comparison = compare(base_, explanation.model, floors_);
-  explanation.fit = fit_gap(explanation.model, floors_);
-  explanation.held_out = held_out_gap(explanation.model, floors_);
+  explanation.refitted = true;
+  explanation.comparison = compare(base_, model, floors_);
+  explanation.fit = fit_gap(model, floors_);
+  explanation.held_out = held_out_gap(model, floors_);
+  explanation.model = std::move(model);
 }
 
 void Search::refit_best(std::vector<Explanation>& explanations, int count, bool far) const {
@@ -510,6 +525,18 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
     Explanation& explanation = *chosen[static_cast<std::size_t>(i)];
     workshop_.say("refitting with " + explanation.id);
     refit(explanation, far);
+  });
+  // What holds and slips, or is large, has more than one minimum: the best of those that still leave
+  // a gap are tried from elsewhere.
+  std::erase_if(chosen, [](const Explanation* each) {
+    return !each->refitted || each->candidate < 0 || !each->fit.present;
+  });
+  std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
+    return sum_of_squares(a->model, floors_) < sum_of_squares(b->model, floors_);
+  });
+  chosen.resize(std::min<std::size_t>(chosen.size(), kTriedElsewhere));
+  run_parallel(workshop_.threads, static_cast<int>(chosen.size()), [&](int i) {
+    refit_from_elsewhere(*chosen[static_cast<std::size_t>(i)]);
   });
 }
 

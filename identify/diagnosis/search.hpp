@@ -51,6 +51,8 @@ class Search {
   /// Adds the explanation for real and fits everything again, from its start and, if `far`, from a
   /// quarter of it and from its other start as well; keeps the best.
   void refit(Explanation& explanation, bool far) const;
+  /// Again from three times the amplitudes found and from a third of them; keeps the best.
+  void refit_from_elsewhere(Explanation& explanation) const;
 
   /// The `count` most promising admissible ones, on several threads.
   void refit_best(std::vector<Explanation>& explanations, int count, bool far) const;
@@ -66,6 +68,13 @@ class Search {
   Explanation score_limit(ScoreTest& test, int index) const;
   double significance(const ScoreTest& test, const std::vector<int>& columns,
                       const Score& score) const;
+
+  /// Fits from a start; the explanation keeps the result if it is the best so far.
+  void fit_from(Explanation& explanation, const std::shared_ptr<const Problem>& problem,
+                const Eigen::VectorXd& start) const;
+  /// `x` with the candidate's amplitudes times a factor, all its parameters within their bounds.
+  Eigen::VectorXd scaled(const Candidate& candidate, const Problem& problem, Eigen::VectorXd x,
+                         double factor) const;
 
   bool in_base(const std::string& id) const;
   std::vector<std::string> own_models_in_base() const;

@@ -267,31 +267,53 @@ class Midpoint {
     q_before_ = q_;
     v_before_ = v_;
     VectorXd middle = v_, r(v_.size());
-    if (age_ > 40) age_ = 0;
-    for (int attempt = 0; attempt < 4; ++attempt) {
-      double before = 1e300;
-      for (int iteration = 0; iteration < 30; ++iteration) {
-        lack(middle, r);
-        if (age_ == 0 || (iteration > 0 && iteration % 5 == 0)) make_matrix(middle, r);
-        const VectorXd change = factor_.solve(r);
-        middle -= change;
-        const double size = change.lpNorm<Eigen::Infinity>();
-        if (!(size < 1e6)) break;
-        if (size < 1e-9 || (size < 1e-7 && size > 0.5 * before)) {
-          finish(middle);
-          return;
-        }
-        before = size;
-      }
-      // again from a slightly different guess with a fresh matrix
-      middle = v_ * (1.0 - 1e-3 * (attempt + 1));
-      age_ = 0;
+    if (newton(middle, r) || careful_newton(middle = v_, r)) {
+      finish(middle);
+      return;
     }
     throw std::runtime_error(
         "the hidden truth's integrator failed at t = " + std::to_string(time()) + " s");
   }
 
  private:
+  /// With a matrix that is kept for many steps.
+  bool newton(VectorXd& middle, VectorXd& r) {
+    if (age_ > 40) age_ = 0;
+    double before = 1e300;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      lack(middle, r);
+      if (age_ == 0 || (iteration > 0 && iteration % 5 == 0)) make_matrix(middle, r);
+      const VectorXd change = factor_.solve(r);
+      middle -= change;
+      const double size = change.lpNorm<Eigen::Infinity>();
+      if (!(size < 1e6)) return false;
+      if (size < 1e-9 || (size < 1e-7 && size > 0.5 * before)) return true;
+      before = size;
+    }
+    return false;
+  }
+
+  /// With a fresh matrix each time, and no further than what is short shrinks: where dry friction
+  /// is about to let go or to hold, a full step jumps from one side to the other for ever.
+  bool careful_newton(VectorXd& middle, VectorXd& r) {
+    VectorXd r_new(r.size());
+    lack(middle, r);
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      make_matrix(middle, r);
+      const VectorXd change = factor_.solve(r);
+      double share = 1;
+      for (; share > 1e-6; share /= 2) {
+        lack(middle - share * change, r_new);
+        if (r_new.norm() < r.norm()) break;
+      }
+      if (share <= 1e-6) return change.lpNorm<Eigen::Infinity>() < 1e-7;
+      middle -= share * change;
+      r = r_new;
+      if (share == 1 && change.lpNorm<Eigen::Infinity>() < 1e-9) return true;
+    }
+    return false;
+  }
+
   void lack(const VectorXd& middle, VectorXd& r) {
     const double h = step_;
     const VectorXd q = q_ + 0.5 * h * middle;

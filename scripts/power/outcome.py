@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One trial: film, diagnose, open the truth."""
+
+import csv
+import json
+import pathlib
+import subprocess
+import tempfile
+
+from power import strength
+
+FIELDS = ["kind", "hidden", "strength", "noise_m", "seed", "rate", "links", "amplitudes", "verdict",
+          "effects", "members", "right", "farthest_member", "links_used", "fit_ratio",
+          "held_out_ratio", "seconds"]
+INDISTINGUISHABLE = 0.5  # times the noise, between refitted predictions
+TIME_LIMIT = 300  # s
+
+
+def of(trial, strengths, binaries):
+    row = {"kind": trial.kind, "hidden": "+".join(trial.hidden), "strength": trial.strength,
+           "noise_m": trial.noise, "seed": trial.seed, "rate": trial.rate, "links": trial.links}
+    effects, amplitudes = [], []
+    for name in trial.hidden:
+        amplitude = strengths.amplitude(name, trial.strength * trial.noise)
+        if amplitude is None:
+            return row | {"verdict": "not reached"}
+        amplitudes.append(f"{amplitude:.6g}")
+        effects += strength.arguments(name, amplitude)
+    row["amplitudes"] = "+".join(amplitudes)
+    with tempfile.TemporaryDirectory() as folder:
+        made = subprocess.run(
+            [binaries / "test_programs" / "make_recording", "--output", folder, *strength.CABLE,
+             "--links", str(trial.links), "--case-links", "12", "--noise", str(trial.noise),
+             "--rate", str(trial.rate), "--seed", str(trial.seed), "--lost", str(trial.lost),
+             "--pixel", str(trial.pixel), *effects], capture_output=True, check=False)
+        if made.returncode != 0:
+            return row | {"verdict": "not filmed"}
+        pathlib.Path(folder, "truth.toml").unlink()  # the trial itself is the truth
+        try:
+            told = subprocess.run(
+                [binaries / "bin" / "catena", "diagnose", f"{folder}/case.toml", "--quiet",
+                 "--threads", "1", "--output", f"{folder}/found"],
+                capture_output=True, check=False, timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            return row | {"verdict": "out of time", "right": "no"}
+        if told.returncode != 0:
+            return row | {"verdict": "failed", "right": "no"}
+        found = json.loads(pathlib.Path(folder, "found", "diagnosis.json").read_text())
+    return row | judged(trial, found)
+
+
+def judged(trial, found):
+    truth, named = set(trial.hidden), {effect["id"] for effect in found["effects"]}
+    forms = {(f["instead_of"], f["id"]) for f in found["forms"]}
+    others = [u for u in found["undecided"]]
+    farthest = max((u["difference"] for u in others), default=0.0)
+    as_named = named == truth or any(named - {a} | {b} == truth for a, b in forms)
+    if found["verdict"] == "named":
+        right = as_named
+    elif found["verdict"] == "ambiguous":
+        swapped = any(named - {u["instead_of"]} | {u["id"]} == truth for u in others)
+        right = (as_named or swapped) and farthest < INDISTINGUISHABLE
+    else:
+        right = found["verdict"] == ("none" if trial.kind == "quiet" else "unexplained") and \
+            trial.kind in ("quiet", "outside")
+    gap = found["rounds"][-1]["gap"]
+    held = gap["validate"]
+    return {"verdict": found["verdict"], "effects": "+".join(sorted(named)),
+            "members": "+".join(sorted(set(found["members"]))), "right": "yes" if right else "no",
+            "farthest_member": f"{farthest:.3g}", "links_used": found["links"]["used"],
+            "fit_ratio": f"{gap['fit'] / gap['floor']:.4g}",
+            "held_out_ratio": "" if held is None else f"{held / gap['floor']:.4g}",
+            "seconds": f"{found['seconds']:.1f}"}
+
+
+def key(row):
+    return (row["kind"], row["hidden"], str(row["strength"]), str(row["noise_m"]), str(row["seed"]))
+
+
+def read(file):
+    if not file.exists():
+        return {}
+    with file.open() as lines:
+        return {key(row): row for row in csv.DictReader(lines)}
+
+
+def append(file, row):
+    new = not file.exists()
+    with file.open("a", newline="") as lines:
+        writer = csv.DictWriter(lines, FIELDS, restval="", lineterminator="\n")
+        if new:
+            writer.writeheader()
+        writer.writerow(row)

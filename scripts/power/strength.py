@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How large an effect must be to leave so much in the residual of a refitted baseline."""
+
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+import threading
+
+from power import design
+
+# The cable of the study: 1.2 m, half a pound at its end, stiff enough for few links.
+CABLE = ["--length", "1.2", "--bending-stiffness", "0.1", "--bending-damping", "0.01", "--load", "0.2",
+         "--held", "0.6", "0.9", "--duration", "4"]
+RESOLVED = 2e-5  # m: below this a curve tells nothing
+STEPS = 8
+
+
+def arguments(name, amplitude):
+    """make_recording's for one hidden effect."""
+    scaled, fixed, _ = {**design.EFFECTS, **design.OUTSIDE}[name]
+    values = dict(fixed)
+    for parameter, factor in scaled.items():
+        if name == "axial_stretch":
+            values[parameter] = 1000 / amplitude
+        elif name == "scale":
+            values[parameter] = 1 + amplitude
+        else:
+            values[parameter] = factor * amplitude
+    result = []
+    for parameter, value in values.items():
+        result += ["--effect", f"{name}.{parameter}={value:.6g}"]
+    return result
+
+
+class Strengths:
+    """Amplitudes by effect and residual; measured once, kept in a file."""
+
+    def __init__(self, binaries, file):
+        self.binaries, self.file, self.lock = binaries, pathlib.Path(file), threading.Lock()
+        self.curves, self.locks = {}, {}
+        if self.file.exists():
+            with self.file.open() as lines:
+                for row in csv.DictReader(lines):
+                    self.curves.setdefault(row["effect"], []).append(
+                        (float(row["amplitude"]), float(row["residual_m"])))
+
+    def amplitude(self, name, residual):
+        """The amplitude whose recording leaves so much (m, rms); None if none within bounds does."""
+        with self.lock:
+            own = self.locks.setdefault(name, threading.Lock())
+        with own:
+            if name not in self.curves:
+                curve = self.measure(name)
+                with self.lock:
+                    self.curves[name] = curve
+                    self.write()
+        previous = None
+        for amplitude, left in self.curves[name]:
+            if left >= residual and previous is not None:
+                a0, r0 = previous
+                share = math.log(residual / r0) / math.log(left / r0)
+                return a0 * (amplitude / a0) ** share
+            if RESOLVED < left < residual:
+                previous = (amplitude, left)
+        return None
+
+    def measure(self, name):
+        """Residuals of the baseline at amplitudes from the largest downwards."""
+        most = {**design.EFFECTS, **design.OUTSIDE}[name][2]
+        curve, amplitude = [], most
+        while len(curve) < 3 * STEPS and amplitude > 1e-9:
+            left = self.residual(name, amplitude)
+            if left is not None:
+                curve.append((amplitude, left))
+                if left < 2e-4:
+                    break
+            amplitude /= 10 ** (4 / STEPS)
+        # From small to large, as far as it grows.
+        curve.reverse()
+        growing = []
+        for point in curve:
+            if growing and point[1] <= growing[-1][1]:
+                break
+            growing.append(point)
+        return growing
+
+    def residual(self, name, amplitude):
+        with tempfile.TemporaryDirectory() as folder:
+            made = subprocess.run(
+                [self.binaries / "test_programs" / "make_recording", "--output", folder, *CABLE,
+                 "--links", "12", "--case-links", "12", "--noise", "0", "--rate", "30",
+                 *arguments(name, amplitude)], capture_output=True, check=False)
+            if made.returncode != 0:
+                return None
+            fit = subprocess.run(
+                [self.binaries / "bin" / "catena", "identify", f"{folder}/case.toml", "--quiet",
+                 "--output", f"{folder}/fit"], capture_output=True, check=False)
+            if fit.returncode != 0:
+                return None
+            result = json.loads(pathlib.Path(folder, "fit", "result.json").read_text())
+            return result["optimiser"]["error"]
+
+    def write(self):
+        lines = ["effect,amplitude,residual_m"]
+        for name in sorted(self.curves):
+            lines += [f"{name},{a:.6g},{r:.6g}" for a, r in self.curves[name]]
+        temporary = self.file.with_suffix(".tmp")
+        temporary.write_text("\n".join(lines) + "\n")
+        temporary.replace(self.file)
