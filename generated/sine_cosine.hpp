@@ -11,13 +11,13 @@
 // x had been rounded. From 2^31 rad the result is NaN, as it is for infinities and NaN.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 
 namespace catena {
 
-/// Real: double or a vector of doubles; Bits: std::uint64_t or a vector of as many.
+/// Real: double or a vector of doubles; Bits: std::uint64_t or a vector of as many. (std::bit_cast would
+/// return a vector from a function, of which compilers warn.)
 template <class Real, class Bits>
 inline void sine_cosine_of(const Real& x, Real& sine, Real& cosine) {
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
@@ -49,12 +49,12 @@ inline void sine_cosine_of(const Real& x, Real& sine, Real& cosine) {
   const Real cosine_r = one_less + (((1.0 - one_less) - half_z) + (z * cosine_tail - r * rest));
 
   // k mod 4 turns (sine, cosine) by quarters.
-  const Bits quarter = std::bit_cast<Bits>(shifted);
+  const Bits quarter = __builtin_bit_cast(Bits, shifted);
   const Bits swap = -(quarter & 1);
-  const Bits s = std::bit_cast<Bits>(sine_r), c = std::bit_cast<Bits>(cosine_r);
+  const Bits s = __builtin_bit_cast(Bits, sine_r), c = __builtin_bit_cast(Bits, cosine_r);
   const Bits exchanged = (s ^ c) & swap;
-  sine = std::bit_cast<Real>((s ^ exchanged) ^ ((quarter & 2) << 62));
-  cosine = std::bit_cast<Real>((c ^ exchanged) ^ (((quarter + 1) & 2) << 62));
+  sine = __builtin_bit_cast(Real, (s ^ exchanged) ^ ((quarter & 2) << 62));
+  cosine = __builtin_bit_cast(Real, (c ^ exchanged) ^ (((quarter + 1) & 2) << 62));
 }
 
 inline void sine_cosine(const double& x, double& sine, double& cosine) {
