@@ -22,6 +22,8 @@ constexpr double kCertain = -3;          // log10 of the probability of a false 
 constexpr double kWorthwhile = 0.1;      // share of the squared misfit an effect must explain
 constexpr double kClosed = 1.2;          // times the noise, fitted part
 constexpr double kClosedHeldOut = 1.35;  // times the noise, held-out part
+constexpr double kTrace = 0.15;          // of the noise
+constexpr double kTraceSignificance = 4; // deviations
 constexpr double kTooSmallToName = 0.6;  // misfit over noise below which nothing is called missing
 constexpr int kFirstEvaluations = 40;    // of each start of the baseline; the best goes on
 constexpr int kEvaluations = 80;         // of every other fit
@@ -73,6 +75,11 @@ class Physician {
 
  private:
   Stage& stage() { return result_.stages.back(); }
+
+  /// Too little for an effect to be sought, but not by chance.
+  static bool trace_left(const Stage& stage) {
+    return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
+  }
 
   void fit_baseline(Case study) {
     if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
@@ -162,15 +169,18 @@ class Physician {
   }
 
   void look_for_effects() {
-    while (gap_left(stage())) {
+    for (;;) {
       stop_if_asked();
+      const bool gap = gap_left(stage());
+      // A name is given only at a number of links that leaves no trace.
+      if (!gap && (stage().effects.empty() || !trace_left(stage()))) break;
       stage().finer = try_finer_chain(stage().model, stage().effects, result_.floors,
                                       options_.max_links, workshop_);
       if (stage().finer.taken) {
         enter(stage().finer.model, stage().effects, kTooFewLinks);
         continue;
       }
-      if (static_cast<int>(stage().effects.size()) >= options_.max_effects) break;
+      if (!gap || static_cast<int>(stage().effects.size()) >= options_.max_effects) break;
       stage().explanations = look(stage().model, stage().effects);
       const Explanation* best = choose(stage().explanations);
       if (!best) break;
@@ -180,7 +190,46 @@ class Physician {
       enter(trimmed(best->model), effects, best->id);
     }
     result_.effects = stage().effects;
-    if (!result_.effects.empty()) go_back_to_fewer_links();
+    if (result_.effects.empty()) return;
+    if (trace_left(stage())) try_others_on_finer_chain();
+    go_back_to_fewer_links();
+    result_.effects = stage().effects;
+  }
+
+  /// What was added last may have won because the right one needs more links than there are.
+  void try_others_on_finer_chain() {
+    const Stage& looked = result_.stages[result_.stages.size() - 2];
+    const int links = std::min(2 * stage().links, options_.max_links);
+    if (looked.explanations.empty() || links <= stage().links) return;
+    std::vector<const Explanation*> others;
+    for (const Explanation& each : looked.explanations)
+      if (each.refitted && each.candidate >= 0 && each.id != stage().added) others.push_back(&each);
+    std::stable_sort(others.begin(), others.end(), [&](const auto* a, const auto* b) {
+      return sum_of_squares(a->model, result_.floors) < sum_of_squares(b->model, result_.floors);
+    });
+    others.resize(std::min<std::size_t>(others.size(), 3));
+    std::vector<FittedModel> models(others.size());
+    const auto effects_with = [&](const Explanation& each) {
+      std::vector<std::string> effects = looked.effects;
+      effects.push_back(each.id);
+      return effects;
+    };
+    run_parallel(workshop_.threads, static_cast<int>(others.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      models[k] = refitted_with_links(others[k]->model, links, effects_with(*others[k]), workshop_);
+    });
+    stop_if_asked();
+    std::size_t best = models.size();
+    for (std::size_t k = 0; k < models.size(); ++k)
+      if (models[k].ok && (best == models.size() ||
+                           sum_of_squares(models[k], result_.floors) <
+                               sum_of_squares(models[best], result_.floors)))
+        best = k;
+    if (best < models.size() &&
+        sum_of_squares(models[best], result_.floors) <
+            sum_of_squares(stage().model, result_.floors) &&
+        decide(models[best], stage().model, result_.floors).decided)
+      enter(std::move(models[best]), effects_with(*others[best]), others[best]->id, stage().added);
   }
 
   /// More links may have taken what an effect explains better: with the effects in place, the number
@@ -189,7 +238,7 @@ class Physician {
     for (std::size_t s = result_.stages.size(); s-- > 0;) {
       const int links = result_.stages[s].links;
       if (links >= stage().links) continue;
-      FittedModel model = try_coarser_chain(stage().model, links, stage().effects, workshop_);
+      FittedModel model = refitted_with_links(stage().model, links, stage().effects, workshop_);
       if (!model.ok || sum_of_squares(model, result_.floors) >=
                            sum_of_squares(stage().model, result_.floors))
         break;
@@ -235,7 +284,8 @@ class Physician {
   }
 
   /// The explanation to add: the one that leaves least, unless the data do not decide against
-  /// something simpler: a freer start in place of any effect, or an effect inside the other.
+  /// something simpler: a freer start in place of any effect, an effect inside the other, or one of
+  /// fewer unknowns.
   const Explanation* choose(const std::vector<Explanation>& explanations) {
     const auto worth = [&](const Explanation& explanation) {
       return sum_of_squares(explanation.model, result_.floors) +
@@ -258,9 +308,9 @@ class Physician {
   }
 
   bool simpler(const Explanation& a, const Explanation& b) {
-    if (b.candidate < 0) return false;
-    return a.candidate < 0 || is_special_case(*workshop_.find(a.id), *workshop_.find(b.id),
-                                              workshop_.model_with_all(stage().links));
+    return a.candidate < 0 || a.comparison.added < b.comparison.added ||
+           is_special_case(*workshop_.find(a.id), *workshop_.find(b.id),
+                           workshop_.model_with_all(stage().links));
   }
 
   /// Amplitudes that the data do not need are put back to their neutral values.

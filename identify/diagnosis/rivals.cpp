@@ -86,13 +86,13 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   return finer;
 }
 
-FittedModel try_coarser_chain(const FittedModel& model, int links,
+FittedModel refitted_with_links(const FittedModel& model, int links,
                               const std::vector<std::string>& effects, Workshop& workshop) {
   std::string why_not;
-  const std::optional<Case> smaller = with_links(model.problem->study(), links, why_not);
-  if (!smaller) return {};
+  const std::optional<Case> other = with_links(model.problem->study(), links, why_not);
+  if (!other) return {};
   const auto problem =
-      std::make_shared<const Problem>(*smaller, workshop.model_with(effects, links));
+      std::make_shared<const Problem>(*other, workshop.model_with(effects, links));
   workshop.say("refitting with " + std::to_string(links) + " links");
   return fit_model(problem, transfer(*model.problem, model.x, *problem), workshop.least_squares,
                    workshop.stop);

@@ -28,8 +28,8 @@ struct FinerChain {
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<double>& floors, int max_links, Workshop& workshop);
 
-/// The same model with fewer links, fitted; not ok where the case cannot have them.
-FittedModel try_coarser_chain(const FittedModel& model, int links,
+/// The same model with another number of links, fitted; not ok where the case cannot have it.
+FittedModel refitted_with_links(const FittedModel& model, int links,
                               const std::vector<std::string>& effects, Workshop& workshop);
 
 /// Derivative of the stacked residuals of the fitted part by all unknowns.

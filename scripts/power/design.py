@@ -49,6 +49,8 @@ PAIRS = [
     ("added_mass", "clock_offset"), ("pivot_stiffness", "air_drag_quadratic"),
     ("scale", "pivot_dry_friction"), ("rest_curvature", "air_drag_quadratic"),
 ]
+# Joints of a finer chain turn less: the same cable has amplitudes that go with this power of n.
+JOINT_POWERS = {"joint_damping_quadratic": 2, "joint_stiffness_cubic": 3}
 STRENGTHS = (1, 3, 10)  # times the noise, in what a refitted baseline leaves
 NOISES = (0.001, 0.0005, 0.003)  # m
 RATES = (60, 30, 120)  # frames/s

@@ -21,7 +21,7 @@ def of(trial, strengths, binaries):
            "noise_m": trial.noise, "seed": trial.seed, "rate": trial.rate, "links": trial.links}
     effects, amplitudes = [], []
     for name in trial.hidden:
-        amplitude = strengths.amplitude(name, trial.strength * trial.noise)
+        amplitude = strengths.amplitude(name, trial.strength * trial.noise, trial.links)
         if amplitude is None:
             return row | {"verdict": "not reached"}
         amplitudes.append(f"{amplitude:.6g}")

@@ -15,7 +15,8 @@ from power import design
 CABLE = ["--length", "1.2", "--bending-stiffness", "0.1", "--bending-damping", "0.01", "--load", "0.2",
          "--held", "0.6", "0.9", "--duration", "4"]
 RESOLVED = 2e-5  # m: below this a curve tells nothing
-STEPS = 8
+STEPS = 8  # of the amplitude in four decades
+LINKS = 24  # of the recordings measured, and of their baselines: what is left is the effect alone
 
 
 def arguments(name, amplitude):
@@ -47,8 +48,15 @@ class Strengths:
                     self.curves.setdefault(row["effect"], []).append(
                         (float(row["amplitude"]), float(row["residual_m"])))
 
-    def amplitude(self, name, residual):
-        """The amplitude whose recording leaves so much (m, rms); None if none within bounds does."""
+    def amplitude(self, name, residual, links):
+        """The amplitude whose recording with so many links leaves so much (m, rms); None if none
+        within bounds does."""
+        amplitude = self.amplitude_at_links_measured(name, residual)
+        if amplitude is None:
+            return None
+        return amplitude * (links / LINKS) ** design.JOINT_POWERS.get(name, 0)
+
+    def amplitude_at_links_measured(self, name, residual):
         with self.lock:
             own = self.locks.setdefault(name, threading.Lock())
         with own:
@@ -91,7 +99,7 @@ class Strengths:
         with tempfile.TemporaryDirectory() as folder:
             made = subprocess.run(
                 [self.binaries / "test_programs" / "make_recording", "--output", folder, *CABLE,
-                 "--links", "12", "--case-links", "12", "--noise", "0", "--rate", "30",
+                 "--links", str(LINKS), "--case-links", str(LINKS), "--noise", "0", "--rate", "30",
                  *arguments(name, amplitude)], capture_output=True, check=False)
             if made.returncode != 0:
                 return None
