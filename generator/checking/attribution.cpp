@@ -109,7 +109,8 @@ class Attribution {
       const std::optional<Source> source = source_of(first);
       if (!source) continue;
       ModelPart& entry = result[*source];
-      entry.origin += (entry.origin.empty() ? "" : " and ") + part.origin;
+      if (entry.origin.find(part.origin) == std::string::npos)
+        entry.origin += (entry.origin.empty() ? "" : " and ") + part.origin;
       entry.numerator = (entry.numerator + value.numerator).expand();
     }
     return result;

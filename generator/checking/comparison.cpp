@@ -2,6 +2,7 @@
 #include "generator/checking/comparison.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "generator/checking/attribution.hpp"
+#include "generator/checking/combination.hpp"
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/flat_derivation.hpp"
 #include "generator/checking/normal_form.hpp"
@@ -29,6 +31,12 @@ const numeric& closeness() {
   return value;
 }
 
+// Equations solved for an acceleration are compared in numbers for so many links at most.
+constexpr int kMostCompared = 12;
+
+// A factor of an equation longer than this is not written out in a remark.
+constexpr std::size_t kShortFactor = 40;
+
 // A difference of more parts than this is shown by its shortest part as well.
 constexpr std::size_t kShortDifference = 3;
 
@@ -37,6 +45,16 @@ std::string twelve_digits(const numeric& value) {
   text.precision(12);
   text << value.to_double();
   return text.str();
+}
+
+bool is_sum(const std::string& text) {
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '(') ++depth;
+    if (c == ')') --depth;
+    if (c == ' ' && depth == 0) return true;
+  }
+  return false;
 }
 
 /// The two sides of a comparison.
@@ -164,39 +182,222 @@ class Comparison {
     return true;
   }
 
-  /// An equation of motion may be stated with any constant factor.
+  /// An equation of motion may be stated with a factor, as a sum of several with factors, or solved
+  /// for an acceleration. It is judged as the combination of the chain's equations that it is.
   Finding of_equation(const Entry& entry) const {
-    Contributions parts = model_->equation(entry.row);
-    for (Contribution& part : parts) part.value = given(part.value);
     const ex hand = given(entry.value - entry.right);
-    const ex model = total(parts);
-    for (const ex& factor : factors_between(hand, model, entry.row)) {
-      NormalForm form({hand, factor * model});
-      if (!form(hand - factor * model).numerator.is_zero()) continue;
+    if (NormalForm({hand})(hand).numerator.is_zero()) {
       Finding finding;
-      finding.verdict = Verdict::kEqual;
-      if (factor != 1) {
-        NormalForm of_factor({factor});
-        finding.remark = "multiplied by " + text_of(of_factor(factor), of_factor);
-      }
+      finding.verdict = Verdict::kDifferent;
+      finding.remark = "it says nothing: both sides are the same for every motion";
       return finding;
     }
-    // Whichever sign leaves less is how it was meant.
-    const Finding plain = of_sides({hand, model, parts}, entry.quantity);
-    Contributions negated = parts;
-    for (Contribution& part : negated) part.value = -part.value;
-    Finding opposite = of_sides({hand, -model, std::move(negated)}, entry.quantity);
-    if (plain.terms <= opposite.terms) return plain;
-    opposite.remark = "compared with the model's equation multiplied by -1";
-    return opposite;
+    std::vector<Combination> candidates;
+    for (const ex& factor : factors_between(hand, entry.row))
+      candidates.push_back({{{entry.row, factor}}, 1});
+    for (const Combination& combination : possible_combinations(hand, *derivation_.chain, *model_))
+      candidates.push_back(combination);
+    for (const Combination& candidate : candidates) {
+      const ex model = total(parts_of(candidate));
+      const ex excess = candidate.divisor * hand - model;
+      if (differs_somewhere(excess)) continue;
+      NormalForm form({excess});
+      if (!form(excess).numerator.is_zero()) continue;
+      Finding finding;
+      finding.verdict = Verdict::kEqual;
+      finding.remark = name_of(candidate, entry.row, solved_for(hand, *derivation_.chain));
+      finding.combination = numbers_in(candidate);
+      return finding;
+    }
+    if (const int k = solved_for(hand, *derivation_.chain); k != 0 && derivation_.chain->links > 1)
+      return of_solved(hand, k);
+    // Whichever combination leaves least is how it was meant.
+    std::optional<Finding> best;
+    for (const Combination& candidate : candidates) {
+      if (!has_constant_factors(candidate)) continue;
+      Finding finding =
+          of_sides({candidate.divisor * hand, total(parts_of(candidate)), parts_of(candidate)},
+                   entry.quantity);
+      const std::string name = name_of(candidate, entry.row, 0);
+      if (!name.empty()) finding.remark = "compared with the chain's, " + name;
+      if (!best || finding.terms < best->terms) best = std::move(finding);
+    }
+    return *best;
   }
 
-  std::vector<ex> factors_between(const ex& hand, const ex& model, int row) const {
+  /// The chain's equations with these factors, part by part.
+  Contributions parts_of(const Combination& combination) const {
+    Contributions result;
+    for (const auto& [number, factor] : combination.factors) {
+      for (Contribution part : model_->equation(number)) {
+        part.value = given(factor * part.value);
+        result.push_back(std::move(part));
+      }
+    }
+    return result;
+  }
+
+  bool has_constant_factors(const Combination& combination) const {
+    return combination.divisor == 1 &&
+           std::all_of(combination.factors.begin(), combination.factors.end(),
+                       [&](const auto& entry) {
+                         return derivation_.chain->is_constant(entry.second);
+                       });
+  }
+
+  /// Saves proofs that must fail.
+  bool differs_somewhere(const ex& excess) const {
+    for (std::uint64_t attempt = 0; attempt < kStates; ++attempt) {
+      const std::optional<numeric> value =
+          evaluate_at(excess, random_state(symbols_in({excess}), seed_ + attempt));
+      // The terms are near 1 in size, but for determinants of M.
+      if (value) return GiNaC::abs(*value) > closeness();
+    }
+    return false;
+  }
+
+  /// "equation 1 + 2*(equation 2)"; empty for equation `row` itself.
+  std::string name_of(const Combination& combination, int row, int solved) const {
+    if (solved != 0 && derivation_.chain->links > 1)
+      return "solved for thetaddot_" + std::to_string(solved);
+    std::vector<std::string> parts, numbers;
+    bool is_short = combination.divisor == 1;
+    for (const auto& [number, factor] : combination.factors) {
+      const std::string equation = "equation " + std::to_string(number);
+      numbers.push_back(std::to_string(number));
+      NormalForm form({factor});
+      const std::string text = text_of(form(factor), form);
+      is_short = is_short && text.size() < kShortFactor;
+      parts.push_back(text == "1"    ? equation
+                      : text == "-1" ? "-" + equation
+                                     : (is_sum(text) ? "(" + text + ")" : text) + "*(" + equation + ")");
+      if (combination.factors.size() == 1 && number == row && is_short)
+        return text == "1" ? "" : "multiplied by " + text;
+    }
+    if (parts.size() == 1 && !is_short)
+      return combination.factors.begin()->first == row ? "multiplied by a factor"
+                                                       : "equation " + numbers[0] + " times a factor";
+    if (is_short) return (parts.size() == 1 ? "it is " : "the sum ") + joined_by_signs(parts);
+    std::string list;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      list += (i == 0 ? "" : i + 1 < numbers.size() ? ", " : " and ") + numbers[i];
+    return "a combination of equations " + list;
+  }
+
+  /// Factors of the combination at a state, to tell independent ones from others.
+  std::map<int, numeric> numbers_in(const Combination& combination) const {
+    std::map<int, numeric> result;
+    const NumericState state = common_state();
+    const std::optional<numeric> divisor = evaluate_at(given(combination.divisor), state);
+    for (const auto& [number, factor] : combination.factors) {
+      const std::optional<numeric> value = evaluate_at(given(factor), state);
+      if (value && divisor && !divisor->is_zero()) result[number] = *value / *divisor;
+    }
+    return result;
+  }
+
+  NumericState common_state() const {
     const ChainSymbols& chain = *derivation_.chain;
+    std::vector<ex> all{chain.load_mass, chain.gravity};
+    for (const auto* family : {&chain.angle, &chain.rate, &chain.acceleration, &chain.length,
+                               &chain.mass, &chain.inertia, &chain.stiffness, &chain.damping,
+                               &chain.torque})
+      all.insert(all.end(), family->begin() + 1, family->end());
+    return random_state(symbols_in(all), seed_);
+  }
+
+  /// thetaddot_k = ...: held against the solution of all equations, in numbers.
+  Finding of_solved(const ex& hand, int k) const {
+    const ChainSymbols& chain = *derivation_.chain;
+    Finding finding;
+    if (chain.links > kMostCompared) {
+      finding.remark = "equations solved for an acceleration are compared up to " +
+                       std::to_string(kMostCompared) + " links";
+      return finding;
+    }
+    finding.remark = "compared with the chain's equations solved for thetaddot_" +
+                     std::to_string(k);
+    const auto index = static_cast<std::size_t>(k);
+    const ex sign = hand.diff(GiNaC::ex_to<GiNaC::symbol>(chain.acceleration[index]));
+    const ex by_hand = (chain.acceleration[index] - hand / sign).expand();
+    std::vector<std::vector<ex>> mass;
+    std::vector<ex> rest;
+    GiNaC::exmap at_rest;
+    for (int i = 1; i <= chain.links; ++i) at_rest[chain.acceleration[static_cast<std::size_t>(i)]] = 0;
+    for (int i = 1; i <= chain.links; ++i) {
+      mass.emplace_back();
+      for (int j = 1; j <= chain.links; ++j) mass.back().push_back(given(total(model_->mass(i, j))));
+      rest.push_back(given(total(model_->equation(i))).subs(at_rest));
+    }
+    const auto solution = [&](const NumericState& state) -> std::optional<numeric> {
+      const auto n = static_cast<unsigned>(chain.links);
+      GiNaC::matrix a(n, n), unknown(n, 1), right(n, 1);
+      for (unsigned i = 0; i < n; ++i) {
+        for (unsigned j = 0; j < n; ++j) {
+          const std::optional<numeric> value = evaluate_at(mass[i][j], state);
+          if (!value) return std::nullopt;
+          a(i, j) = *value;
+        }
+        const std::optional<numeric> value = evaluate_at(rest[i], state);
+        if (!value) return std::nullopt;
+        right(i, 0) = -*value;
+        unknown(i, 0) = GiNaC::symbol();
+      }
+      return GiNaC::ex_to<numeric>(a.solve(unknown, right)(static_cast<unsigned>(k) - 1, 0));
+    };
+    const auto difference_at = [&](const NumericState& state) -> std::optional<numeric> {
+      const std::optional<numeric> yours = evaluate_at(by_hand, state), chains = solution(state);
+      if (!yours || !chains) return std::nullopt;
+      finding.value = twelve_digits(*yours);
+      finding.expected = twelve_digits(*chains);
+      return *yours - *chains;
+    };
+    for (std::uint64_t attempt = 0; attempt < kStates; ++attempt) {
+      std::vector<ex> sides = rest;
+      sides.push_back(by_hand);
+      for (const auto& row : mass) sides.insert(sides.end(), row.begin(), row.end());
+      NumericState state = random_state(symbols_in(sides), seed_ + attempt);
+      const std::optional<numeric> difference = difference_at(state);
+      if (!difference || GiNaC::abs(*difference) <= closeness()) continue;
+      finding.verdict = Verdict::kDifferent;
+      finding.state = state.assignments;
+      const std::string value = finding.value, expected = finding.expected;
+      // A source without which nothing is left of the difference is where it comes from.
+      const auto look_at = [&](const std::string& source, const std::vector<ex>& symbols) {
+        NumericState without = state;
+        for (const ex& symbol : symbols)
+          if (without.values.count(symbol) != 0) without.values[symbol] = 0;
+        const std::optional<numeric> left = difference_at(without);
+        if (left && GiNaC::abs(*left) <= closeness()) finding.origins.push_back(source);
+      };
+      look_at("gravity", {chain.gravity});
+      look_at("the centrifugal terms or the dampers", chain.rate);
+      for (std::size_t j = 1; j < chain.angle.size(); ++j) {
+        const std::string number = std::to_string(j);
+        look_at("spring of joint " + number, {chain.stiffness[j]});
+        look_at("damper of joint " + number, {chain.damping[j]});
+        look_at("torque T_" + number, {chain.torque[j]});
+        look_at("rotational energy of link " + number, {chain.inertia[j]});
+        look_at("link " + number, {chain.mass[j], chain.inertia[j]});
+      }
+      look_at("the load", {chain.load_mass});
+      finding.value = value;
+      finding.expected = expected;
+      return finding;
+    }
+    finding.verdict = Verdict::kUndecided;
+    finding.remark += "; both agree to 40 digits at " + std::to_string(kStates) + " random states";
+    return finding;
+  }
+
+  /// Constants c with dh = c dr for the torque and the acceleration of the row, and 1, -1.
+  std::vector<ex> factors_between(const ex& hand, int row) const {
+    const ChainSymbols& chain = *derivation_.chain;
+    const ex model = total(model_->equation(row));
     std::vector<ex> result{1, -1};
     const auto index = static_cast<std::size_t>(row);
     for (const ex& symbol : {chain.torque[index], chain.acceleration[index]}) {
-      const ex below = model.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+      const ex below = given(model.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)));
       const ex above = hand.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
       NormalForm form({above, below});
       const Fraction over = form(above), under = form(below);
@@ -269,6 +470,29 @@ std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed) {
   std::vector<Finding> result;
   for (const Entry& entry : derivation.entries) result.push_back(comparison.of(entry));
   return result;
+}
+
+int independent_equations(const std::vector<Finding>& findings, int links) {
+  std::vector<std::vector<numeric>> rows;  // in echelon form, each with its pivot
+  std::vector<std::size_t> pivots;
+  for (const Finding& finding : findings) {
+    if (finding.combination.empty()) continue;
+    std::vector<numeric> row(static_cast<std::size_t>(links) + 1);
+    for (const auto& [number, factor] : finding.combination)
+      row[static_cast<std::size_t>(number)] = factor;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const numeric factor = row[pivots[r]] / rows[r][pivots[r]];
+      for (std::size_t j = 0; j < row.size(); ++j) row[j] = row[j] - factor * rows[r][j];
+    }
+    const auto largest =
+        std::max_element(row.begin(), row.end(), [](const numeric& a, const numeric& b) {
+          return GiNaC::abs(a) < GiNaC::abs(b);
+        });
+    if (GiNaC::abs(*largest) <= closeness()) continue;
+    pivots.push_back(static_cast<std::size_t>(largest - row.begin()));
+    rows.push_back(row);
+  }
+  return static_cast<int>(rows.size());
 }
 
 }  // namespace catena::checking

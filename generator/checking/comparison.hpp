@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <ginac/ginac.h>
+
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,10 +29,14 @@ struct Finding {
   std::vector<std::string> state;    ///< "theta_1 = 0.73" ...: where the two values below stand
   std::string value;                 ///< by hand, or left side, 12 digits
   std::string expected;              ///< the model's, or right side
+  std::map<int, GiNaC::numeric> combination;  ///< of an equation that holds: its factors at a state
 };
 
 /// One finding for each entry of the derivation, in its order. The chain's side is derived afresh
 /// from its energies (FlatDerivation). `seed` selects the numeric states.
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
+
+/// How many of the equations found to hold are independent of one another (at a random state).
+int independent_equations(const std::vector<Finding>& findings, int links);
 
 }  // namespace catena::checking

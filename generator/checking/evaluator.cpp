@@ -130,9 +130,15 @@ class Evaluator {
     const ex parameter = expressions_.read(target);
     if (!GiNaC::is_a<GiNaC::symbol>(parameter) || !scope_.chain->is_constant(parameter))
       fail(target.at, "'given' expects a parameter: l_i, m_i, I_i, k_i, c_i, T_i, m_c or g");
-    const ex value = expressions_.evaluate(statement.expressions[1]);
+    const auto replaced = [](const ex& in, const GiNaC::exmap& by) {
+      return in.subs(by, GiNaC::subs_options::no_pattern);
+    };
+    const ex value = replaced(expressions_.evaluate(statement.expressions[1]), result_.given);
     if (!scope_.chain->is_constant(value))
       fail(statement.expressions[1].at, "the value of a parameter contains an angle or a rate");
+    if (value.has(parameter)) fail(target.at, "this parameter would be given by itself");
+    // What is given may stand in what was given before.
+    for (auto& [known, given] : result_.given) given = replaced(given, {{parameter, value}});
     result_.given[parameter] = value;
   }
 
@@ -140,6 +146,8 @@ class Evaluator {
     const Expression& target = statement.expressions[0];
     const Expression& value = statement.expressions[1];
     const Reference reference = expressions_.resolve(target);
+    if (scope_.chain && reference.name == "thetaddot" && reference.indices.size() == 1)
+      return solved_equation(reference, target, value);
     check_assignable(target, reference);
     if (value.kind == Expression::Kind::kMatrix) return assign_matrix(reference, value);
     const Target* known = scope_.chain ? target_named(reference.name) : nullptr;
@@ -154,6 +162,21 @@ class Evaluator {
         expressions_.check_range(target.at, reference, index, 1);
     }
     store(reference, expressions_.evaluate(value), statement.at);
+  }
+
+  /// thetaddot_i = ...: an equation of motion solved for that acceleration.
+  void solved_equation(const Reference& reference, const Expression& target,
+                       const Expression& value) {
+    const int number = reference.indices[0];
+    expressions_.check_range(target.at, reference, number, 1);
+    stated_.push_back({Quantity::kEquation,
+                       number,
+                       0,
+                       reference.text(),
+                       expressions_.read(target),
+                       expressions_.evaluate(value),
+                       target.at,
+                       {}});
   }
 
   void check_assignable(const Expression& target, const Reference& reference) const {

@@ -320,14 +320,25 @@ std::vector<std::string> readable_parts(const ex& numerator, const NormalForm& f
   return reader.parts();
 }
 
+// Whether the bracket that opens the text closes at its end.
+static bool is_in_brackets(const std::string& text) {
+  if (text[0] != '(') return false;
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')' && --depth == 0) return i + 1 == text.size();
+  }
+  return false;
+}
+
 std::string text_of(const Fraction& fraction, const NormalForm& form) {
   const std::vector<std::string> numerator = readable_parts(fraction.numerator, form);
   if (numerator.empty()) return "0";
   const std::string over = joined_by_signs(numerator);
   if (fraction.denominator == 1) return over;
-  const std::vector<std::string> denominator = readable_parts(fraction.denominator, form);
-  return (numerator.size() == 1 ? over : "(" + over + ")") + "/(" + joined_by_signs(denominator) +
-         ")";
+  const std::string under = joined_by_signs(readable_parts(fraction.denominator, form));
+  return (numerator.size() == 1 ? over : "(" + over + ")") + "/" +
+         (is_in_brackets(under) ? under : "(" + under + ")");
 }
 
 std::string text_of(const numeric& number) {

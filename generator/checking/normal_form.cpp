@@ -4,8 +4,9 @@
 // the common divisor with which b occurs anywhere. With s = sin(b/d), c = cos(b/d) or E = exp(b/d):
 //   cos(a) + i sin(a) = prod_b (c_b + i s_b)^k_b,   exp(a) = prod_b E_b^k_b.
 // sin and exp of arguments that are linearly independent over the rationals are algebraically
-// independent (Ax 1971); distinct Laurent monomials b are. That is why a non-zero numerator
-// disproves.
+// independent (Ax 1971); distinct Laurent monomials b are. Products of powers p^(e/d), 0 <= e < d, of
+// distinct primes are linearly independent over the rationals (Besicovitch 1940). That is why a
+// non-zero numerator disproves.
 #include "generator/checking/normal_form.hpp"
 
 #include <numeric>
@@ -22,6 +23,9 @@ using GiNaC::numeric;
 
 // sin(k x) is a polynomial of degree k; beyond this it is left alone.
 constexpr int kGreatestMultiple = 64;
+
+// Trial divisors; what remains of a number below the square of this is prime.
+constexpr int kLargestTrialDivisor = 100000;
 
 const std::set<std::string> kCircular = {"sin", "cos", "tan"};
 const std::set<std::string> kHyperbolic = {"exp", "sinh", "cosh", "tanh"};
@@ -62,6 +66,16 @@ bool is_integer_power_of_symbol(const ex& e) {
          e.op(1).info(GiNaC::info_flags::integer);
 }
 
+bool is_positive_rational(const ex& e) {
+  return GiNaC::is_a<numeric>(e) && GiNaC::ex_to<numeric>(e).is_rational() &&
+         GiNaC::ex_to<numeric>(e).is_positive();
+}
+
+bool is_fractional(const ex& exponent) {
+  return exponent.info(GiNaC::info_flags::rational) &&
+         !exponent.info(GiNaC::info_flags::integer);
+}
+
 bool is_laurent_monomial(const ex& e) {
   if (!GiNaC::is_a<GiNaC::mul>(e)) return is_integer_power_of_symbol(e);
   for (const ex& factor : e)
@@ -81,12 +95,19 @@ void NormalForm::scan(const ex& expression) {
     if (kCircular.count(name) != 0) scan_argument(expression.op(0), false);
     if (kHyperbolic.count(name) != 0) scan_argument(expression.op(0), true);
   }
+  if (GiNaC::is_a<GiNaC::power>(expression) && is_fractional(expression.op(1))) {
+    radical_degree_ =
+        std::lcm(radical_degree_, GiNaC::ex_to<numeric>(expression.op(1)).denom().to_int());
+  }
   for (const ex& part : expression) scan(part);
 }
 
 void NormalForm::scan_argument(const ex& argument, bool exponential) {
   for (const Term& term : terms_of(argument)) {
-    if (term.base == GiNaC::Pi && !exponential) continue;
+    if (term.base == GiNaC::Pi && !exponential) {  // cos(pi/4) = 2^(1/2)/2
+      radical_degree_ = std::lcm(radical_degree_, 2);
+      continue;
+    }
     const int divisor = term.coefficient.denom().to_int();
     if (!is_laurent_monomial(term.base)) decides_ = false;
     if (exponential) {
@@ -153,6 +174,8 @@ Fraction NormalForm::convert_power(const ex& e) {
   if (!GiNaC::is_a<numeric>(e.op(1)) || !GiNaC::ex_to<numeric>(e.op(1)).is_rational())
     return opaque("^", {e.op(0), e.op(1)});
   const numeric exponent = GiNaC::ex_to<numeric>(e.op(1));
+  if (is_positive_rational(e.op(0)))
+    return {power_of_number(GiNaC::ex_to<numeric>(e.op(0)), exponent), 1};
   const Fraction base = convert(e.op(0));
   if (exponent.is_integer()) return raised(base, exponent.to_int());
   return raised(root(base, exponent.denom().to_int()), exponent.numer().to_int());
@@ -197,9 +220,12 @@ Fraction NormalForm::sine_or_cosine(const ex& argument, bool sine, const ex& who
     if (term.base == GiNaC::Pi) {
       const ex c = GiNaC::cos(term.coefficient * GiNaC::Pi);
       const ex s = GiNaC::sin(term.coefficient * GiNaC::Pi);
-      if (!GiNaC::is_a<numeric>(c) || !GiNaC::is_a<numeric>(s))
+      if (GiNaC::is_a<GiNaC::function>(c) || GiNaC::is_a<GiNaC::function>(s))
         return opaque(function_name(whole), {argument});
-      multiply(c, s);
+      const Fraction cosine = convert(c), sine_of_it = convert(s);
+      if (cosine.denominator != 1 || sine_of_it.denominator != 1)
+        return opaque(function_name(whole), {argument});
+      multiply(cosine.numerator, sine_of_it.numerator);
       continue;
     }
     const auto entry = angles_.find(term.base);
@@ -251,6 +277,7 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
   const ex both = (radicand.numerator / radicand.denominator).normal().numer_denom();
   Fraction drawn{1, 1};
   Fraction rest{1, 1};
+  numeric number = 1;  // the factor of the radicand that is a positive number
   for (const bool upper : {true, false}) {
     ex whole = GiNaC::sqrfree(both.op(upper ? 0 : 1));
     if (!GiNaC::is_a<GiNaC::mul>(whole)) whole = GiNaC::lst{whole};
@@ -260,10 +287,9 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
           GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
       const ex base = is_power ? factor.op(0) : factor;
       const int exponent = is_power ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
-      if (GiNaC::is_a<numeric>(base) && base.info(GiNaC::info_flags::positive)) {
-        const ex power = GiNaC::pow(factor, numeric(1, degree));  // GiNaC draws perfect powers
-        (GiNaC::is_a<numeric>(power) ? outside : inside) *=
-            GiNaC::is_a<numeric>(power) ? power : factor;
+      if (is_positive_rational(factor)) {
+        const numeric value = GiNaC::ex_to<numeric>(factor);
+        number = upper ? number * value : number / value;
       } else if (is_positive(base)) {
         outside *= GiNaC::pow(base, exponent / degree);
         inside *= GiNaC::pow(base, exponent % degree);
@@ -274,6 +300,7 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
     (upper ? drawn.numerator : drawn.denominator) = outside;
     (upper ? rest.numerator : rest.denominator) = inside;
   }
+  drawn.numerator *= power_of_number(number, numeric(1, degree));
   rest = reduced(rest);
   if (same(rest, {1, 1})) return reduced(drawn);
 
@@ -290,6 +317,44 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
       degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")"};
   roots_.push_back(created);
   return reduced(Fraction{drawn.numerator * created.symbol, drawn.denominator});
+}
+
+/// (2^3 3/5)^e = 2^(3e) 3^e 5^(-e), as powers of prime roots between 0 and 1 and a rational number.
+ex NormalForm::power_of_number(const numeric& base, const numeric& exponent) {
+  ex result = 1;
+  for (const bool upper : {true, false}) {
+    numeric left = upper ? base.numer() : base.denom();
+    const numeric sign = upper ? 1 : -1;
+    for (int divisor = 2; divisor <= kLargestTrialDivisor && left >= divisor * divisor;
+         divisor += divisor == 2 ? 1 : 2) {
+      int times = 0;
+      for (; GiNaC::irem(left, divisor).is_zero(); ++times) left = GiNaC::iquo(left, divisor);
+      if (times > 0) result *= power_of_prime(divisor, sign * times * exponent);
+    }
+    if (left.is_equal(1)) continue;
+    if (left > numeric(kLargestTrialDivisor) * kLargestTrialDivisor) decides_ = false;
+    result *= power_of_prime(left, sign * exponent);
+  }
+  return result.expand();
+}
+
+ex NormalForm::power_of_prime(const numeric& prime, const numeric& exponent) {
+  const numeric steps = exponent * radical_degree_;
+  if (!steps.is_integer()) throw std::logic_error("a root of a degree that was not there before");
+  const numeric below = GiNaC::mod(steps, radical_degree_);
+  const ex whole = GiNaC::pow(prime, (steps - below) / radical_degree_);
+  if (below.is_zero()) return whole;
+  const auto [found, is_new] = prime_roots_.try_emplace(prime);
+  if (is_new) {
+    found->second = GiNaC::possymbol();
+    prime_of_[found->second] = prime;
+    const std::string text = text_of(prime);
+    generators_[found->second] = {Role::kOther, 0, 1,
+                                  radical_degree_ == 2
+                                      ? "sqrt(" + text + ")"
+                                      : text + "^(1/" + std::to_string(radical_degree_) + ")"};
+  }
+  return whole * GiNaC::pow(found->second, below);
 }
 
 Fraction NormalForm::opaque(const std::string& function, const std::vector<ex>& arguments) {
@@ -316,7 +381,7 @@ Fraction NormalForm::opaque(const std::string& function, const std::vector<ex>& 
 
 ex NormalForm::reduced(const ex& polynomial) const {
   const ex expanded = polynomial.expand();
-  if (cosine_of_.empty()) return expanded;
+  if (cosine_of_.empty() && prime_of_.empty()) return expanded;
   bool changed = false;
   GiNaC::exvector terms;
   const auto reduce_term = [&](const ex& term) {
@@ -329,6 +394,15 @@ ex NormalForm::reduced(const ex& polynomial) const {
           const int exponent = GiNaC::ex_to<numeric>(factor.op(1)).to_int();
           factors.push_back(GiNaC::pow(1 - GiNaC::pow(cosine->second, 2), exponent / 2) *
                             GiNaC::pow(factor.op(0), exponent % 2));
+          squares = true;
+          return;
+        }
+        const auto prime = prime_of_.find(factor.op(0));
+        if (prime != prime_of_.end() &&
+            GiNaC::ex_to<numeric>(factor.op(1)).to_int() >= radical_degree_) {
+          const int exponent = GiNaC::ex_to<numeric>(factor.op(1)).to_int();
+          factors.push_back(GiNaC::pow(prime->second, exponent / radical_degree_) *
+                            GiNaC::pow(factor.op(0), exponent % radical_degree_));
           squares = true;
           return;
         }

@@ -22,9 +22,10 @@ struct Fraction {
 ///
 /// Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic
 /// angles b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1 with s_b at most to the
-/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots become generators r with
-/// r^q = radicand, perfect powers of manifestly positive radicands are drawn. Everything else (log,
-/// abs, ...) is a generator of its own.
+/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots of positive rational numbers
+/// become products of p^(1/d), p prime, d common to all; other roots become generators r with r^q =
+/// radicand, perfect powers of manifestly positive radicands are drawn. Everything else (log, abs,
+/// ...) is a generator of its own.
 ///
 /// A zero numerator always proves equality. A non-zero one disproves it as long as `decides()`: the
 /// generators met are then algebraically independent but for the relations above.
@@ -80,6 +81,8 @@ class NormalForm {
   Fraction exponential(const GiNaC::ex& argument, const GiNaC::ex& whole);
   [[nodiscard]] std::optional<GiNaC::ex> logarithm(const Fraction& argument) const;
   Fraction root(const Fraction& radicand, int degree);
+  GiNaC::ex power_of_number(const GiNaC::numeric& base, const GiNaC::numeric& exponent);
+  GiNaC::ex power_of_prime(const GiNaC::numeric& prime, const GiNaC::numeric& exponent);
   Fraction opaque(const std::string& function, const std::vector<GiNaC::ex>& arguments);
 
   GiNaC::ex reduced(const GiNaC::ex& polynomial) const;
@@ -94,9 +97,12 @@ class NormalForm {
 
   std::map<GiNaC::ex, Angle, GiNaC::ex_is_less> angles_;
   std::map<GiNaC::ex, Exponential, GiNaC::ex_is_less> exponentials_;
+  std::map<GiNaC::numeric, GiNaC::ex> prime_roots_;  // p -> p^(1/radical_degree_)
+  int radical_degree_ = 1;
   std::vector<Root> roots_;
   std::vector<Opaque> opaques_;
   GiNaC::exmap cosine_of_;  // s_b -> c_b
+  GiNaC::exmap prime_of_;   // p^(1/radical_degree_) -> p
   std::map<GiNaC::ex, Generator, GiNaC::ex_is_less> generators_;
   bool decides_ = true;
 };

@@ -87,6 +87,19 @@ std::string matrix_remarks(const Derivation& derivation, const std::vector<Findi
   return text;
 }
 
+/// Several true equations need not say all: the same one twice, or a sum of two beside both.
+std::string equations_remark(const Derivation& derivation, const std::vector<Finding>& findings) {
+  const auto hold = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return !finding.combination.empty();
+  });
+  const int links = derivation.chain->links;
+  const int independent = independent_equations(findings, links);
+  if (hold < links || independent == links) return "";
+  return "of the " + std::to_string(hold) + " equations that hold " + std::to_string(independent) +
+         (independent == 1 ? " is" : " are") + " independent; the motion needs " +
+         std::to_string(links) + "\n";
+}
+
 }  // namespace
 
 std::string report(const std::string& file, const Derivation& derivation,
@@ -107,6 +120,7 @@ std::string report(const std::string& file, const Derivation& derivation,
   if (derivation.chain)
     for (const Quantity quantity : {Quantity::kMass, Quantity::kDamping, Quantity::kStiffness})
       remarks += matrix_remarks(derivation, findings, quantity);
+  if (derivation.chain) remarks += equations_remark(derivation, findings);
   for (const std::string& note : derivation.notes) remarks += note + "\n";
   if (!remarks.empty()) text += "\n" + remarks;
   return text + "\n" + std::to_string(findings.size()) +

@@ -234,6 +234,7 @@ TEST_CASE("a mistake is named by where it sits") {
       {"C[2,2] = c_2/2 + c_3", "C[2,2]", "damper of joint 2: multiplied by 1/2"},
       {"G[2] = (m_2/2 + m_3 + m_c)*g*l_2*cos(theta_2)", "G[2]",
        "gravity of link 2: off by g*l_2*m_2*cos(theta_2)/2 - g*l_2*m_2*sin(theta_2)/2"},
+      {"equation 1: diff(1/2*k_1*theta_1^2, theta_1) = 0", "equation 1", "torque T_1: missing"},
       {"equation 3: diff(1/2*k_3*(theta_3 - theta_2)^2, theta_3) = 0", "equation 3",
        "torque T_3: missing"},
   };

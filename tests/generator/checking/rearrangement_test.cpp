@@ -64,7 +64,7 @@ TEST_CASE("a Lagrangian may differ by what no equation of motion sees") {
   CHECK(checked(first + "\nL = L + thetadot_1*theta_2*k_1").of("L").verdict == Verdict::kDifferent);
 }
 
-TEST_CASE("an equation of motion may be multiplied by a constant, and by nothing else") {
+TEST_CASE("an equation of motion may be multiplied by what is not zero") {
   const std::string text = example("chapter_3_two_links.txt") +
                            "equation 2: FACTOR*(ddt(diff(L, thetadot_2)) - diff(L, theta_2)) = "
                            "FACTOR*(T_2 - c_2*(thetadot_2 - thetadot_1))\n";
@@ -72,14 +72,118 @@ TEST_CASE("an equation of motion may be multiplied by a constant, and by nothing
     std::string result = text;
     for (std::size_t at; (at = result.find("FACTOR")) != std::string::npos;)
       result.replace(at, 6, factor);
-    return checked(result).findings.back().verdict;
+    return checked(result).findings.back();
   };
-  for (const std::string factor : {"(-1)", "2", "1/l_2", "(m_1 + m_2)", "1/(l_1^2*m_c + I_1)"}) {
+  for (const auto& [factor, named] :
+       {std::pair<std::string, std::string>{"(-1)", "-1"},
+        {"2", "2"},
+        {"1/l_2", "1/l_2"},
+        {"(m_1 + m_2)", "(m_1 + m_2)"},
+        {"1/(l_1^2*m_c + I_1)", "1/(l_1^2*m_c + I_1)"},
+        {"theta_1", "theta_1"},
+        {"cos(theta_2)", "cos(theta_2)"}}) {
     INFO(factor);
-    CHECK(with(factor) == Verdict::kEqual);
+    const Finding finding = with(factor);
+    CHECK(finding.verdict == Verdict::kEqual);
+    CHECK(finding.remark == "multiplied by " + named);
   }
-  for (const std::string factor : {"theta_1", "cos(theta_2)", "0"}) {
-    INFO(factor);
-    CHECK(with(factor) == Verdict::kDifferent);
+  const Finding nothing = with("0");
+  CHECK(nothing.verdict == Verdict::kDifferent);
+  CHECK(nothing.remark == "it says nothing: both sides are the same for every motion");
+}
+
+namespace {
+
+// The left sides E[i] of the equations E[i] = 0 of n links, from the Lagrangian of chapter 3.
+std::string left_sides(const std::string& file) {
+  const std::string text = example(file);
+  return text.substr(text.find('\n'), text.find("\n# Euler") - text.find('\n')) +
+         "\ndissipation = sum(j = 1..n, c_j*(thetadot[j] - thetadot[j-1])^2/2)\n"
+         "for i = 1..n\n"
+         "  E[i] = ddt(diff(L, thetadot_i)) - diff(L, theta_i) - T_i + "
+         "diff(dissipation, thetadot_i)\n"
+         "end\n";
+}
+
+}  // namespace
+
+TEST_CASE("combinations of the equations of motion are named") {
+  struct Row {
+    std::string equation, remark;
+  };
+  const std::vector<Row> rows = {
+      {"equation 1: E[1] + E[2] = 0", "the sum equation 1 + equation 2"},
+      {"equation 2: E[1] - 2*E[3] = 0", "the sum equation 1 - 2*(equation 3)"},
+      {"equation 1: l_2*E[1] = (m_c + m_1)*E[2]",
+       "the sum l_2*(equation 1) - (m_1 + m_c)*(equation 2)"},
+      {"equation 3: cos(theta_2)*E[1] + sin(theta_1)*E[2] + E[3] = 0",
+       "the sum cos(theta_2)*(equation 1) + sin(theta_1)*(equation 2) + equation 3"},
+      {"equation 1: E[2] = 0", "it is equation 2"},
+      {"equation 3: E[3]/thetadot_1 = 0", "multiplied by 1/thetadot_1"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.equation);
+    const Checked result = checked(left_sides("chapter_3_three_links.txt") + row.equation);
+    const Finding& finding = result.findings.back();
+    CHECK(finding.verdict == Verdict::kEqual);
+    CHECK(finding.remark == row.remark);
+  }
+}
+
+TEST_CASE("equations solved for accelerations are proved, and what is wrong in them found") {
+  const std::string solved =
+      left_sides("chapter_3_two_links.txt") +
+      "for i = 1..2\n"
+      "  R[i] = -at(at(E[i], thetaddot_1, 0), thetaddot_2, 0)\n"
+      "end\n"
+      "M11 = (m_1/4 + m_2 + m_c)*l_1^2 + I_1\n"
+      "M12 = l_1*l_2*(m_2/2 + m_c)*cos(theta_1 - theta_2)\n"
+      "M22 = (m_2/4 + m_c)*l_2^2 + I_2\n";
+  const Checked right = checked(solved +
+                                "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
+                                "equation 2: (M11*R[2] - M12*R[1])/(M11*M22 - M12^2) = thetaddot_2\n");
+  CHECK(right.of("thetaddot[1]").verdict == Verdict::kEqual);
+  CHECK(right.of("thetaddot[1]").remark == "solved for thetaddot_1");
+  CHECK(right.of("equation 2").verdict == Verdict::kEqual);
+  CHECK(independent_equations(right.findings, 2) == 2);
+
+  const Checked wrong = checked(
+      solved + "R[2] = R[2] + 2*(m_2/2 + m_c)*g*l_2*sin(theta_2)\n"
+               "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
+               "thetaddot_2 = (M11*R[2] - M12*R[1])/(M11*M22 + M12^2)\n");
+  const Finding& gravity = wrong.of("thetaddot[1]");
+  CHECK(gravity.verdict == Verdict::kDifferent);
+  CHECK(gravity.origins == std::vector<std::string>{"gravity"});
+  CHECK(gravity.value != gravity.expected);
+  CHECK(wrong.of("thetaddot[2]").verdict == Verdict::kDifferent);
+}
+
+TEST_CASE("without torques an equation solved for an acceleration is proved by the matrix of inertia") {
+  const Checked result = checked(
+      "links 2\ngiven T_i = 0 for i = 1..2\ngiven k_i = 0 for i = 1..2\n"
+      "given c_i = 0 for i = 1..2\n"
+      "M11 = (m_1/4 + m_2 + m_c)*l_1^2 + I_1; M12 = l_1*l_2*(m_2/2 + m_c)*cos(theta_1 - theta_2)\n"
+      "M22 = (m_2/4 + m_c)*l_2^2 + I_2\n"
+      "F12 = l_1*l_2*(m_2/2 + m_c)*sin(theta_1 - theta_2)\n"
+      "R1 = -F12*thetadot_2^2 - (m_1/2 + m_2 + m_c)*g*l_1*sin(theta_1)\n"
+      "R2 = F12*thetadot_1^2 - (m_2/2 + m_c)*g*l_2*sin(theta_2)\n"
+      "thetaddot_2 = (M11*R2 - M12*R1)/(M11*M22 - M12^2)");
+  CHECK(result.of("thetaddot[2]").verdict == Verdict::kEqual);
+}
+
+TEST_CASE("true equations that do not determine the motion are told") {
+  const Checked result = checked(left_sides("chapter_3_two_links.txt") +
+                                 "equation 1: E[1] + E[2] = 0\nequation 2: -2*E[2] = 2*E[1]\n");
+  CHECK(result.count(Verdict::kEqual) == 3);  // the Lagrangian too
+  CHECK(independent_equations(result.findings, 2) == 1);
+}
+
+TEST_CASE("what is given may stand in what else is given, in any order") {
+  const std::string uniform = "given I_i = m_i*l_i^2/12 for i = 1..n\n";
+  const std::string equal_links =
+      "given l_i = l_1 for i = 2..n\ngiven m_i = m_1 for i = 2..n\n";
+  for (const std::string& given : {uniform + equal_links, equal_links + uniform}) {
+    const Checked result = checked("links 3\n" + given + "M[3,3] = (m_1/3 + m_c)*l_1^2");
+    CHECK(result.of("M[3,3]").verdict == Verdict::kEqual);
   }
 }
