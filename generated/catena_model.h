@@ -122,7 +122,9 @@ typedef struct catena_model {
   /* velocities of the same points */
   void (*velocities)(const catena_point* at, double* side_rate, double* down_rate);
   /* per joint: moment[links] (N m, acting on link i from link i-1's side, positive towards +theta),
-     per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at joint i */
+     per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at joint i:
+     its change of angle over the distance between the middles of its links; at joint 1, the clamp,
+     over half of link 1 */
   void (*internal_forces)(const catena_point* at, double* moment, double* tension,
                           double* curvature);
   /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)

@@ -955,7 +955,7 @@ void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 23 additions, 35 multiplications, 2 divisions, 0 functions
+/// 23 additions, 36 multiplications, 2 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1008,12 +1008,12 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   moment[1] = -joint_moment_2;
   tension[0] = -(sine[1] * cut_force_side_1 + cosine[1] * cut_force_down_1);
   tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
-  curvature[0] = theta[1] / length[1];
+  curvature[0] = T(2) * theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
 }
 
 /// Derivative of moments, tensions and curvatures along `along`.
-/// 77 additions, 113 multiplications, 4 divisions, 0 functions
+/// 77 additions, 114 multiplications, 4 divisions, 0 functions
 template <class T>
 void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
                              T* dtension, T* dcurvature) {
@@ -1123,7 +1123,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
       - cosine[1] * (cut_force_side_1 * d_theta[1] + d_cut_force_down_1);
   dtension[1] = sine[2] * (cut_force_down_2 * d_theta[2] - d_cut_force_side_2)
       - cosine[2] * (cut_force_side_2 * d_theta[2] + d_cut_force_down_2);
-  dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+  dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
   dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc_2 * (theta[1]
       - theta[2]) / arc_2) / arc_2;
 }

@@ -1285,7 +1285,7 @@ void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 38 additions, 52 multiplications, 3 divisions, 0 functions
+/// 38 additions, 53 multiplications, 3 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1358,13 +1358,13 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   tension[0] = -(sine[1] * cut_force_side_1 + cosine[1] * cut_force_down_1);
   tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
   tension[2] = -(sine[3] * cut_force_side_3 + cosine[3] * cut_force_down_3);
-  curvature[0] = theta[1] / length[1];
+  curvature[0] = T(2) * theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
   curvature[2] = T(2) * (theta[3] - theta[2]) / curvature_divisor_3;
 }
 
 /// Derivative of moments, tensions and curvatures along `along`.
-/// 121 additions, 167 multiplications, 6 divisions, 0 functions
+/// 121 additions, 168 multiplications, 6 divisions, 0 functions
 template <class T>
 void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
                              T* dtension, T* dcurvature) {
@@ -1519,7 +1519,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
       - cosine[2] * (cut_force_side_2 * d_theta[2] + d_cut_force_down_2);
   dtension[2] = sine[3] * (cut_force_down_3 * d_theta[3] - d_cut_force_side_3)
       - cosine[3] * (cut_force_side_3 * d_theta[3] + d_cut_force_down_3);
-  dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+  dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
   dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc_2 * (theta[1]
       - theta[2]) / arc_2) / arc_2;
   dcurvature[2] = T(2) * (d_theta[3] - d_theta[2] + d_curvature_divisor_3 * (theta[2]

@@ -1615,7 +1615,7 @@ void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 53 additions, 69 multiplications, 4 divisions, 0 functions
+/// 53 additions, 70 multiplications, 4 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1708,14 +1708,14 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
   tension[2] = -(sine[3] * cut_force_side_3 + cosine[3] * cut_force_down_3);
   tension[3] = -(sine[4] * cut_force_side_4 + cosine[4] * cut_force_down_4);
-  curvature[0] = theta[1] / length[1];
+  curvature[0] = T(2) * theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
   curvature[2] = T(2) * (theta[3] - theta[2]) / curvature_divisor_3;
   curvature[3] = T(2) * (theta[4] - theta[3]) / curvature_divisor_4;
 }
 
 /// Derivative of moments, tensions and curvatures along `along`.
-/// 165 additions, 221 multiplications, 8 divisions, 0 functions
+/// 165 additions, 222 multiplications, 8 divisions, 0 functions
 template <class T>
 void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
                              T* dtension, T* dcurvature) {
@@ -1915,7 +1915,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
       - cosine[3] * (cut_force_side_3 * d_theta[3] + d_cut_force_down_3);
   dtension[3] = sine[4] * (cut_force_down_4 * d_theta[4] - d_cut_force_side_4)
       - cosine[4] * (cut_force_side_4 * d_theta[4] + d_cut_force_down_4);
-  dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+  dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
   dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc_2 * (theta[1]
       - theta[2]) / arc_2) / arc_2;
   dcurvature[2] = T(2) * (d_theta[3] - d_theta[2] + d_curvature_divisor_3 * (theta[2]

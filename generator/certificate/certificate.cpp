@@ -15,6 +15,7 @@
 #include "generator/certificate/twin.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
+#include "generator/derivation/neutral_proof.hpp"
 
 namespace catena {
 namespace {
@@ -56,16 +57,25 @@ std::string lagrangian_text(Chain& chain) {
   return text;
 }
 
-Json proofs(const Description& description, int links, const Json& summary) {
+// `not_provable` is told what cannot be had.
+Json proofs(const Description& description, int links, const Json& summary, Json& not_provable) {
   Json list = Json::array();
   const auto add = [&](const std::string& what, bool proved) {
     list.push_back({{"what", what}, {"proved", proved}});
   };
-  if (description.effects.empty()) {
-    for (const Proof& proof : prove_closed_form(links)) {
-      add(proof.what + " = closed form, " + std::to_string(proof.entries) + " entries",
-          proof.equal);
-    }
+  for (const Proof& proof : prove_closed_form(links)) {
+    add(proof.what + (description.effects.empty() ? "" : " of the plain chain") +
+            " = closed form, " + std::to_string(proof.entries) + " entries",
+        proof.equal);
+  }
+  const NeutralProofs neutral = prove_neutral(description, links);
+  for (const Proof& proof : neutral.proofs) {
+    add(proof.what + " at neutral values = the plain chain's, " + std::to_string(proof.entries) +
+            " entries",
+        proof.equal);
+  }
+  if (!neutral.why_not.empty()) {
+    not_provable.push_back("the plain chain at neutral values: " + neutral.why_not);
   }
   // What the emitted code exploits it does only where it is proved; what is not, is not claimed.
   const Json& structure = summary.at("structure");
@@ -169,7 +179,9 @@ Json make_certificate(const Description& description, int links, const EmittedFi
   exact["lagrangian"] = sha256_hex(lagrangian_text(chain));
   exact["files"] = hashes(model, files);
   exact["operations"] = operations(description, links, summary);
-  exact["proofs"] = proofs(description, links, summary);
+  Json not_provable = Json::array();
+  exact["proofs"] = proofs(description, links, summary, not_provable);
+  if (!not_provable.empty()) exact["not_provable"] = not_provable;
   const CompiledModel compiled(files, model);
   certificate["numerical"] = numerical(description, links, compiled.table());
   return certificate;

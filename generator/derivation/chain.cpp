@@ -305,6 +305,11 @@ void Chain::add_chain_terms() {
   }
 }
 
+// The length of cable whose bending joint i stands for.
+ex Chain::spacing(Link i) const {
+  return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2;
+}
+
 void Chain::pull_back() {
   std::vector<ex> cut_side(static_cast<size_t>(links_) + 2), cut_down(cut_side);
   std::vector<ex> moment(cut_side);
@@ -342,10 +347,9 @@ void Chain::pull_back() {
     keep(cut_side, joint_side_[i - 1], i);
     keep(cut_down, joint_down_[i - 1], i);
     keep(moment, joint_angle_[i], i);
-    const ex spacing = i == 1 ? length_[1] : ex(kHalf * (length_[i - 1] + length_[i]));
     const ex above = i == 1 ? ex(0) : theta_[i - 1];
     curvatures_.push_back(
-        definitions_.named((theta_[i] - above) / spacing, "curvature", i));
+        definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
     tensions_.push_back(definitions_.named(-(cut_side[i] * sine_[i] + cut_down[i] * cosine_[i]),
                                            "tension", i));
     moments_.push_back(definitions_.named(-moment[i], "moment", i));

@@ -94,6 +94,7 @@ class Chain {
   void add_force(const std::string& item, const ex& variable, const ex& force);
   void add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part);
   void add_covector(const ex& variable, const ex& covector);
+  ex spacing(Link i) const;
   ex define_variable(const std::string& family, int index, const ex& value);
 
   /// What can be said of link or joint i (see docs): its shape alone, or its motion too.

@@ -3,10 +3,13 @@
 // What an effect's declared physics adds to the chain: its expressions are parsed with the symbols of
 // the place they stand at, and enter as potentials, dissipation functions, forces and torques (virtual
 // work), kinetic energies, extra states and sensor expressions.
+#include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 
 #include "generator/derivation/chain.hpp"
+#include "generator/description/expression_syntax.hpp"
 
 namespace catena {
 
@@ -74,8 +77,7 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     add("stiffness", stiffness_[i], "N m/rad");
     add("damping", damping_[i], "N m s/rad");
     add("arc", arc_[i - 1], "m");
-    // from middle to middle of the links; at joint 1 from the clamp
-    add("spacing", (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2, "m");
+    add("spacing", spacing(i), "m");
     if (motion) {
       add_point(joint_side_[i - 1], joint_down_[i - 1]);
       add("joint_angle", joint_angle_[i], "rad");
@@ -193,10 +195,20 @@ void Chain::add_sensors() {
     if (!effect.sensor.given()) continue;
     sensor_.given = true;
     ExpressionContext symbols = context(effect, kShape, Place::kLoad, 0);
-    const ExpressionContext clock_symbols = symbols;
+    ExpressionContext clock_symbols = symbols;
     symbols.add("side", sensor_.side, Unit::parse("m"));
     symbols.add("down", sensor_.down, Unit::parse("m"));
     symbols.add("angle", sensor_.angle, Unit::parse("rad"));
+    for (const Definition& definition : effect.definitions) {
+      if (definition.at != Place::kAnywhere) continue;
+      for (ExpressionContext* known : {&symbols, &clock_symbols}) {
+        const std::set<std::string> names = names_in(definition.value);
+        const bool has_meaning = std::all_of(names.begin(), names.end(), [&](const auto& name) {
+          return name == "pi" || known->symbols.contains(name);
+        });
+        if (has_meaning) add_definition(definition, *known);
+      }
+    }
     const auto replace = [&](ex& what, const Expression& by, const ExpressionContext& known,
                              const char* unit) {
       return by.given() ? parse_expression(by, known, Unit::parse(unit)) : what;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/closed_form_proof.hpp"
 
-#include <map>
 #include <sstream>
 
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/structure.hpp"
+#include "generator/derivation/written_out.hpp"
 #include "runtime/reference/coriolis.hpp"
 #include "runtime/reference/gravity.hpp"
 #include "runtime/reference/joint_matrix.hpp"
@@ -34,23 +34,10 @@ struct WriteOutDifferences : GiNaC::map_function {
   }
 };
 
-// sin(x)^2 -> 1 - cos(x)^2
-struct OneSquare : GiNaC::map_function {
-  ex operator()(const ex& e) override {
-    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).is_equal(2) &&
-        GiNaC::is_the_function<GiNaC::sin_SERIAL>(e.op(0))) {
-      return 1 - GiNaC::pow(GiNaC::cos(e.op(0).op(0)), 2);
-    }
-    return e.map(*this);
-  }
-};
-
 ex difference(const ex& model, const ex& closed_form) {
   WriteOutDifferences write_out;
   const ex plain = (model - write_out(closed_form)).expand();
-  if (plain.is_zero()) return plain;
-  OneSquare one_square;
-  return one_square(plain).expand();
+  return plain.is_zero() ? plain : without_sine_squares(plain);
 }
 
 class Comparison {
@@ -70,30 +57,6 @@ class Comparison {
 
  private:
   Proof proof_;
-};
-
-// Expressions with every definition but sines and cosines written out; those as functions.
-class WrittenOut {
- public:
-  explicit WrittenOut(Definitions& definitions) : definitions_(definitions) {}
-  ex of(const ex& expression) {
-    GiNaC::exmap values;
-    for (const int number : definitions_.symbols_of(expression)) {
-      if (!definitions_[number].is_input) values[definitions_[number].symbol] = of_symbol(number);
-    }
-    return expression.subs(values, GiNaC::subs_options::no_pattern).expand();
-  }
-
- private:
-  ex of_symbol(int number) {
-    const auto found = known_.find(number);
-    if (found != known_.end()) return found->second;
-    const ex value = definitions_[number].value;
-    return known_[number] = GiNaC::is_a<GiNaC::function>(value) ? value : of(value);
-  }
-
-  Definitions& definitions_;
-  std::map<int, ex> known_;
 };
 
 std::vector<ex> family(Chain& chain, const char* name) {

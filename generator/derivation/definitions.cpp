@@ -2,7 +2,6 @@
 #include "generator/derivation/definitions.hpp"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,12 +15,10 @@ std::string full_name(const std::string& family, int index) {
   return index == kNoIndex ? family : family + "[" + std::to_string(index) + "]";
 }
 
-void collect_symbols(const ex& e, std::set<std::string>& names) {
-  if (GiNaC::is_a<GiNaC::symbol>(e)) {
-    names.insert(GiNaC::ex_to<GiNaC::symbol>(e).get_name());
-    return;
-  }
-  for (size_t i = 0; i < e.nops(); ++i) collect_symbols(e.op(i), names);
+template <class Visit>
+void for_each_symbol(const ex& e, const Visit& visit) {
+  if (GiNaC::is_a<GiNaC::symbol>(e)) return visit(e);
+  for (size_t i = 0; i < e.nops(); ++i) for_each_symbol(e.op(i), visit);
 }
 
 bool is_polynomial_in_symbols(const ex& e) {
@@ -79,6 +76,7 @@ ex Definitions::make(const std::string& family, int index, bool is_input, const 
     throw std::logic_error("defined twice: " + name);
   }
   symbols_.push_back({family, index, rank.first->second, is_input, GiNaC::realsymbol(name), value});
+  number_by_symbol_.emplace(symbols_.back().symbol, number);
   return symbols_.back().symbol;
 }
 
@@ -104,6 +102,12 @@ ex Definitions::name_of(const std::string& family, int index, const ex& value) {
   const ex symbol = make(unused_family(family, index), index, false, value);
   by_value_.emplace(key, symbol);
   return symbol;
+}
+
+// Functions and roots are taken of symbols, even where the value is a number.
+ex Definitions::symbol_of(const std::string& family, int index, const ex& value) {
+  if (!GiNaC::is_a<GiNaC::numeric>(value)) return name_of(family, index, value);
+  return make(unused_family(family, index), index, false, value);
 }
 
 ex Definitions::define(const std::string& family, int index, const ex& value) {
@@ -134,22 +138,26 @@ ex Definitions::named(const ex& expression, const std::string& family, int index
   }
   if (GiNaC::is_a<GiNaC::power>(e)) {
     const ex exponent = e.op(1);
-    if (!GiNaC::is_a<GiNaC::numeric>(exponent) || !(2 * exponent).info(GiNaC::info_flags::integer)) {
-      throw std::logic_error("exponents must be whole or half numbers: " + structural_key(e));
+    if (!exponent.info(GiNaC::info_flags::rational)) {
+      throw std::logic_error("exponents must be rational numbers: " + structural_key(e));
     }
     const ex base = named(e.op(0), family, index);
     if (exponent.info(GiNaC::info_flags::posint)) return GiNaC::pow(base, exponent).expand();
     if (exponent.info(GiNaC::info_flags::integer)) {
       return GiNaC::pow(name_of(family + "_divisor", index, base), exponent);
     }
-    const ex radicand = name_of(family + "_radicand", index, base);
-    const ex root = name_of(family + "_root", index, GiNaC::sqrt(radicand));
-    return GiNaC::pow(root, 2 * exponent);
+    const ex radicand = symbol_of(family + "_radicand", index, base);
+    if ((2 * exponent).info(GiNaC::info_flags::integer)) {
+      return GiNaC::pow(name_of(family + "_root", index, GiNaC::sqrt(radicand)), 2 * exponent);
+    }
+    const ex logarithm = name_of(family + "_logarithm", index, GiNaC::log(radicand));
+    const ex argument = name_of(family + "_exponent", index, exponent * logarithm);
+    return name_of(family + "_power", index, GiNaC::exp(argument));
   }
   if (GiNaC::is_a<GiNaC::function>(e) && e.nops() == 1) {
     const auto& function = GiNaC::ex_to<GiNaC::function>(e);
     const ex argument =
-        name_of(family + "_argument", index, named(e.op(0), family, index));
+        symbol_of(family + "_argument", index, named(e.op(0), family, index));
     const ex applied = GiNaC::function(function.get_serial(), argument);
     if (!GiNaC::is_a<GiNaC::function>(applied)) return named(applied, family, index);
     return name_of(family + "_" + function.get_name(), index, applied);
@@ -159,16 +167,15 @@ ex Definitions::named(const ex& expression, const std::string& family, int index
 }
 
 std::vector<int> Definitions::symbols_of(const ex& expression) const {
-  std::set<std::string> names;
-  collect_symbols(expression, names);
   std::vector<int> numbers;
-  for (const auto& name : names) numbers.push_back(number_by_name_.at(name));
+  for_each_symbol(expression, [&](const ex& symbol) { numbers.push_back(number_of(symbol)); });
   std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
 int Definitions::number_of(const ex& symbol) const {
-  return number_by_name_.at(GiNaC::ex_to<GiNaC::symbol>(symbol).get_name());
+  return number_by_symbol_.at(symbol);
 }
 
 std::string Definitions::canonical_key(const ex& expression) const {

@@ -62,10 +62,12 @@ class Definitions {
  private:
   GiNaC::ex make(const std::string& family, int index, bool is_input, const GiNaC::ex& value);
   GiNaC::ex name_of(const std::string& family, int index, const GiNaC::ex& value);
+  GiNaC::ex symbol_of(const std::string& family, int index, const GiNaC::ex& value);
   std::string unused_family(const std::string& wish, int index) const;
 
   std::vector<Symbol> symbols_;
   std::unordered_map<std::string, int> number_by_name_;
+  std::unordered_map<GiNaC::ex, int> number_by_symbol_;
   std::unordered_map<std::string, int> family_rank_;
   std::unordered_map<std::string, GiNaC::ex> by_value_;
 };

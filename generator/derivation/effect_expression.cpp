@@ -15,7 +15,7 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-constexpr int kLargestExponent = 100;  // numerator of the power
+constexpr int kLargestExponent = 100;  // numerator and denominator of the power
 constexpr int kLargestDecimal = 400;   // powers of ten in a number
 
 std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
@@ -133,14 +133,14 @@ class Evaluation {
     if (!exponent.unit.dimensionless()) {
       fail(what + " is in " + exponent.unit.text() + "; exponents have no unit");
     }
-    const ex twice = 2 * exponent.value;
-    if (!GiNaC::is_a<numeric>(twice) || !GiNaC::ex_to<numeric>(twice).is_integer()) {
-      fail(what + " is no whole or half number; write one such as 2 or (3/2), or exp(b*log(a))");
+    if (!exponent.value.info(GiNaC::info_flags::rational)) {
+      fail(what + " is no rational number; write one such as 2, (3/2) or 0.6, or exp(b*log(a))");
     }
     const numeric p = GiNaC::ex_to<numeric>(exponent.value).numer();
     const numeric q = GiNaC::ex_to<numeric>(exponent.value).denom();
-    if (GiNaC::abs(p) > kLargestExponent) {
-      fail(what + " is too large; its numerator goes up to " + std::to_string(kLargestExponent));
+    if (GiNaC::abs(p) > kLargestExponent || q > kLargestExponent) {
+      fail(what + " is too large; its numerator and denominator go up to " +
+           std::to_string(kLargestExponent));
     }
     if (base.value.is_zero() && p <= 0) {
       fail(in_quotes(node.operands[0].text) + " is zero; it has no power " + node.operands[1].text);

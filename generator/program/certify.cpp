@@ -22,6 +22,7 @@ struct Options {
   ModelOptions model;
   std::string folder = "generated";
   bool write = false;
+  bool library = false;
 };
 
 std::optional<std::string> text_of(const std::filesystem::path& path) {
@@ -91,6 +92,20 @@ bool certify(const Options& options, const Description& description, int links) 
   return problems.empty();
 }
 
+// The look-up of the models and the list for CMake.
+bool certify_library(const Options& options, const Description& description) {
+  const EmittedFiles files =
+      emit_files(description, description.links, true, [](const ModelSummary&, double) {});
+  bool same = true;
+  for (const char* name : {"models.hpp", "models.cpp", "CMakeLists.txt"}) {
+    const auto text = text_of(std::filesystem::path(options.folder) / name);
+    if (text && *text == files.at(name)) continue;
+    same = false;
+    std::printf("%s is not %s\n", name, text ? "what is derived" : "there");
+  }
+  return same;
+}
+
 }  // namespace
 
 void add_certify_command(CLI::App& app, int& status) {
@@ -101,16 +116,18 @@ void add_certify_command(CLI::App& app, int& status) {
   add_model_options(*command, options->model);
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();
+  command->add_flag("--library", options->library,
+                    "compare the look-up of the models and the list for CMake too");
   command->add_flag("--write", options->write, "write the certificates instead of comparing");
   command->footer(
-      "Exit status 1 if a byte of the emitted code differs, a proof fails or a number is out of "
-      "its "
+      "Exit status 1 if a byte of the emitted code differs, a proof fails or a number is out of its "
       "tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
   command->callback([options, &status] {
     const Description description = description_of(options->model);
     for (const int n : description.links) {
       if (!certify(*options, description, n)) status = 1;
     }
+    if (options->library && !certify_library(*options, description)) status = 1;
   });
 }
 

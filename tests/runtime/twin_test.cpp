@@ -296,6 +296,49 @@ void compare_geometry(const catena_model& emitted, const catena_model& closed, c
   CHECK_NEAR(energy_other[1] - energy[1], expected_other[1] - expected[1], 2.0 * height);
 }
 
+// Moments from the springs and dampers, tensions from Newton's second law for all that hangs below,
+// curvatures from the length of cable that a joint stands for: from middle to middle of its links,
+// at the clamp half of link 1.
+void compare_internal_forces(const catena_model& emitted, const Sample& s) {
+  const int n = emitted.links;
+  const Scale bound(s);
+  const catena_point at = s.at();
+  VectorXd moment(n), tension(n), curvature(n);
+  emitted.internal_forces(&at, moment.data(), tension.data(), curvature.data());
+  const auto parameter = [&](int family, int i) { return s.p[family * n + i]; };
+  const double load = s.p[6 * n], gravity = s.p[6 * n + 1];
+  VectorXd side(n), down(n);  // forces that link i and the load ask for: m (a - g)
+  double joint_side = 0.0, joint_down = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double l = parameter(0, i), m = parameter(1, i);
+    const double span_side = l * (s.a[i] * std::cos(s.q[i]) - s.v[i] * s.v[i] * std::sin(s.q[i]));
+    const double span_down = -l * (s.a[i] * std::sin(s.q[i]) + s.v[i] * s.v[i] * std::cos(s.q[i]));
+    side[i] = m * (joint_side + span_side / 2);
+    down[i] = m * (joint_down + span_down / 2 - gravity);
+    joint_side += span_side;
+    joint_down += span_down;
+  }
+  const double load_side = load * joint_side, load_down = load * (joint_down - gravity);
+  for (int i = 0; i < n; ++i) {
+    CAPTURE(i);
+    const double above = i == 0 ? 0.0 : s.q[i - 1], rate_above = i == 0 ? 0.0 : s.v[i - 1];
+    const double spacing = ((i == 0 ? 0.0 : parameter(0, i - 1)) + parameter(0, i)) / 2;
+    CHECK_NEAR(moment[i],
+               -parameter(3, i) * (s.q[i] - above) - parameter(4, i) * (s.v[i] - rate_above),
+               Scale::joint(bound.stiffness, i, s.q) + Scale::joint(bound.damping, i, s.v));
+    CHECK_NEAR(curvature[i], (s.q[i] - above) / spacing,
+               (std::abs(s.q[i]) + std::abs(above)) / spacing);
+    const double force_side = side.tail(n - i).sum() + load_side;
+    const double force_down = down.tail(n - i).sum() + load_down;
+    const double largest = side.cwiseAbs().sum() + down.cwiseAbs().sum() + std::abs(load_side) +
+                           std::abs(load_down) +
+                           (s.p.segment(n, n).sum() + load) * s.p.head(n).sum() *
+                               (s.a.cwiseAbs() + s.v.cwiseAbs2()).maxCoeff();
+    CHECK_NEAR(tension[i], -(force_side * std::sin(s.q[i]) + force_down * std::cos(s.q[i])),
+               largest);
+  }
+}
+
 template <int n>
 void check_twins() {
   CAPTURE(n);
@@ -323,6 +366,7 @@ void check_twins() {
       compare_solutions(emitted, closed, s);
       compare_tangent(emitted, closed, s);
       compare_geometry(emitted, closed, s);
+      compare_internal_forces(emitted, s);
     }
 }
 

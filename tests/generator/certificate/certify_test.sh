@@ -41,9 +41,25 @@ rm "model/$name.cpp"
 certify 1 "$name.cpp is not there"
 cp "certified/$name.cpp" model/
 
+# one byte in the middle of every file, all kinds
+for file in model/*; do
+  [[ $file == *.certificate.json ]] && continue
+  at=$(($(stat -c %s "$file") / 2))
+  [[ $(dd if="$file" bs=1 skip=$at count=1 status=none) == x ]] && byte=y || byte=x
+  printf %s $byte | dd of="$file" bs=1 seek=$at conv=notrunc status=none
+done
+certify 1 FAILED
+for file in model/*; do
+  [[ $file == *.certificate.json ]] && continue
+  grep -q "^  ${file#model/} is not what is derived" said || fail "$file: not noticed"
+done
+cp certified/* model/
+
 # the certificate itself
 sed -i 's/"proved": true/"proved": false/' "model/$name.certificate.json"
 certify 1 "/proofs/0/proved: on file false, now true"
+grep -q 'residual at neutral values = the plain chain' certified/$name.certificate.json ||
+  fail "not compared with the plain chain"
 cp "certified/$name.certificate.json" model/
 sed -i 's/"tolerance_roundings": [0-9.]*/"tolerance_roundings": 1e9/' "model/$name.certificate.json"
 certify 1 "numerical.tolerance_roundings: on file 1000000000.0, now"
@@ -59,4 +75,13 @@ rm "model/$name.certificate.json"
 printf ' ' >>"model/$name.hpp"
 "$derive" certify --links 3 --effect load_drag --folder model --write >/dev/null && fail "certified"
 [[ ! -e model/$name.certificate.json ]] || fail "a certificate was written"
+# the look-up of the models
+"$derive" derive --links 2 --output library --library >/dev/null
+"$derive" certify --links 2 --folder library --library --write >/dev/null
+"$derive" certify --links 2 --folder library --library >/dev/null
+for file in models.hpp models.cpp CMakeLists.txt; do printf ' ' >>library/$file; done
+"$derive" certify --links 2 --folder library --library >said && fail "changed, and certified"
+for file in models.hpp models.cpp CMakeLists.txt; do
+  grep -q "^$file is not what is derived" said || fail "$file: not noticed"
+done
 echo "every change was noticed"

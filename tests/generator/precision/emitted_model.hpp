@@ -57,7 +57,9 @@ struct EmittedModel {
       exact_tangents;
 };
 
-/// chain_2 .. chain_60, every_effect, stretch.
+/// chain_2 .. chain_60; every_effect and stretch; all of them.
+std::vector<EmittedModel> emitted_chains();
+std::vector<EmittedModel> emitted_effects();
 const std::vector<EmittedModel>& emitted_models();
 
 }  // namespace catena::tests

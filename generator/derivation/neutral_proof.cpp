@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/derivation/neutral_proof.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "generator/derivation/chain.hpp"
+#include "generator/derivation/effect_expression.hpp"
+#include "generator/derivation/written_out.hpp"
+#include "generator/description/toml_reader.hpp"
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+// The model's expressions with neutral values put in, in the symbols of the plain chain.
+class AtNeutral {
+ public:
+  AtNeutral(const Description& description, Chain& model, Chain& plain)
+      : neutral_(model.definitions(), "_neutral"), written_out_(model.definitions()) {
+    Definitions& definitions = model.definitions();
+    for (const Effect& effect : description.effects) {
+      for (const EffectParameter& parameter : effect.parameters) {
+        if (std::isnan(parameter.neutral)) continue;
+        const ex value = exact_number(shortest_number(parameter.neutral));
+        const std::string family = effect.id + "_" + parameter.name;
+        if (parameter.scope == Scope::kModel) {
+          neutral_.set(definitions.input(family), value);
+          continue;
+        }
+        for (int i = 1; i <= model.links(); ++i) {
+          neutral_.set(definitions.input(family, i), value);
+        }
+      }
+    }
+    for (int k = 0, count = plain.definitions().size(); k < count; ++k) {
+      const Symbol symbol = plain.definitions()[k];
+      if (symbol.is_input) {
+        shared_[definitions.input(symbol.family, symbol.index)] = symbol.symbol;
+      }
+    }
+  }
+
+  ex of(const ex& expression) {
+    return written_out_.of(neutral_.of(expression))
+        .subs(shared_, GiNaC::subs_options::no_pattern);
+  }
+
+ private:
+  Substitution neutral_;
+  WrittenOut written_out_;
+  GiNaC::exmap shared_;
+};
+
+class Comparison {
+ public:
+  Comparison(const std::string& what, AtNeutral& model, WrittenOut& plain)
+      : model_(model), plain_(plain) {
+    proof_.what = what;
+  }
+  void entry(const std::string& place, const ex& model, const ex& plain) {
+    ++proof_.entries;
+    if (!proof_.equal) return;
+    ex rest = (model_.of(model) - plain_.of(plain)).expand();
+    if (!rest.is_zero()) rest = without_sine_squares(rest);
+    if (rest.is_zero()) return;
+    proof_.equal = false;
+    std::ostringstream out;
+    out << proof_.what << place << ": the model has " << rest << " more";
+    proof_.difference = out.str();
+  }
+  Proof proof() const { return proof_; }
+
+ private:
+  AtNeutral& model_;
+  WrittenOut& plain_;
+  Proof proof_;
+};
+
+ex sum_of(const std::vector<ex>& parts) {
+  ex sum = 0;
+  for (const ex& part : parts) sum += part;
+  return sum;
+}
+
+}  // namespace
+
+NeutralProofs prove_neutral(const Description& description, int links) {
+  NeutralProofs result;
+  bool has_neutral = false;
+  for (const Effect& effect : description.effects) {
+    bool own = false;
+    for (const EffectParameter& parameter : effect.parameters) {
+      if (std::isinf(parameter.neutral)) {
+        result.why_not = effect.id + "." + parameter.name + " vanishes only in the limit";
+        return result;
+      }
+      own = own || !std::isnan(parameter.neutral);
+    }
+    if (!effect.coordinates.empty()) {
+      result.why_not = effect.id + " has coordinates that the plain chain does not have";
+    } else if (!own) {
+      result.why_not = effect.id + " has no parameter with a neutral value";
+    }
+    if (!result.why_not.empty()) return result;
+    has_neutral = true;
+  }
+  if (!has_neutral) return result;
+
+  Chain model(description, links), plain(plain_chain(), links);
+  AtNeutral at_neutral(description, model, plain);
+  WrittenOut written_out(plain.definitions());
+
+  Comparison residual("residual", at_neutral, written_out);
+  for (std::size_t i = 0; i < model.residual().size(); ++i) {
+    residual.entry("(" + std::to_string(i + 1) + ")", model.residual()[i], plain.residual()[i]);
+  }
+  result.proofs.push_back(residual.proof());
+
+  Comparison energies("energies and powers", at_neutral, written_out);
+  for (const EnergyItem& item : model.energies()) {
+    ex expected = 0;
+    for (const EnergyItem& other : plain.energies()) {
+      if (other.name == item.name && other.kind == item.kind) expected = sum_of(other.parts);
+    }
+    energies.entry(" of " + item.name, sum_of(item.parts), expected);
+  }
+  result.proofs.push_back(energies.proof());
+
+  Comparison forces("joint moments and tensions", at_neutral, written_out);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(links); ++i) {
+    forces.entry(" of joint " + std::to_string(i + 1), model.moments()[i], plain.moments()[i]);
+    forces.entry(" of link " + std::to_string(i + 1), model.tensions()[i], plain.tensions()[i]);
+  }
+  result.proofs.push_back(forces.proof());
+
+  if (model.sensor().given) {
+    const Chain::Sensor& ours = model.sensor();
+    const Chain::Sensor& none = plain.sensor();
+    Comparison sensor("what sensors report", at_neutral, written_out);
+    sensor.entry(" of side", ours.side, none.side);
+    sensor.entry(" of down", ours.down, none.down);
+    sensor.entry(" of angles", ours.angle, none.angle);
+    sensor.entry(" of time", ours.clock, none.clock);
+    result.proofs.push_back(sensor.proof());
+  }
+  return result;
+}
+
+}  // namespace catena
