@@ -11,7 +11,8 @@ namespace catena {
 
 namespace {
 
-// Measured on n = 2..60: straight lines are faster up to about here, loops are smaller from here on.
+// Measured on n = 2..60 (docs/scale.md): up to here both are of one size and speed, and straight lines
+// are easier to read; beyond it loops are smaller and no slower.
 constexpr int kLongestStraight = 4;
 
 std::string summary_text(const Description& description, const ModelSummary& s) {
@@ -86,12 +87,13 @@ Layout layout_for(int links) {
 }
 
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
-                        const std::function<void(const ModelSummary&, double seconds)>& progress) {
+                        const std::function<void(const ModelSummary&, double seconds)>& progress,
+                        std::optional<Layout> layout) {
   EmittedFiles files = support_text();
   std::vector<std::string> names;
   for (const int n : links) {
     const auto start = std::chrono::steady_clock::now();
-    EmittedModel model = emit_model(description, n, layout_for(n));
+    EmittedModel model = emit_model(description, n, layout.value_or(layout_for(n)));
     const std::string name = model.summary.name;
     names.push_back(name);
     files.merge(model.files);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,13 @@ using EmittedFiles = std::map<std::string, std::string>;
 
 /// Everything needed to compile the models of a description at the given link counts, and per model
 /// a summary of what was found (<name>.json). `library`: also the look-up of all of them
-/// (models.hpp, models.cpp) and the list for CMake. `progress` is told of each model.
+/// (models.hpp, models.cpp) and the list for CMake. `progress` is told of each model. `layout`: for
+/// all of them; else layout_for each.
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
-                        const std::function<void(const ModelSummary&, double seconds)>& progress);
+                        const std::function<void(const ModelSummary&, double seconds)>& progress,
+                        std::optional<Layout> layout = std::nullopt);
 
-/// Layout used at a link count: straight lines for short chains, loops for long ones.
+/// Straight lines for short chains, loops for long ones: docs/scale.md has the measurements.
 Layout layout_for(int links);
 
 }  // namespace catena

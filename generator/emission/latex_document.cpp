@@ -96,10 +96,10 @@ class Document {
   Document(const Description& description, int links) : description_(description), links_(links) {
     for (const Effect& effect : description.effects) {
       const auto name = [&](const std::string& own, const std::string& ending) {
-        names_[effect.id + "_" + own + ending] = (ending == "_dot"    ? "\\dot"
-                                                  : ending == "_ddot" ? "\\ddot"
-                                                                      : "") +
-                                                 ("{" + shown(effect, own) + "}");
+        const bool once = ending == "_dot" || ending == "_rate";
+        names_[effect.id + "_" + own + ending] =
+            ending.empty() ? shown(effect, own)
+                           : (once ? "\\dot{" : "\\ddot{") + shown(effect, own) + "}";
       };
       for (const EffectParameter& parameter : effect.parameters) name(parameter.name, "");
       for (const ExtraState& state : effect.states) name(state.name, "");
@@ -125,9 +125,20 @@ class Document {
   }
 
  private:
+  // An operator has a space to what stands beside it, as a name of several letters needs. The effect
+  // is named where two have a quantity of this name.
   std::string shown(const Effect& effect, const std::string& own) const {
-    const std::string name = description_.effects.size() > 1 ? effect.id + "." + own : own;
-    return "\\mathrm{" + escaped(name) + "}";
+    const auto has_it = [&](const Effect& other) {
+      const auto named = [&](const auto& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](const auto& quantity) { return quantity.name == own; });
+      };
+      return named(other.parameters) || named(other.states) || named(other.coordinates) ||
+             named(other.signals);
+    };
+    const auto count =
+        std::count_if(description_.effects.begin(), description_.effects.end(), has_it);
+    return "\\operatorname{" + escaped(count > 1 ? effect.id + "." + own : own) + "}";
   }
 
   std::string coordinate(std::size_t i, const std::string& dot = "") const {

@@ -17,7 +17,7 @@ using GiNaC::numeric;
 
 namespace {
 
-constexpr std::size_t kLongestInside = 40;  // letters under a root or in a function
+constexpr std::size_t kLongestInside = 20;  // letters under a root or in a function
 constexpr std::string_view kOpening = "\\left(", kClosing = "\\right)";
 
 std::string with_power(const std::string& base, int power) {

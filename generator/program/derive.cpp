@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
@@ -22,6 +23,7 @@ struct Options {
   bool library = false;
   bool latex = false;
   std::string format = "c++";
+  std::string layout;  // empty: by the number of links
 };
 
 void write_latex(const Options& options, const Description& description) {
@@ -54,7 +56,11 @@ void derive(const Options& options) {
     for (const int n : description.links) files.merge(emit_c_model(description, n));
     files["catena_model.h"] = support_text().at("catena_model.h");
   } else {
-    files = emit_files(description, description.links, options.library, progress);
+    std::optional<Layout> layout;
+    if (!options.layout.empty()) {
+      layout = options.layout == "straight" ? Layout::kStraight : Layout::kLoops;
+    }
+    files = emit_files(description, description.links, options.library, progress, layout);
   }
   std::filesystem::create_directories(options.output);
   for (const auto& [name, text] : files) {
@@ -77,6 +83,10 @@ void add_derive_command(CLI::App& app, int& status) {
       ->add_option("--format", options->format, "c++, or c: plain C99 for embedding")
       ->check(CLI::IsMember({"c++", "c"}))
       ->capture_default_str();
+  command
+      ->add_option("--layout", options->layout,
+                   "straight lines or loops; without it the faster for the number of links")
+      ->check(CLI::IsMember({"straight", "loops"}));
   command->add_flag("--latex", options->latex,
                     "write the equations as a LaTeX document instead, for reading");
   command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");

@@ -97,9 +97,9 @@ TEST_CASE("an effect stands with its formula and its generalised forces") {
   description.effects.push_back(built_in_effect("pivot_stiffness"));
   const std::string text = plain(latex_document(description, {2}));
   CHECK(text.find(plain(R"(V = \frac{\mathrm{change} \, \varphi^2}{2})")) != std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 {\mathrm{change}})")) ==
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 \operatorname{change})")) ==
         std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - {\mathrm{change}} \theta_1)")) !=
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \operatorname{change} \theta_1)")) !=
         std::string::npos);
   CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) != std::string::npos);
 }
@@ -141,4 +141,15 @@ TEST_CASE("sines and cosines are put together without changing the value") {
       ++expected;
     }
   }
+}
+
+TEST_CASE("names that two effects share are told apart, others stand alone") {
+  Description description = plain_chain();
+  for (const char* id : {"load_drag", "link_damping", "pivot_stiffness"}) {
+    description.effects.push_back(built_in_effect(id));
+  }
+  const std::string text = latex_document(description, {2});
+  CHECK(text.find("\\operatorname{load\\_drag.coefficient}") != std::string::npos);
+  CHECK(text.find("\\operatorname{link\\_damping.coefficient}") != std::string::npos);
+  CHECK(text.find("\\operatorname{change}") != std::string::npos);
 }
