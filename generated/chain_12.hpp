@@ -1419,7 +1419,7 @@ void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
-/// 173 additions, 205 multiplications, 12 divisions, 0 functions
+/// 173 additions, 206 multiplications, 12 divisions, 0 functions
 template <class T>
 void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   const FromOne<T> length(at.p);
@@ -1444,7 +1444,7 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
     const T joint_rate = theta_dot[1];
     const T joint_moment = stiffness[1] * joint_angle + damping[1] * joint_rate;
     moment[0] = -joint_moment;
-    curvature[0] = theta[1] / length[1];
+    curvature[0] = T(2) * theta[1] / length[1];
   }
   {
     span_side_acceleration[2] = length[2] * (theta_ddot[2] * cosine[2]
@@ -1508,7 +1508,7 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
 }
 
 /// Derivative of moments, tensions and curvatures along `along`.
-/// 517 additions, 653 multiplications, 24 divisions, 0 functions
+/// 517 additions, 654 multiplications, 24 divisions, 0 functions
 template <class T>
 void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
                              T* dtension, T* dcurvature) {
@@ -1554,7 +1554,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
         + theta_dot[1] * cosine[1] * d_theta[1]));
     dmoment[0] = -d_joint_moment;
-    dcurvature[0] = (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
+    dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
   }
   {
     span_side_acceleration[2] = length[2] * (theta_ddot[2] * cosine[2]
