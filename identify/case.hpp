@@ -105,6 +105,7 @@ struct ExperimentSpec {
   double fit_until = std::numeric_limits<double>::infinity();  ///< later frames only validate
   double start = kNotGiven;   ///< model time at which the initial state holds; NaN: the first frame
   double window = kNotGiven;  ///< s: cut into windows, each an experiment with its own initial state
+  bool joined = false;        ///< multiple shooting: each window must end where the next one starts
   int every = 1;              ///< only every so many-th frame
   double noise = kNotGiven;   ///< expected standard deviation, m or rad
   std::vector<PointSpec> points;  ///< empty: all columns side_i_m, down_i_m or theta_i_rad
@@ -130,6 +131,8 @@ enum class Measure {
   kLeastSquares,   ///< root mean square of the residuals, weighted by the noise where given
   kMeanDistance,   ///< mean over frames and markers of the distance, (6.5), (6.6)
   kMeanAbsolute,   ///< mean over channels of the mean absolute residual, (7.1)-(7.5)
+  kLikelihood,     ///< geometric mean of the channels' root mean squares: the likelihood with the noise
+                   ///< of every channel unknown
 };
 
 enum class Loss { kNone, kHuber, kSoftL1, kCauchy };

@@ -235,6 +235,9 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
   experiment.fit_until = table.optional_number("fit_until").value_or(experiment.fit_until);
   experiment.start = table.optional_number("start").value_or(kNotGiven);
   experiment.window = optional_positive(table, "window", kNotGiven);
+  experiment.joined = table.optional_flag("joined").value_or(false);
+  if (experiment.joined && std::isnan(experiment.window))
+    table.fail("joined", "true; say in window how long the pieces are, in s");
   experiment.every = count(table, "every", 1, 1);
   experiment.noise = optional_positive(table, "noise", kNotGiven);
   if (!(experiment.from < experiment.to))

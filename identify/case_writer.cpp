@@ -154,6 +154,7 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
   out.number("fit_until", experiment.fit_until, infinity);
   out.number("start", experiment.start);
   out.number("window", experiment.window);
+  out.flag("joined", experiment.joined);
   out.count("every", experiment.every, 1);
   out.number("noise", experiment.noise);
   out.text("source", word(kSourceWords, experiment.source), "catena");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace catena {
 namespace {
@@ -31,32 +32,17 @@ void for_each_seen(const Problem& problem, const Evaluation& evaluation, Part pa
   }
 }
 
-/// Residuals that belong to one point: side and down of a marker, or one angle.
-struct Distance {
-  Index first = 0, count = 0;
-};
+constexpr double kLeastNoise = 1e-12;  // m or rad: perfect data leave nothing to weigh by
 
-/// Neighbouring residuals of the same marker and frame, together a distance.
-std::vector<Distance> distances(const Problem& problem, const Residuals& residuals) {
-  std::vector<Distance> out;
-  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
-    const ResidualIndex& here = residuals.index[i];
-    const auto point_of = [&](const ResidualIndex& index) {
-      return problem.experiments()[static_cast<std::size_t>(index.experiment)]
-          .recording.channels[static_cast<std::size_t>(index.channel)]
-          .point;
-    };
-    if (i > 0) {
-      const ResidualIndex& last = residuals.index[i - 1];
-      if (last.experiment == here.experiment && last.frame == here.frame &&
-          point_of(last) == point_of(here)) {
-        ++out.back().count;
-        continue;
-      }
-    }
-    out.push_back({static_cast<Index>(i), 1});
+/// Of every residual, its channel's place in a list of the channels of all recordings that have any.
+std::vector<std::size_t> channel_places(const Problem& problem, const Residuals& residuals) {
+  std::map<std::pair<int, int>, std::size_t> found;  // (recording, channel), in order of appearance
+  std::vector<std::size_t> places;
+  for (const ResidualIndex& index : residuals.index) {
+    const int source = problem.experiments()[static_cast<std::size_t>(index.experiment)].source;
+    places.push_back(found.try_emplace({source, index.channel}, found.size()).first->second);
   }
-  return out;
+  return places;
 }
 
 }  // namespace
@@ -83,14 +69,86 @@ Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Par
   return residuals;
 }
 
+std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals) {
+  std::vector<Distance> out;
+  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
+    const ResidualIndex& here = residuals.index[i];
+    const auto point_of = [&](const ResidualIndex& index) {
+      return problem.experiments()[static_cast<std::size_t>(index.experiment)]
+          .recording.channels[static_cast<std::size_t>(index.channel)]
+          .point;
+    };
+    if (i > 0) {
+      const ResidualIndex& last = residuals.index[i - 1];
+      if (last.experiment == here.experiment && last.frame == here.frame &&
+          point_of(last) == point_of(here)) {
+        ++out.back().count;
+        continue;
+      }
+    }
+    out.push_back({static_cast<Index>(i), 1});
+  }
+  return out;
+}
+
+Joints joints_of(const Problem& problem, const Evaluation& evaluation) {
+  Joints joints;
+  const Index size = 2 * problem.model().coordinates();
+  Index count = 0;
+  for (const Experiment& experiment : problem.experiments()) count += experiment.meets >= 0 ? size : 0;
+  joints.value.resize(count);
+  joints.weight.resize(count);
+  if (evaluation.with_jacobian)
+    joints.jacobian.resize(count, static_cast<Index>(problem.unknowns().size()));
+  Index row = 0;
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const Experiment& experiment = problem.experiments()[e];
+    if (experiment.meets < 0) continue;
+    const Prediction& here = evaluation.predictions[e];
+    const Prediction& next = evaluation.predictions[static_cast<std::size_t>(experiment.meets)];
+    joints.value.segment(row, size) = here.last - next.first;
+    const double noise = std::isnan(experiment.spec.noise) ? 1 : experiment.spec.noise;
+    joints.weight.segment(row, size).setConstant(problem.joint_weight() / noise);
+    if (evaluation.with_jacobian)
+      joints.jacobian.middleRows(row, size) = here.last_along - next.first_along;
+    row += size;
+  }
+  return joints;
+}
+
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
   Eigen::VectorXd noise(residuals.value.size());
+  if (problem.study().error.measure == Measure::kLikelihood) {
+    const std::vector<ChannelNoise> channels = channels_of(problem, residuals);
+    const std::vector<std::size_t> places = channel_places(problem, residuals);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      noise[static_cast<Index>(i)] = std::max(channels[places[i]].deviation, kLeastNoise);
+    return noise;
+  }
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
     const double given =
         problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)].spec.noise;
     noise[static_cast<Index>(i)] = std::isnan(given) ? 1 : given;
   }
   return noise;
+}
+
+std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& residuals) {
+  const std::vector<std::size_t> places = channel_places(problem, residuals);
+  std::vector<ChannelNoise> channels;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (channels.size() <= places[i]) channels.resize(places[i] + 1);
+    ChannelNoise& channel = channels[places[i]];
+    const Experiment& experiment =
+        problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)];
+    channel.name = problem.study().experiments[static_cast<std::size_t>(experiment.source)].name + ": " +
+                   experiment.recording.channels[static_cast<std::size_t>(residuals.index[i].channel)].name;
+    ++channel.count;
+    channel.deviation += residuals.value[static_cast<Index>(i)] * residuals.value[static_cast<Index>(i)];
+  }
+  for (ChannelNoise& channel : channels)
+    channel.deviation = std::sqrt(channel.deviation / static_cast<double>(channel.count));
+  return channels;
 }
 
 Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals) {
@@ -116,12 +174,15 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
   double error = 0;
   switch (problem.study().error.measure) {
     case Measure::kLeastSquares:
-      error = std::sqrt(
-          residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm() /
-          static_cast<double>(residuals.value.size()));
+      error = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm();
+      if (part == Part::kFit) {
+        const Joints joints = joints_of(problem, evaluation);
+        error += joints.value.cwiseProduct(joints.weight).squaredNorm();
+      }
+      error = std::sqrt(error / static_cast<double>(residuals.value.size()));
       break;
     case Measure::kMeanDistance: {
-      const std::vector<Distance> points = distances(problem, residuals);
+      const std::vector<Distance> points = distances_of(problem, residuals);
       for (const Distance& point : points)
         error += residuals.value.segment(point.first, point.count).norm();
       error /= static_cast<double>(points.size());
@@ -129,6 +190,9 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
     }
     case Measure::kMeanAbsolute:
       error = channel_weights(problem, residuals).dot(residuals.value.cwiseAbs());
+      break;
+    case Measure::kLikelihood:
+      error = std::exp(noise_of(problem, residuals).array().log().mean());
       break;
   }
   return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
@@ -147,12 +211,15 @@ double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
     case Measure::kLeastSquares: {
       const Eigen::VectorXd noise = noise_of(problem, residuals);
       const auto count = static_cast<double>(r.size());
-      error = std::sqrt(r.cwiseQuotient(noise).squaredNorm() / count);
+      const Joints joints = joints_of(problem, evaluation);
+      const Eigen::VectorXd gaps = joints.value.cwiseProduct(joints.weight);
+      error = std::sqrt((r.cwiseQuotient(noise).squaredNorm() + gaps.squaredNorm()) / count);
       by_residual = r.array() / noise.array().square() / (count * error);
+      gradient = joints.jacobian.transpose() * gaps.cwiseProduct(joints.weight) / (count * error);
       break;
     }
     case Measure::kMeanDistance: {
-      const std::vector<Distance> points = distances(problem, residuals);
+      const std::vector<Distance> points = distances_of(problem, residuals);
       const auto count = static_cast<double>(points.size());
       for (const Distance& point : points) {
         const auto part = r.segment(point.first, point.count);
@@ -160,6 +227,12 @@ double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
         error += distance / count;
         by_residual.segment(point.first, point.count) = part / (distance * count);
       }
+      break;
+    }
+    case Measure::kLikelihood: {
+      const Eigen::VectorXd noise = noise_of(problem, residuals);
+      error = std::exp(noise.array().log().mean());
+      by_residual = error / static_cast<double>(r.size()) * r.array() / noise.array().square();
       break;
     }
     case Measure::kMeanAbsolute: {
@@ -172,7 +245,7 @@ double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
       break;
     }
   }
-  gradient = residuals.jacobian.transpose() * by_residual;
+  gradient += residuals.jacobian.transpose() * by_residual;
   return error;
 }
 
@@ -180,7 +253,7 @@ std::vector<Gap> gaps_of(const Problem& problem, const Evaluation& evaluation) {
   std::vector<Gap> gaps;
   for (const Part part : {Part::kFit, Part::kValidation}) {
     const Residuals residuals = residuals_of(problem, evaluation, part);
-    const std::vector<Distance> points = distances(problem, residuals);
+    const std::vector<Distance> points = distances_of(problem, residuals);
     for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
       Gap gap;
       gap.experiment = static_cast<int>(e);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "identify/problem.hpp"
@@ -24,15 +25,41 @@ struct Residuals {
 
 Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
-/// The noise to weigh each residual by: the experiment's, or 1 where it states none.
+/// Neighbouring residuals of the same marker and frame (side and down), or one angle: together a
+/// distance.
+struct Distance {
+  Eigen::Index first = 0, count = 0;
+};
+std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
+
+/// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s), window
+/// by window. Nothing where none are joined.
+struct Joints {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd jacobian;  ///< joints x unknowns, empty if the evaluation had none
+  Eigen::VectorXd weight;    ///< of each in units of the residuals over their noise
+};
+Joints joints_of(const Problem& problem, const Evaluation& evaluation);
+
+/// The noise to weigh each residual by: the experiment's, or 1 where it states none. Under the
+/// likelihood: what its channel's residuals show, see channels_of.
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
+
+/// One channel of one recording, over all its windows.
+struct ChannelNoise {
+  std::string name;          ///< "recording: marker 3 side"
+  Eigen::Index count = 0;    ///< residuals
+  double deviation = 0;      ///< their root mean square, m or rad
+};
+std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& residuals);
 
 /// Weights with which the sum of weight * |residual| is (7.1): the mean over the channels of each
 /// channel's mean.
 Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals);
 
 /// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
-/// Infinite if the evaluation failed; a failed simulation is never a good fit.
+/// Infinite if the evaluation failed; a failed simulation is never a good fit. Gaps between joined
+/// windows count with their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
 /// The same with its gradient by the unknowns. The kinks of the two L1-like measures are rounded on
 /// a scale of `rounding` (m or rad).

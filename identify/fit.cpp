@@ -2,41 +2,14 @@
 #include "identify/fit.hpp"
 
 #include <cmath>
-#include <limits>
-#include <nlopt.hpp>
 
 #include "generator/description/input_error.hpp"
 #include "identify/error.hpp"
 #include "identify/fit_journal.hpp"
+#include "identify/minimise.hpp"
 
 namespace catena {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// A failed simulation counts as infinitely bad; the simplex needs a number it can compare and average.
-constexpr double kWorst = 1e100;
-
-nlopt::algorithm algorithm_of(FitMethod method) {
-  switch (method) {
-    case FitMethod::kNelderMead:
-      return nlopt::LN_NELDERMEAD;
-    case FitMethod::kLbfgs:
-      return nlopt::LD_LBFGS;
-    case FitMethod::kSlsqp:
-      return nlopt::LD_SLSQP;
-    case FitMethod::kMma:
-      return nlopt::LD_MMA;
-    case FitMethod::kLeastSquares:
-      break;
-  }
-  throw std::invalid_argument("least squares is not among NLopt's methods");
-}
-
-std::vector<double> plain(const Eigen::VectorXd& x) { return {x.begin(), x.end()}; }
-
-Eigen::VectorXd vector(const std::vector<double>& x) {
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
 
 /// d(unknown)/d(scaled unknown): the unknown itself where the scale is logarithmic.
 Eigen::VectorXd scale_slopes(const Problem& problem, const Eigen::VectorXd& x) {
@@ -47,9 +20,9 @@ Eigen::VectorXd scale_slopes(const Problem& problem, const Eigen::VectorXd& x) {
   return slopes;
 }
 
-std::vector<double> first_steps(const Problem& problem, const Eigen::VectorXd& start) {
+Eigen::VectorXd first_steps(const Problem& problem, const Eigen::VectorXd& start) {
   const double step = problem.study().optimiser.initial_step;
-  std::vector<double> steps;
+  Eigen::VectorXd steps(start.size());
   for (Eigen::Index j = 0; j < start.size(); ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     double size = step;  // of a logarithm: a relative step
@@ -59,7 +32,7 @@ std::vector<double> first_steps(const Problem& problem, const Eigen::VectorXd& s
         size = step * (unknown.upper - unknown.lower);
       if (size == 0) size = step * (unknown.group == Unknown::Group::kInitial ? 0.1 : 1);
     }
-    steps.push_back(size);
+    steps[j] = size;
   }
   return steps;
 }
@@ -70,48 +43,27 @@ FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
   const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
   const bool gradient_wanted = spec.method != FitMethod::kNelderMead;
 
-  nlopt::opt solver(algorithm_of(spec.method), static_cast<unsigned>(start.size()));
+  MinimiserOptions settings;
+  settings.method = spec.method;
   Eigen::VectorXd lower(start.size()), upper(start.size());
   for (Eigen::Index j = 0; j < start.size(); ++j) {
     lower[j] = problem.unknowns()[static_cast<std::size_t>(j)].lower;
     upper[j] = problem.unknowns()[static_cast<std::size_t>(j)].upper;
   }
-  solver.set_lower_bounds(plain(to_scaled(problem, lower)));
-  solver.set_upper_bounds(plain(to_scaled(problem, upper)));
-  if (!gradient_wanted) solver.set_initial_step(first_steps(problem, start));
-  solver.set_xtol_rel(spec.tolerance);
-  solver.set_ftol_rel(gradient_wanted ? 1e-2 * spec.tolerance : spec.tolerance);
-  nlopt::vfunc objective = [](const std::vector<double>& y, std::vector<double>& slope,
-                              void* data) -> double {
-    auto& [journal, problem, solver] =
-        *static_cast<std::tuple<FitJournal*, const Problem*, nlopt::opt*>*>(data);
-    const Eigen::VectorXd x = from_scaled(*problem, vector(y));
-    Eigen::VectorXd gradient;
-    const double error = journal->evaluate(x, slope.empty() ? nullptr : &gradient);
-    if (journal->must_stop()) solver->force_stop();
-    if (!slope.empty()) {
-      gradient.array() *= scale_slopes(*problem, x).array();
-      std::copy(gradient.begin(), gradient.end(), slope.begin());
-    }
-    return std::isfinite(error) ? error : kWorst;
+  settings.lower = to_scaled(problem, lower);
+  settings.upper = to_scaled(problem, upper);
+  if (!gradient_wanted) settings.first_steps = first_steps(problem, start);
+  settings.x_tolerance = spec.tolerance;
+  settings.value_tolerance = gradient_wanted ? 1e-2 * spec.tolerance : spec.tolerance;
+  settings.must_stop = [&] { return journal.must_stop(); };
+  const Objective error = [&](const Eigen::VectorXd& y, Eigen::VectorXd* gradient) {
+    const Eigen::VectorXd x = from_scaled(problem, y);
+    const double value = journal.evaluate(x, gradient);
+    if (gradient) gradient->array() *= scale_slopes(problem, x).array();
+    return value;
   };
-  std::tuple<FitJournal*, const Problem*, nlopt::opt*> data(&journal, &problem, &solver);
-  solver.set_min_objective(objective, &data);
-
-  std::vector<double> y = plain(to_scaled(problem, start));
-  double error = kInfinite;
-  FitStatus status = FitStatus::kConverged;
-  std::string message;
-  try {
-    solver.optimize(y, error);
-  } catch (const nlopt::forced_stop&) {
-    status = journal.why_stopped();
-  } catch (const nlopt::roundoff_limited&) {
-    message = "stopped at the limit of rounding";
-  } catch (const std::runtime_error& problem_found) {  // NLopt: generic failure of a line search
-    message = std::string("stopped by NLopt: ") + problem_found.what();
-  }
-  return journal.result(status, message);
+  const Minimum found = minimise(error, to_scaled(problem, start), settings);
+  return journal.result(found.stopped ? journal.why_stopped() : FitStatus::kConverged, found.message);
 }
 
 }  // namespace
@@ -162,17 +114,32 @@ FitResult fit_once(const Problem& problem, const FitOptions& options,
              : fit_by_nlopt(problem, options);
 }
 
+// What a gap between joined windows costs at first: hardly anything, so that each window finds its own
+// best start; then more, up to the problem's own weight, with which it closes.
+constexpr double kLooseJoints[] = {0.1, 1, 10, 100};
+
+bool finished(const FitResult& result) {
+  return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
+}
+
 /// What came before counts too; errors of shorter windows are no errors of the whole.
 void add_effort(FitResult& total, const FitResult& before) {
   total.evaluations += before.evaluations;
   total.iterations += before.iterations;
   total.work += before.work;
   total.seconds += before.seconds;
+  total.cpu_seconds += before.cpu_seconds;
   total.failures += before.failures;
   total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
 }
 
 }  // namespace
+
+const char* strategy_of(const Problem& problem) {
+  if (problem.joined()) return "multiple shooting";
+  if (problem.experiments().size() > problem.study().experiments.size()) return "separate windows";
+  return problem.study().optimiser.growing_windows.empty() ? "whole" : "growing windows";
+}
 
 void check_fittable(const Problem& problem) {
   if (problem.unknowns().empty())
@@ -198,17 +165,23 @@ FitResult fit(const Problem& problem, const FitOptions& options, const LeastSqua
   for (const double seconds : spec.growing_windows) {
     FitResult shorter = fit_once(problem.shortened(seconds), next, least_squares);
     add_effort(shorter, before);
-    if (shorter.status == FitStatus::kInterrupted || shorter.status == FitStatus::kTimeLimit ||
-        shorter.status == FitStatus::kFailed)
-      return shorter;
+    if (!finished(shorter)) return shorter;
     next.start = shorter.x;
     before = std::move(shorter);
   }
+  if (problem.joined())
+    for (const double weight : kLooseJoints) {
+      FitResult looser = fit_once(problem.with_joint_weight(weight), next, least_squares);
+      add_effort(looser, before);
+      if (!finished(looser)) return looser;
+      next.start = looser.x;
+      before = std::move(looser);
+    }
   next.recall = options.recall;
   next.record = options.record;
   FitResult result = fit_once(problem, next, least_squares);
   add_effort(result, before);
-  if (!spec.growing_windows.empty()) {
+  if (!spec.growing_windows.empty() || problem.joined()) {
     const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
     result.start_error = error_of(problem, evaluate(problem, start, false, false), Part::kFit);
   }

@@ -45,6 +45,7 @@ struct FitResult {
   double work = 0;           ///< in simulations' worth of time: with sensitivities they cost more
   int iterations = 0;
   double seconds = 0;
+  double cpu_seconds = 0;    ///< of this thread: what the fit cost, whatever else the machine does
   std::vector<HistoryEntry> history;
   int failures = 0;
   std::vector<Failure> failed;  ///< the first hundred
@@ -70,10 +71,14 @@ struct FitOptions {
 using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
 
 /// Fits the unknowns by the method the case names; where the case asks for growing windows, first the
-/// beginning of each experiment, then longer parts, each from where the one before ended. Nelder-Mead (chapter 5; reflection 1, expansion 2,
-/// contraction and shrink 1/2) and the bounded gradient methods are NLopt's. Throws InputError for
-/// least squares without a solver.
+/// beginning of each experiment, then longer parts, each from where the one before ended; where it joins
+/// windows (multiple shooting), first with gaps between them that cost little, then ever more.
+/// Nelder-Mead and the bounded gradient methods are those of minimise.hpp. Throws InputError for least
+/// squares without a solver.
 FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
+
+/// How a recording is taken: "whole", "growing windows", "separate windows", "multiple shooting".
+const char* strategy_of(const Problem& problem);
 
 /// Throws InputError unless there are unknowns and data to fit them to.
 void check_fittable(const Problem& problem);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/fit_journal.hpp"
 
+#include <time.h>
+
 #include <cmath>
 #include <limits>
 
@@ -10,6 +12,12 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFailuresKept = 100;
 
+double cpu_now() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
 FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations)
@@ -17,6 +25,7 @@ FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int ma
   result_.x = options.start.size() ? options.start : problem.start();
   result_.error = kInfinite;
   result_.start_error = kInfinite;
+  cpu_begin_ = cpu_now();
 }
 
 double FitJournal::seconds() const {
@@ -89,6 +98,7 @@ FitResult FitJournal::result(FitStatus status, const std::string& message) {
   if (result_.status == FitStatus::kFailed && !result_.failed.empty())
     result_.message = "no simulation succeeded; the first: " + result_.failed.front().message;
   result_.seconds = seconds();
+  result_.cpu_seconds = cpu_now() - cpu_begin_;
   return result_;
 }
 

@@ -35,6 +35,7 @@ class FitJournal {
   int limit_;
   FitResult result_;
   FitStatus why_ = FitStatus::kConverged;
+  double cpu_begin_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -20,7 +20,10 @@ class Csv {
   void field(const std::string& text) {
     if (!first_) text_ += ',';
     first_ = false;
-    text_ += text;
+    const bool plain = text.find_first_of(",\"\n") == std::string::npos;
+    if (!plain) text_ += '"';
+    for (const char c : text) text_ += c == '"' ? "\"\"" : std::string(1, c);
+    if (!plain) text_ += '"';
   }
   std::string take() { return std::move(text_); }
 
@@ -154,6 +157,21 @@ std::string residuals_csv(const Problem& problem, const Evaluation& evaluation) 
         csv.number(simulated(c, k) - measured);
         csv.end_line();
       }
+  }
+  return csv.take();
+}
+
+std::string history_csv(const Problem& problem, const FitResult& fit) {
+  Csv csv;
+  csv.name("step");
+  csv.name("error");
+  for (const Unknown& unknown : problem.unknowns()) csv.name(unknown.name);
+  csv.end_line();
+  for (std::size_t k = 0; k < fit.history.size(); ++k) {
+    csv.field(std::to_string(k + 1));
+    csv.number(fit.history[k].error);
+    for (const double value : fit.history[k].x) csv.number(value);
+    csv.end_line();
   }
   return csv.take();
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/fit.hpp"
 #include "identify/problem.hpp"
 
 namespace catena {
@@ -33,5 +34,9 @@ std::string energy_csv(const Model& model, const Motion& motion);
 /// experiment, part, point, component, time_s, measured, simulated, residual (m or rad) of all
 /// frames.
 std::string residuals_csv(const Problem& problem, const Evaluation& evaluation);
+
+/// step, error (in the case's measure; inf where the simulation failed) and the unknowns of every
+/// evaluation of a fit, in their order.
+std::string history_csv(const Problem& problem, const FitResult& fit);
 
 }  // namespace catena

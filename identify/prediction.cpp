@@ -49,6 +49,7 @@ Clock clock_of(const Model& model, const Experiment& experiment, const VectorXd&
   clock.times = {start};
   for (const double t : tau)
     if (t > start) clock.times.push_back(t);
+  if (experiment.meets >= 0) clock.times.push_back(experiment.ends);
   std::sort(clock.times.begin(), clock.times.end());
   clock.times.erase(std::unique(clock.times.begin(), clock.times.end()), clock.times.end());
   for (const double t : tau) {
@@ -230,6 +231,25 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
       for (Index c = 0; c < channels; ++c)
         prediction.sensitivity[seed_of[s]](c, k) =
             observer.derivative(recording.channels[static_cast<std::size_t>(c)]);
+    }
+  }
+  if (experiment.spec.joined) {
+    const double ends = experiment.meets >= 0 ? experiment.ends : clock.times.back();
+    const Index end =
+        std::lower_bound(clock.times.begin(), clock.times.end(), ends) - clock.times.begin();
+    const auto state = [](const Trajectory& path, Index column) {
+      VectorXd out(2 * path.q.rows());
+      out << path.q.col(column), path.v.col(column);
+      return out;
+    };
+    prediction.first = state(simulation.trajectory, 0);
+    prediction.last = state(simulation.trajectory, end);
+    prediction.first_along.setZero(prediction.first.size(), static_cast<Index>(along.size()));
+    prediction.last_along = prediction.first_along;
+    for (std::size_t s = 0; s < seeds.size(); ++s) {
+      const auto j = static_cast<Index>(seed_of[s]);
+      prediction.first_along.col(j) = state(simulation.sensitivity[s], 0);
+      prediction.last_along.col(j) = state(simulation.sensitivity[s], end);
     }
   }
   bool finite = prediction.simulated.allFinite();

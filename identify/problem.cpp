@@ -72,14 +72,51 @@ Problem::Problem(Case study, Model model, std::vector<Recording> recordings)
                               ? read_recording(spec, study_.links, cable_length(study_))
                               : std::move(recordings[e]);
     if (!std::isnan(spec.window)) {
+      const std::size_t before = experiments_.size();
       cut_windows(spec, recording, experiments_);
+      if (spec.joined) join(before);
     } else {
       experiments_.emplace_back();
       experiments_.back().spec = spec;
       experiments_.back().recording = std::move(recording);
     }
+    for (auto window = experiments_.rbegin(); window != experiments_.rend() && window->source < 0; ++window)
+      window->source = static_cast<int>(e);
   }
   prepare();
+}
+
+void Problem::join(std::size_t first) {
+  const InitialSpec& initial = experiments_[first].spec.initial.value_or(study_.initial);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(experiments_[first].spec.where + ": joined: " + what);
+  };
+  if (study_.optimiser.method != FitMethod::kLeastSquares ||
+      study_.error.measure != Measure::kLeastSquares)
+    refuse("multiple shooting needs method and measure least_squares");
+  if (!study_.optimiser.growing_windows.empty())
+    refuse("and growing_windows; choose one of the two");
+  if (!initial.free || initial.shape != Shape::kAngles || initial.at_rest || !initial.velocity_free ||
+      initial.velocity_shape != Shape::kAngles)
+    refuse("every window needs a start of its own that can be any: initial with shape = \"angles\", "
+           "free = true and velocity = { shape = \"angles\", free = true }");
+  for (std::size_t e = first; e + 1 < experiments_.size(); ++e)
+    if (experiments_[e].fitted() && experiments_[e + 1].fitted()) {
+      experiments_[e].meets = static_cast<int>(e) + 1;
+      experiments_[e].ends = experiments_[e + 1].recording.time.front();
+    }
+}
+
+bool Problem::joined() const {
+  for (const Experiment& experiment : experiments_)
+    if (experiment.meets >= 0) return true;
+  return false;
+}
+
+Problem Problem::with_joint_weight(double weight) const {
+  Problem other = *this;
+  other.joint_weight_ = weight;
+  return other;
 }
 
 void Problem::prepare() {

@@ -36,6 +36,9 @@ struct Experiment {
   Recording recording;
   InitialSpec initial;  ///< its own or the case's, with all coefficients found
   Signals signals;      ///< in the order of the model
+  int source = -1;           ///< index into Case::experiments: several windows may be of one
+  int meets = -1;            ///< multiple shooting: the experiment that starts where this one ends
+  double ends = kNotGiven;   ///< s: when it does, if there is one
   bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }
 };
 
@@ -46,6 +49,8 @@ struct Prediction {
   Eigen::MatrixXd simulated;                 ///< channels x frames
   std::vector<Eigen::MatrixXd> sensitivity;  ///< one per direction, channels x frames
   Trajectory trajectory;                     ///< at the frames
+  Eigen::VectorXd first, last;  ///< joined windows: q and v at the start, and where the next one starts
+  Eigen::MatrixXd first_along, last_along;   ///< their derivatives, one column per direction
   bool ok() const { return status == Status::kSuccess; }
 };
 
@@ -92,6 +97,13 @@ class Problem {
   /// The case with the values of `x` as its starting values.
   Case with(const Eigen::VectorXd& x) const;
 
+  /// Multiple shooting: the windows of an experiment are to meet.
+  bool joined() const;
+  /// What a gap between windows costs, in residuals of the same size: so much that it closes. Lower
+  /// while a fit is on its way.
+  double joint_weight() const { return joint_weight_; }
+  Problem with_joint_weight(double weight) const;
+
   /// The same problem, only the first `seconds` of each experiment to be fitted.
   Problem shortened(double seconds) const;
   /// The same problem with one unknown of the physics at a value, no longer free.
@@ -100,6 +112,8 @@ class Problem {
   Problem measured_as(const std::vector<Eigen::MatrixXd>& measured) const;
 
  private:
+  /// Joins the windows from experiment `first` on.
+  void join(std::size_t first);
   void prepare();
   /// Throws InputError where an experiment (-1: the case alone) cannot begin.
   void check_start(int experiment) const;
@@ -114,6 +128,7 @@ class Problem {
   ParameterMap map_;
   std::vector<Experiment> experiments_;
   std::vector<Unknown> unknowns_;
+  double joint_weight_ = 1000;
 };
 
 /// Predictions of all experiments (those to be fitted, or all) and, if asked for, their

@@ -16,7 +16,15 @@ VectorXd without(const VectorXd& x, Eigen::Index j) {
   return rest;
 }
 
-/// Sum of squared residuals over their noise, at the best the others can do; infinite if it failed.
+/// Twice the negative logarithm of the likelihood but for a constant: the sum of squared residuals over
+/// their noise, or, where the noise is found from them, what its sizes leave of it.
+double minus_log_likelihood(const Problem& problem, const Residuals& residuals) {
+  const VectorXd noise = noise_of(problem, residuals);
+  if (problem.study().error.measure == Measure::kLikelihood) return 2 * noise.array().log().sum();
+  return residuals.value.cwiseQuotient(noise).squaredNorm();
+}
+
+/// The same, at the best the others can do; infinite if it failed.
 double best_square(const Problem& problem, int unknown, double value, VectorXd& rest,
                    const LeastSquares& least_squares) {
   const Problem held = problem.fixed(unknown, value);
@@ -24,7 +32,7 @@ double best_square(const Problem& problem, int unknown, double value, VectorXd& 
     const Evaluation evaluation = evaluate(held, x, false, false);
     if (!evaluation.ok) return std::numeric_limits<double>::infinity();
     const Residuals residuals = residuals_of(held, evaluation, Part::kFit);
-    return residuals.value.cwiseQuotient(noise_of(held, residuals)).squaredNorm();
+    return minus_log_likelihood(held, residuals);
   };
   if (rest.size() == 0) return square_at(rest);
   FitOptions options;
@@ -55,8 +63,9 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
       chosen.push_back(static_cast<int>(j));
   const Evaluation best = evaluate(problem, fit.x, false, false);
   const Residuals residuals = residuals_of(problem, best, Part::kFit);
-  const double least = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm();
-  const double variance = uncertainty.noise * uncertainty.noise;
+  const double least = minus_log_likelihood(problem, residuals);
+  const bool by_likelihood = problem.study().error.measure == Measure::kLikelihood;
+  const double variance = by_likelihood ? 1 : uncertainty.noise * uncertainty.noise;
   // A residual that repeats the one before says less than a new one (AR(1)).
   const double repeated = uncertainty.coloured && uncertainty.colour > 0
                               ? (1 + uncertainty.colour) / (1 - uncertainty.colour)

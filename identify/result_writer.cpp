@@ -277,6 +277,14 @@ void put_uncertainty(Json& json, const Problem& problem, const Identification& f
            {"lag_one_correlation", number(uncertainty.colour)},
            {"coloured", uncertainty.coloured},
            {"singular_values", numbers(uncertainty.singular_values)}};
+  noise["channels"] = Json::array();
+  const Residuals residuals = residuals_of(problem, found.after, Part::kFit);
+  for (const ChannelNoise& channel : channels_of(problem, residuals)) {
+    const Estimate estimate = noise_estimate(channel, uncertainty);
+    noise["channels"].push_back({{"name", channel.name},
+                                 {"noise", number(channel.deviation)},
+                                 {"interval", {number(estimate.lower), number(estimate.upper)}}});
+  }
   noise["weak_directions"] = Json::array();
   for (const WeakDirection& weak : uncertainty.weak)
     noise["weak_directions"].push_back(
@@ -321,6 +329,7 @@ Json optimiser_json(const Problem& problem, const FitResult& fit) {
   for (const Failure& failure : fit.failed)
     failed.push_back({{"parameters", numbers(failure.x)}, {"message", failure.message}});
   return {{"method", kMethodWords[static_cast<std::size_t>(spec.method)]},
+          {"strategy", strategy_of(problem)},
           {"status", name_of(fit.status)},
           {"message", fit.message},
           {"evaluations", fit.evaluations},

@@ -155,17 +155,23 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     throw std::runtime_error("fewer measured values (" + std::to_string(count) + ") than unknowns (" +
                              std::to_string(unknowns) + ")");
   const VectorXd r = residuals.value.cwiseProduct(weights);
+  const Joints joints = joints_of(problem, evaluation);  // of joined windows: they bind the starts
 
   Uncertainty out;
   out.noise = expected_noise > 0
                   ? expected_noise
-                  : std::sqrt(r.squaredNorm() / static_cast<double>(count - unknowns));
+                  : std::sqrt(r.squaredNorm() /
+                              static_cast<double>(count - unknowns + joints.value.size()));
   if (!(out.noise > 0)) out.noise = std::numeric_limits<double>::min();
   jacobian /= out.noise;
-  const Eigen::BDCSVD<MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  MatrixXd with_joints(count + joints.value.size(), unknowns);
+  with_joints << jacobian, joints.weight.asDiagonal() * joints.jacobian * range.asDiagonal() / out.noise;
+  const Eigen::BDCSVD<MatrixXd> svd(with_joints, Eigen::ComputeThinU | Eigen::ComputeThinV);
   out.singular_values = svd.singularValues();
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
-  const double smallest = 1e-6 * out.singular_values[0];
+  const double largest = joints.value.size() ? Eigen::BDCSVD<MatrixXd>(jacobian).singularValues()[0]
+                                             : out.singular_values[0];
+  const double smallest = 1e-6 * largest;
   Index rank = 0;
   while (rank < unknowns && out.singular_values[rank] > smallest) ++rank;
 
@@ -238,6 +244,15 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     out.weak.push_back(std::move(weak));
   }
   return out;
+}
+
+Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty) {
+  // The squares of an AR(1) process are correlated by the square of its correlation.
+  const double square = uncertainty.coloured ? std::min(uncertainty.colour * uncertainty.colour, 0.94) : 0;
+  const double relative =
+      std::sqrt((1 + square) / (1 - square) / (2 * static_cast<double>(channel.count)));
+  return {channel.deviation * relative, channel.deviation * std::exp(-kQuantile * relative),
+          channel.deviation * std::exp(kQuantile * relative), Verdict::kIdentifiable};
 }
 
 }  // namespace catena

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/error.hpp"
 #include "identify/fit.hpp"
 
 namespace catena {
@@ -51,6 +52,10 @@ struct Uncertainty {
 /// Throws std::runtime_error where the simulation fails.
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
+
+/// The noise of one channel, its error and interval, from the scatter of so many residuals, coloured
+/// or not. It is a property of the sensor: no unknown of the physics.
+Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty);
 
 /// Cost of holding one unknown of the physics at a value while the others are fitted again.
 struct Profile {

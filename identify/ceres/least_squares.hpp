@@ -10,9 +10,11 @@ namespace catena {
 ///
 ///   measure            what is minimised
 ///   least_squares      sum of rho(r^2), r in units of the noise; rho by the case's loss
-///   mean_distance      sum over frames and markers of sqrt(d^2 + e^2): a robust loss on the distance,
-///                      solved by reweighting; e small against the distances (6.5), (6.6)
+///   mean_distance      sum over frames and markers of the distance (6.5), (6.6): see DistanceBlock
 ///   mean_absolute      the same on every channel, weighted as in (7.1)
+///
+///   likelihood         sum of r^2 over the square of the channel's noise, which is found again from
+///                      the residuals until it stays
 ///
 /// A simulation that fails makes its step be refused. A target of its own (catena_ceres): Debian's
 /// Ceres brings libraries that are partly GPL.

@@ -9,6 +9,7 @@
 #include "generator/description/input_error.hpp"
 #include "identify/case_words.hpp"
 #include "identify/ceres/least_squares.hpp"
+#include "identify/error.hpp"
 #include "identify/links_study.hpp"
 #include "identify/multi_start.hpp"
 #include "identify/program/command.hpp"
@@ -40,6 +41,7 @@ OutputFiles files_of(const Problem& problem, const Identification& found,
     files.emplace_back(file_name(problem, e, "energy"), energy_csv(problem.model(), motion));
   }
   files.emplace_back("residuals.csv", residuals_csv(problem, found.after));
+  files.emplace_back("history.csv", history_csv(problem, found.fit));
   files.emplace_back("fitted.toml", case_text(problem.with(found.fit.x), folder));
   files.emplace_back("result.json", result);  // last: where it is, the rest is
   return files;
@@ -126,6 +128,18 @@ void complete(const Problem& problem, const IdentifyOptions& options, Identifica
                                 options.bootstrap, problem.study().optimiser.seed, options.threads);
 }
 
+/// How well joined windows meet: nothing to say where none are joined.
+std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluation) {
+  const Joints joints = joints_of(problem, evaluation);
+  const Eigen::Index n = problem.model().coordinates();
+  double angle = 0, rate = 0;
+  for (Eigen::Index i = 0; i < joints.value.size(); ++i)
+    (i % (2 * n) < n ? angle : rate) = std::max(i % (2 * n) < n ? angle : rate, std::abs(joints.value[i]));
+  if (joints.value.size() == 0) return "";
+  return fmt::format("; the largest of {} gaps between windows is {:.2g} rad and {:.2g} rad/s",
+                     joints.value.size() / (2 * n), angle, rate);
+}
+
 int identify_case(const IdentifyOptions& options) {
   Case study = read_case(options.case_file);
   watch_for_interruption();
@@ -162,11 +176,14 @@ int identify_case(const IdentifyOptions& options) {
     for (const Experiment& experiment : problem.experiments())
       for (const std::string& warning : experiment.recording.warnings)
         std::cout << "warning: " << experiment.spec.name << ": " << warning << "\n";
-    std::cout << fmt::format("error ({}) {} before, {} after; {} evaluations, {} failed, {:.1f} s; {}\n",
+    if (const char* strategy = strategy_of(problem); strategy != std::string("whole"))
+      std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
+    std::cout << fmt::format("error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.2f} s of a core; {}\n",
                              kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
                              measured_error(problem, found.fit.start_error),
                              measured_error(problem, found.fit.error), found.fit.evaluations,
-                             found.fit.failures, found.fit.seconds, name_of(found.fit.status))
+                             found.fit.failures, found.fit.seconds,
+                             found.fit.cpu_seconds, name_of(found.fit.status))
               << "written to " << folder.string() << "\n";
   }
   return stopped ? kExitInterrupted : kExitSuccess;
@@ -179,8 +196,8 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   CLI::App* command =
       program.add_subcommand("identify", "fit the free parameters of a case file to its data");
   command->footer("Example:\n  catena identify cable.toml --output fit\n"
-                  "writes fit/result.json, fitted.toml (the case with what was found), residuals.csv,\n"
-                  "positions.csv, angles.csv, energy.csv and run.log. Ctrl-C ends with the best so far.");
+                  "writes fit/result.json, fitted.toml (the case with what was found), history.csv,\n"
+                  "residuals.csv, positions.csv, angles.csv, energy.csv and run.log. Ctrl-C ends with the best so far.");
   add_common_options(*command, options);
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");

@@ -73,6 +73,9 @@ TEST_CASE("the measures are what the text says, gaps left out") {
   Eigen::MatrixXd hidden = offsets;
   hidden(2, 1) = hidden(3, 1) = NAN;
   CHECK(error(problem_with(Measure::kMeanDistance, hidden)) == doctest::Approx(1e-3).epsilon(1e-9));
+  // each channel has one offset in three frames: its root mean square is that over sqrt(3)
+  CHECK(error(problem_with(Measure::kLikelihood, offsets)) ==
+        doctest::Approx(1e-3 * std::pow(3.0 * 4 * 6 * 8, 0.25) / std::sqrt(3.0)).epsilon(1e-9));
   const Problem problem = problem_with(Measure::kLeastSquares, offsets);
   const std::vector<Gap> gaps = gaps_of(problem, evaluate(problem, problem.start(), true, false));
   REQUIRE(gaps.size() == 1);
@@ -85,7 +88,7 @@ TEST_CASE("gradients of the measures agree with differences") {
   Eigen::MatrixXd offsets = Eigen::MatrixXd::Constant(4, 10, 2e-3);
   offsets.row(1) *= -2;
   for (const Measure measure :
-       {Measure::kLeastSquares, Measure::kMeanDistance, Measure::kMeanAbsolute}) {
+       {Measure::kLeastSquares, Measure::kMeanDistance, Measure::kMeanAbsolute, Measure::kLikelihood}) {
     CAPTURE(static_cast<int>(measure));
     const Problem problem = problem_with(measure, offsets);
     const Eigen::VectorXd x = problem.start();

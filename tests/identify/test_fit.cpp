@@ -5,6 +5,7 @@
 #include "identify/ceres/least_squares.hpp"
 #include "identify/error.hpp"
 #include "identify/fit.hpp"
+#include "identify/uncertainty.hpp"
 #include "tests/identify/recordings.hpp"
 
 using namespace catena;
@@ -76,6 +77,57 @@ TEST_CASE("every method finds the truth behind perfect data, in every measure") 
       CHECK(result.x[1] == doctest::Approx(0.005).epsilon(10 * row.tolerance));
       CHECK(result.failures == 0);
     }
+}
+
+TEST_CASE("the noise of every channel is found with the physics and kept apart from it") {
+  // marker 1 is seen ten times worse than the others
+  Recording recording = twin(FitMethod::kLeastSquares, Measure::kLikelihood, 0.1, 0.005, 1e-3, 2)
+                            .experiments()[0].recording;
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal(0, 1e-2);
+  for (Eigen::Index k = 0; k < recording.measured.cols(); ++k)
+    for (Eigen::Index c = 0; c < 2; ++c) recording.measured(c, k) += normal(generator);
+  const auto with = [&](FitMethod method, Measure measure) {
+    const Problem problem = twin(method, measure, 0.1, 0.005);
+    return Problem(problem.study(), problem.model(), {recording});
+  };
+  const Problem weighed = with(FitMethod::kLeastSquares, Measure::kLikelihood);
+  const FitResult found = fit(weighed, {}, fit_least_squares);
+  const FitResult simplex =
+      fit(with(FitMethod::kNelderMead, Measure::kLikelihood), {}, fit_least_squares);
+  CHECK(found.error <= simplex.error * (1 + 1e-6));
+  CHECK(found.x[0] == doctest::Approx(simplex.x[0]).epsilon(1e-3));
+  const Uncertainty uncertainty = uncertainty_of(weighed, found.x);
+  const Residuals residuals = residuals_of(weighed, evaluate(weighed, found.x, false, false), Part::kFit);
+  const std::vector<ChannelNoise> channels = channels_of(weighed, residuals);
+  REQUIRE(channels.size() == 6);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    CAPTURE(channels[c].name);
+    const double truth = c < 2 ? std::hypot(1e-2, 1e-3) : 1e-3;
+    const Estimate estimate = noise_estimate(channels[c], uncertainty);
+    CHECK(std::abs(channels[c].deviation - truth) < 3.5 * estimate.standard_error);
+    CHECK(estimate.lower < channels[c].deviation);
+    CHECK(channels[c].deviation < estimate.upper);
+  }
+  CHECK(uncertainty.estimates.size() == 2);  // nothing but physics
+  // plain least squares lets the bad marker speak as loudly as the good ones
+  const Problem plain = with(FitMethod::kLeastSquares, Measure::kLeastSquares);
+  const FitResult rough = fit(plain, {}, fit_least_squares);
+  CHECK(uncertainty_of(plain, rough.x).estimates[0].standard_error >
+        2 * uncertainty.estimates[0].standard_error);
+}
+
+TEST_CASE("least squares ends no higher than Nelder-Mead, at a tenth of its evaluations") {
+  for (const Measure measure : {Measure::kMeanDistance, Measure::kMeanAbsolute}) {
+    CAPTURE(static_cast<int>(measure));
+    const FitResult simplex =
+        fit(twin(FitMethod::kNelderMead, measure, 0.1, 0.005, 5e-3, 7), {}, fit_least_squares);
+    const FitResult squares =
+        fit(twin(FitMethod::kLeastSquares, measure, 0.1, 0.005, 5e-3, 7), {}, fit_least_squares);
+    CHECK(squares.error <= simplex.error * (1 + 1e-5));
+    MESSAGE(simplex.evaluations << " and " << squares.evaluations << " evaluations");
+    CHECK(10 * squares.evaluations <= simplex.evaluations);
+  }
 }
 
 TEST_CASE("bounds hold") {

@@ -3,100 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "identify/ceres/least_squares.hpp"
 #include "identify/parallel.hpp"
 #include "identify/uncertainty.hpp"
+#include "tests/identify/coverage.hpp"
 #include "tests/identify/recordings.hpp"
 
 using namespace catena;
-
-namespace {
-
-const char* const kCable = R"(
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.1
-free = true
-lower = 0.001
-upper = 10.0
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.005
-free = true
-lower = 0.0001
-upper = 1.0
-[initial]
-shape = "straight"
-angle = 0.6
-free = true
-[optimiser]
-method = "least_squares"
-[simulation]
-relative_tolerance = 1e-7
-)";
-
-/// Perfect data of the cable, 60 frames of three markers.
-Problem perfect(const std::string& text = kCable) {
-  Case study = testing::sections(text);
-  testing::add_experiment(study, "run");
-  const Model model = Model::built_in(2);
-  return Problem(study, model,
-                 {testing::with_truth(study, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05))});
-}
-
-/// Noise of 2 mm on every channel: each frame `colour` times the one before plus something new.
-Problem noisy(const Problem& problem, double colour, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal(0, 2e-3);
-  Eigen::MatrixXd measured = problem.experiments()[0].recording.measured;
-  for (Eigen::Index c = 0; c < measured.rows(); ++c) {
-    double noise = normal(generator);
-    for (Eigen::Index k = 0; k < measured.cols(); ++k) {
-      if (k) noise = colour * noise + std::sqrt(1 - colour * colour) * normal(generator);
-      measured(c, k) += noise;
-    }
-  }
-  return problem.measured_as({measured});
-}
-
-int recordings_wanted() {
-  const char* wanted = std::getenv("CATENA_COVERAGE_RECORDINGS");
-  return wanted ? std::atoi(wanted) : 150;
-}
-
-}  // namespace
+using testing::kCable;
+using testing::noisy;
+using testing::perfect;
 
 TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and coloured noise") {
-  // CATENA_COVERAGE_RECORDINGS=1000 is the full study; seeds are 1, 2, 3, ...
-  const int recordings = recordings_wanted();
+  // seeds are 1, 2, 3, ...; scripts/study_coverage does the same with a thousand
+  constexpr int recordings = 150;
   const Problem problem = perfect();
   const Eigen::VectorXd truth = problem.start();
   for (const double colour : {0.0, 0.6}) {
     CAPTURE(colour);
     Eigen::MatrixXi inside(recordings, truth.size());
     Eigen::MatrixXd width(recordings, truth.size());
-    in_parallel(static_cast<std::size_t>(recordings), 2, [&](std::size_t i) {
-      const Problem seen = noisy(problem, colour, static_cast<unsigned>(i + 1));
-      FitOptions options;
-      options.start = truth;
-      const FitResult result = fit_least_squares(seen, options);
-      const Uncertainty uncertainty = uncertainty_of(seen, result.x);
-      for (Eigen::Index j = 0; j < truth.size(); ++j) {
-        const Estimate& estimate = uncertainty.estimates[static_cast<std::size_t>(j)];
-        inside(static_cast<Eigen::Index>(i), j) =
-            estimate.lower <= truth[j] && truth[j] <= estimate.upper;
-        width(static_cast<Eigen::Index>(i), j) = estimate.upper - estimate.lower;
-      }
+    in_parallel(recordings, 2, [&](std::size_t i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const testing::Covered covered = testing::covered(problem, colour, static_cast<unsigned>(i + 1));
+      inside.row(row) = covered.inside;
+      width.row(row) = covered.width;
     });
     for (Eigen::Index j = 0; j < truth.size(); ++j) {
       const double share = inside.col(j).cast<double>().mean();

@@ -5,6 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <random>
+
 #include "identify/case.hpp"
 #include "tests/programs/catena_program.hpp"
 
@@ -79,4 +84,87 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   CHECK(limited.exit_status == 0);
   CHECK(testing::text_of(out / "limited" / "result.json").find("\"status\": \"time_limit\"") !=
         std::string::npos);
+}
+
+TEST_CASE("a run killed at random times and resumed ends as an undisturbed one does") {
+  const Twin twin;
+  const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
+  for (const char* method : {"nelder_mead", "least_squares"}) {
+    CAPTURE(std::string(method));
+    const bool simplex = method == std::string("nelder_mead");
+    const auto study = twin.folder.write(
+        "fit.toml", testing::replaced(testing::kFit, "links = 2", "links = 12") +
+                        "[optimiser]\nmethod = \"" + method + "\"\nstarts = " +
+                        (simplex ? "8" : "60") + "\n[simulation]\nrelative_tolerance = 1e-9\n");
+    const std::filesystem::path whole = twin.folder.path() / method / "whole";
+    const std::filesystem::path killed = twin.folder.path() / method / "killed";
+    const auto begin = std::chrono::steady_clock::now();
+    REQUIRE(run_catena({"identify", study, "--output", whole, "-q"}).exit_status == 0);
+    const std::chrono::duration<double> needed = std::chrono::steady_clock::now() - begin;
+
+    std::mt19937_64 random(simplex ? 1 : 2);
+    int kills = 0, logged = 0, grew = 0;
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      const pid_t child = fork();
+      if (child == 0) {
+        execl(program.c_str(), "catena", "identify", study.c_str(), "--output", killed.c_str(),
+              "--resume", "-q", nullptr);
+        _exit(127);
+      }
+      const double share = static_cast<double>(random() % 1000) / 1000;  // of what the whole needs
+      usleep(static_cast<useconds_t>(1e6 * (0.02 + 0.3 * share) * needed.count()));
+      kill(child, SIGKILL);
+      int status = 0;
+      waitpid(child, &status, 0);
+      kills += WIFSIGNALED(status);
+      const std::string log = testing::text_of(killed / "run.log");
+      const auto lines = static_cast<int>(std::count(log.begin(), log.end(), '\n'));
+      grew += lines > logged;
+      logged = lines;
+    }
+    CHECK(kills >= 4);  // else the run ended before it could be killed
+    CHECK(grew >= 2);   // what came before a kill is kept
+    REQUIRE(run_catena({"identify", study, "--output", killed, "--resume", "-q"}).exit_status == 0);
+    for (const char* file : {"result.json", "fitted.toml", "residuals.csv", "positions.csv"}) {
+      CAPTURE(std::string(file));
+      CHECK(testing::text_of(killed / file) == testing::text_of(whole / file));
+    }
+  }
+}
+
+TEST_CASE("a study of the number of links refits, tells how the numbers converge and recommends") {
+  testing::TemporaryFolder folder;
+  std::string fine = testing::replaced(testing::kSwing, "links = 2", "links = 24");
+  fine = testing::replaced(fine, "sets = \"stiffness\"", "sets = \"bending_stiffness\"");
+  fine = testing::replaced(fine, "sets = \"damping\"", "sets = \"damping_length\"");
+  const auto swing = folder.write("swing.toml", fine);
+  REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status == 0);
+  std::string fit = testing::replaced(testing::kFit, "sets = \"stiffness\"", "sets = \"bending_stiffness\"");
+  fit = testing::replaced(fit, "sets = \"damping\"", "sets = \"damping_length\"");
+  fit = testing::replaced(fit, "kind = \"markers\"",
+                          "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
+                          "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
+  const auto study = folder.write("fit.toml", fit + "[optimiser]\nmethod = \"least_squares\"\n");
+  const std::filesystem::path out = folder.path() / "out";
+  const ProcessResult run =
+      run_catena({"identify", study, "--links-study", "2,4,12,24", "--output", out, "--error-budget", "0.05"});
+  CHECK_MESSAGE(run.exit_status == 0, run.output);
+  // nothing but 24 links comes near the data of 24 links, which are without noise
+  CHECK(run.output.find("fewest links within 5 % of the least error: 24") != std::string::npos);
+  const auto json = nlohmann::json::parse(testing::text_of(out / "links_study.json"));
+  REQUIRE(json["links_study"].size() == 4);
+  double last = 1;
+  for (const auto& row : json["links_study"]) {
+    CHECK(row["error"].get<double>() < last);
+    last = row["error"];
+    if (row["links"] == 24) CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+  }
+  const ProcessResult wide =
+      run_catena({"identify", study, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
+  CHECK(wide.output.find("least error: 2\n") != std::string::npos);
+  const ProcessResult refused =
+      run_catena({"identify", folder.write("joint.toml", testing::replaced(fit, "arc_length = 0.5", "joint = 1")),
+                  "--links-study", "2,4", "--output", out});
+  CHECK(refused.exit_status == 2);
+  CHECK(refused.output.find("is at a joint") != std::string::npos);
 }

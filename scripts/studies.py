@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the studies of the dissertation's chapters share: runs of catena, tables, figures."""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+
+try:
+    import matplotlib
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"{sys.argv[0]}: {missing}; scripts/setup test installs it")
+
+matplotlib.use("svg")
+matplotlib.rcParams.update({
+    "svg.hashsalt": "catena", "svg.fonttype": "none", "figure.constrained_layout.use": True,
+    "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.3, "font.size": 10,
+    "axes.spines.top": False, "axes.spines.right": False,
+})  # fmt: skip
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BLUE, RED = "#0072b2", "#d55e00"  # told apart by everyone
+
+
+def folders(study):
+    """OUTPUT and BINARIES of the command line; the first is made."""
+    output = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else f"{ROOT}/build/{study}")
+    binaries = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else f"{ROOT}/build/release")
+    if not os.path.exists(f"{binaries}/bin/catena"):
+        sys.exit(f"{sys.argv[0]}: no catena in {binaries}/bin; build it, or name the folder")
+    os.makedirs(output, exist_ok=True)
+    return output, binaries
+
+
+def run(*command):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}\n{done.stdout}")
+    return done.stdout
+
+
+def simulate(binaries, case, output):
+    run(f"{binaries}/bin/catena", "simulate", case, "--output", output, "-q")
+
+
+class Fit:
+    """A run of catena identify: its result.json and the processor time of the fit."""
+
+    def __init__(self, binaries, case, output):
+        printed = run(f"{binaries}/bin/catena", "identify", case, "--output", output,
+                      "--threads", "1")  # fmt: skip
+        self.cpu_seconds = float(re.search(r"([\d.]+) s of a core", printed)[1])
+        with open(f"{output}/result.json") as file:
+            self.result = json.load(file)
+        self.optimiser = self.result["optimiser"]
+        self.evaluations = self.optimiser["evaluations"]
+        self.error = self.optimiser["error"]
+        self.errors = self.optimiser["history"]["error"]
+        self.unknowns = {p["name"]: p for p in self.result["parameters"] if p["free"]}
+
+
+def columns(path):
+    """Columns of a CSV file by name."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    values = np.array([[float(field) for field in row] for row in rows[1:]])
+    return dict(zip(rows[0], values.T))
+
+
+def table(title, head, rows):
+    """Prints columns aligned, the first to the left."""
+    cells = [head] + [[f"{c:.4g}" if isinstance(c, float) else str(c) for c in r] for r in rows]
+    widths = [max(len(row[k]) for row in cells) for k in range(len(head))]
+    print(f"\n{title}")
+    for row in cells:
+        print("  ".join(c.ljust(w) if k == 0 else c.rjust(w)
+                        for k, (c, w) in enumerate(zip(row, widths))).rstrip())  # fmt: skip
+
+
+def compare_methods(title, runs):
+    """Nelder-Mead beside least squares; `runs`: what was fitted -> (simplex, least squares)."""
+    rows = []
+    for name, (simplex, squares) in runs.items():
+        reached = next((k + 1 for k, e in enumerate(squares.errors)
+                        if e is not None and e <= simplex.error), "-")  # fmt: skip
+        rows.append([name, simplex.evaluations, simplex.cpu_seconds, simplex.error,
+                     squares.evaluations, reached, squares.cpu_seconds, squares.error,
+                     simplex.cpu_seconds / squares.cpu_seconds])  # fmt: skip
+    table(title, ["", "evaluations", "s", "error", "evaluations", "(to reach it)", "s", "error",
+                  "time ratio"], rows)  # fmt: skip
+    print("Left: Nelder-Mead, right: least squares on the same measure, its evaluations with\n"
+          "sensitivities; s: processor time of the fit.")  # fmt: skip
+
+
+def save(figure, path):
+    figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
