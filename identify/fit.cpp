@@ -116,7 +116,7 @@ FitResult fit_once(const Problem& problem, const FitOptions& options,
 
 // What a gap between joined windows costs at first: hardly anything, so that each window finds its own
 // best start; then more, up to the problem's own weight, with which it closes.
-constexpr double kLooseJoints[] = {0.1, 1, 10, 100};
+constexpr double kLooseJoints[] = {0.1, 1, 10, 100, 1000};
 
 bool finished(const FitResult& result) {
   return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;

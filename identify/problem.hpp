@@ -128,7 +128,7 @@ class Problem {
   ParameterMap map_;
   std::vector<Experiment> experiments_;
   std::vector<Unknown> unknowns_;
-  double joint_weight_ = 1000;
+  double joint_weight_ = 1e4;
 };
 
 /// Predictions of all experiments (those to be fitted, or all) and, if asked for, their

@@ -9,8 +9,9 @@ namespace {
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double kWidth = 0.3;     // of the mean distance
-constexpr double kStillFar = 0.5;  // the error fell by more than this share of itself
+constexpr double kStillFar = 0.5;    // the error fell by more than this share of itself
+constexpr double kNear = 1e-3;       // the error fell by less
+constexpr double kNarrower = 0.3;    // the width is, then
 
 VectorXd direction(const VectorXd& r, double distance) {
   return distance > 0 ? VectorXd(r / distance) : VectorXd::Unit(r.size(), 0);
@@ -25,7 +26,7 @@ Distances::Distances(const SimulatedResiduals& simulated, std::vector<Term> term
       secant_row_(RowVectorXd::Zero(simulated.residuals().jacobian.cols())) {}
 
 std::pair<double, double> Distances::curvature(double distance) const {
-  const double width = kWidth * simulated_.error();
+  const double width = width_ * simulated_.error();
   const double a = 1 / std::hypot(distance, width);
   const bool far = simulated_.error() < (1 - kStillFar) * simulated_.error_before();
   return {a, far ? a : width * width * a * a * a};
@@ -54,6 +55,7 @@ void Distances::step_to(const VectorXd& y) {
     if (found > curvature_along)
       secant_row_ = std::sqrt(1 / found - curvature_along / (found * found)) * change.transpose();
   }
+  if (simulated_.error() > (1 - kNear) * simulated_.error_before()) width_ *= kNarrower;
   y_ = y;
   gradient_ = gradient;
 }

@@ -23,7 +23,8 @@ namespace catena {
 ///     a = 1 / sqrt(d^2 + h^2),  b = h^2 a^3
 ///
 /// with h a share of the mean distance: b spreads the kinks of all points over a width of h, so that
-/// their sum has the curvature of the smooth sum over many points. Far from the minimum, where the
+/// their sum has the curvature of the smooth sum over many points; near the end, where the minimum may
+/// lie on a few kinks, h narrows. Far from the minimum, where the
 /// error still falls by much, b = a: plain reweighting, which does not overshoot. The first row's own
 /// curvature is w / (2 (d + offset)): small for a large offset.
 ///
@@ -52,6 +53,7 @@ class Distances {
   const SimulatedResiduals& simulated_;
   std::vector<Term> terms_;
   double offset_;
+  double width_ = 0.3;            // h, of the mean distance
   Eigen::VectorXd y_, gradient_;  // of the last point
   Eigen::RowVectorXd secant_row_;
 };

@@ -20,33 +20,35 @@ using Eigen::VectorXd;
 // A constant added to every distance, in units of the error at the start (see DistanceBlock).
 constexpr double kOffset = 20;
 
-/// One residual over its noise.
+/// One of the numbers a simulation gives, with a weight.
 class Block : public ceres::CostFunction {
  public:
-  Block(const SimulatedResiduals& simulated, Index place, double noise, int unknowns)
-      : simulated_(simulated), place_(place), noise_(noise) {
+  Block(const SimulatedResiduals& simulated, const Eigen::VectorXd& values,
+        const Eigen::MatrixXd& jacobian, Index place, double weight)
+      : simulated_(simulated), values_(values), jacobian_(jacobian), place_(place), weight_(weight) {
     set_num_residuals(1);
-    mutable_parameter_block_sizes()->push_back(unknowns);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(jacobian.cols()));
   }
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
     if (!simulated_.ok()) return false;
-    const Residuals& all = simulated_.residuals();
-    residuals[0] = all.value[place_] / noise_;
+    residuals[0] = weight_ * values_[place_];
     if (jacobians && jacobians[0])
-      Eigen::Map<Eigen::RowVectorXd>(jacobians[0], all.jacobian.cols()) =
-          all.jacobian.row(place_) / noise_;
+      Eigen::Map<Eigen::RowVectorXd>(jacobians[0], jacobian_.cols()) =
+          weight_ * jacobian_.row(place_);
     return true;
   }
 
  private:
   const SimulatedResiduals& simulated_;
+  const Eigen::VectorXd& values_;    // of simulated_
+  const Eigen::MatrixXd& jacobian_;
   Index place_;
-  double noise_;
+  double weight_;
 };
 
-/// Stops where the caller wants it, and where a step gained, or could have gained, no more than
-/// `tolerance` of the cost, of which `offset` is no cost.
+/// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by no
+/// more than `tolerance` of it; `offset` is no cost.
 class Watch : public ceres::IterationCallback {
  public:
   Watch(FitJournal& journal, double tolerance, double offset)
@@ -58,7 +60,7 @@ class Watch : public ceres::IterationCallback {
     if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
     const double least = tolerance_ * (step.cost - offset_);
-    const bool enough = expected <= least || (step.step_is_successful && step.cost_change <= least);
+    const bool enough = expected <= least || std::abs(step.cost_change) <= least;
     return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
@@ -135,7 +137,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
     if (std::isfinite(upper)) solver.SetParameterUpperBound(y.data(), j, upper);
   }
 
-  Watch watch(journal, (squares ? 1e-2 : 1.0) * spec.tolerance, all_offsets);
+  Watch watch(journal, (squares ? 1e-2 : 10) * spec.tolerance, all_offsets);
   ceres::Solver::Options settings;
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.max_num_iterations = spec.max_evaluations;

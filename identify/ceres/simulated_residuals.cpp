@@ -28,6 +28,7 @@ void SimulatedResiduals::PrepareForEvaluation(bool jacobians, bool) {
     if (!ok_) return;
     error_ = error_of(problem_, evaluation, Part::kFit);
     residuals_ = residuals_of(problem_, evaluation, Part::kFit);
+    joints_ = joints_of(problem_, evaluation);
     if (with_jacobian_) scale_derivatives(x, evaluation);
   }
   if (jacobians && ok_ && !jacobian_used_) {
@@ -47,10 +48,9 @@ void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x, const Evalu
     // What a bound keeps from falling further rests; the others move as if it were known.
     const bool rests = (x[j] <= unknown.lower && gradient[j] > 0) ||
                        (x[j] >= unknown.upper && gradient[j] < 0);
-    if (rests)
-      residuals_.jacobian.col(j).setZero();
-    else if (unknown.scale == Scale::kLogarithmic)
-      residuals_.jacobian.col(j) *= x[j];
+    const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
+    residuals_.jacobian.col(j) *= slope;
+    joints_.jacobian.col(j) *= slope;
   }
 }
 

@@ -44,12 +44,16 @@ free = true
 velocity = {shape = "angles", free = true}
 [optimiser]
 method = "least_squares"
-max_evaluations = 200
+max_evaluations = 60
+[simulation]
+relative_tolerance = 1e-10
+absolute_tolerance_position = 1e-12
+absolute_tolerance_velocity = 1e-11
 )";
 
 constexpr double kNoise = 2e-3;  // rad
 
-/// Both angles at 100 Hz for 12 s, noise added.
+/// Both angles at 100 Hz for 8 s, noise added.
 Recording film() {
   Case truth = testing::sections(kArms);
   truth.parameters[0].value = 0.1;
@@ -58,7 +62,7 @@ Recording film() {
   truth.initial.velocity_coefficients = {0.0, 0.0};
   testing::add_experiment(truth, "run", DataKind::kAngles);
   Recording recording;
-  for (int k = 0; k <= 1200; ++k) recording.time.push_back(0.01 * k);
+  for (int k = 0; k <= 800; ++k) recording.time.push_back(0.01 * k);
   for (int link = 1; link <= 2; ++link) {
     PointSpec point;
     point.name = "arm " + std::to_string(link);
@@ -66,8 +70,8 @@ Recording film() {
     recording.points.push_back(point);
     recording.channels.push_back({link - 1, Component::kAngle, point.name});
   }
-  recording.measured.setZero(2, 1201);
-  recording.fit_frames = 1201;
+  recording.measured.setZero(2, 801);
+  recording.fit_frames = 801;
   return testing::with_truth(truth, Model::built_in(2), recording, kNoise, 4);
 }
 
@@ -94,7 +98,7 @@ TEST_CASE("a chaotic recording traps a fit of the whole; joined windows find wha
   const Evaluation evaluation = evaluate(joined, found.x, false, true);
   REQUIRE(evaluation.ok);
   const Joints joints = joints_of(joined, evaluation);
-  CHECK(joints.value.size() == 23 * 4);
+  CHECK(joints.value.size() == 15 * 4);
   CHECK(joints.value.cwiseAbs().maxCoeff() < 1e-5);  // one motion, not pieces
   const Uncertainty uncertainty = uncertainty_of(joined, found.x);
   CHECK(uncertainty.noise == doctest::Approx(kNoise).epsilon(0.05));
@@ -114,12 +118,12 @@ TEST_CASE("a chaotic recording traps a fit of the whole; joined windows find wha
 }
 
 TEST_CASE("derivatives of the joints agree with differences") {
-  const Problem problem = arms(3.0, true);
+  const Problem problem = arms(0.5, true);
   const Eigen::VectorXd x = problem.start();
   const Joints joints = joints_of(problem, evaluate(problem, x, false, true));
   REQUIRE(joints.jacobian.cols() == x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const double h = 1e-5 * std::max(std::abs(x[j]), 1e-2);
+    const double h = 1e-4 * std::max(std::abs(x[j]), 1e-2);
     Eigen::VectorXd above = x, below = x;
     above[j] += h;
     below[j] -= h;
@@ -127,7 +131,7 @@ TEST_CASE("derivatives of the joints agree with differences") {
         (joints_of(problem, evaluate(problem, above, false, false)).value -
          joints_of(problem, evaluate(problem, below, false, false)).value) /
         (2 * h);
-    CHECK((difference - joints.jacobian.col(j)).norm() <= 2e-3 * (1e-3 + difference.norm()));
+    CHECK((difference - joints.jacobian.col(j)).norm() <= 1e-3 * (1 + difference.norm()));
   }
 }
 
@@ -142,6 +146,6 @@ TEST_CASE("what cannot be joined is refused") {
     CHECK_THROWS_AS(Problem(study, Model::built_in(2), {film()}), InputError);
   };
   refused("method = \"least_squares\"", "method = \"nelder_mead\"");
-  refused("max_evaluations = 200", "growing_windows = [1.0, 2.0]");
+  refused("max_evaluations = 60", "growing_windows = [1.0, 2.0]");
   refused("velocity = {shape = \"angles\", free = true}", "");
 }

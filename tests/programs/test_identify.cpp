@@ -134,13 +134,19 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
 
 TEST_CASE("a study of the number of links refits, tells how the numbers converge and recommends") {
   testing::TemporaryFolder folder;
-  std::string fine = testing::replaced(testing::kSwing, "links = 2", "links = 24");
-  fine = testing::replaced(fine, "sets = \"stiffness\"", "sets = \"bending_stiffness\"");
-  fine = testing::replaced(fine, "sets = \"damping\"", "sets = \"damping_length\"");
+  // a cable with bending stiffness and damping of its own, the same for any number of links
+  const auto as_cable = [](std::string text) {
+    for (const auto& [from, to] : {std::pair{"\"stiffness\"", "\"bending_stiffness\""},
+                                   std::pair{"\"damping\"", "\"damping_length\""},
+                                   std::pair{"\"N m/rad\"", "\"N m^2\""},
+                                   std::pair{"\"N m s/rad\"", "\"N m^2 s/rad\""}})
+      text = testing::replaced(text, from, to);
+    return text;
+  };
+  const std::string fine = as_cable(testing::replaced(testing::kSwing, "links = 2", "links = 24"));
   const auto swing = folder.write("swing.toml", fine);
   REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status == 0);
-  std::string fit = testing::replaced(testing::kFit, "sets = \"stiffness\"", "sets = \"bending_stiffness\"");
-  fit = testing::replaced(fit, "sets = \"damping\"", "sets = \"damping_length\"");
+  std::string fit = as_cable(testing::kFit);
   fit = testing::replaced(fit, "kind = \"markers\"",
                           "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
                           "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
