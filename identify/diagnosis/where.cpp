@@ -131,6 +131,8 @@ namespace {
 
 /// Value and first two derivatives of the cubic B-splines on uniform knots at t: four of them, the
 /// first with number `first`.
+constexpr double kEndKnots = 2;  // distances of knots
+
 struct Splines {
   Index first = 0;
   double value[4], rate[4], acceleration[4];
@@ -173,9 +175,10 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
   const MatrixXd residual = model.predicted[e] - experiment.recording.measured;
   const Model& equations = problem.model();
   const Index n = equations.links(), coordinates = equations.coordinates();
-  const auto& time = experiment.recording.time;
-  const Index frames = residual.cols();
+  std::vector<double> time = experiment.recording.time;
+  Index frames = residual.cols();
   if (frames < 30) return force;
+  const double begin = time.front();
 
   // Directions of the angles: polynomials along the cable, as many as the channels can tell apart.
   const VectorXd parameters = problem.model_parameters(model.x, static_cast<int>(e));
@@ -248,7 +251,7 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
       by_direction.col(m) = rates;
     }
     const Splines s =
-        splines_at(time[static_cast<std::size_t>(k)], time.front(), force.resolution, splines);
+        splines_at(time[static_cast<std::size_t>(k)], begin, force.resolution, splines);
     MatrixXd gram = MatrixXd::Zero(terms, terms);
     VectorXd project = VectorXd::Zero(terms), project_noise = VectorXd::Zero(terms);
     for (Index c = 0; c < residual.rows(); ++c) {
@@ -285,7 +288,7 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
     VectorXd zero_z = VectorXd::Zero(equations.states());
     for (Index k = 0; k < frames; ++k) {
       const double t = time[static_cast<std::size_t>(k)];
-      const Splines s = splines_at(t, time.front(), force.resolution, splines);
+      const Splines s = splines_at(t, begin, force.resolution, splines);
       VectorXd dq = VectorXd::Zero(coordinates), dv = dq, da = dq;
       for (int i = 0; i < 4; ++i) {
         const VectorXd shape = basis * solution.segment((s.first + i) * terms, terms);
@@ -306,6 +309,15 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
     }
     return moment;
   };
+  // Second derivatives of splines mean little near the ends, where only one side holds them.
+  Index first = 0, last = frames;
+  const double margin = kEndKnots * force.resolution;
+  while (first + 1 < last && time[static_cast<std::size_t>(first)] < time.front() + margin) ++first;
+  while (last > first + 1 && time[static_cast<std::size_t>(last - 1)] > time.back() - margin) --last;
+  if (last - first < frames / 4) first = 0, last = frames;
+  time = std::vector<double>(time.begin() + first, time.begin() + last);
+  column = std::vector<Index>(column.begin() + first, column.begin() + last);
+  frames = last - first;
   force.time = time;
   force.moment = moments_of(coefficients);
   force.noise = std::sqrt(mean_square(moments_of(noise_coefficients)));

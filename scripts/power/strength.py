@@ -14,8 +14,8 @@ from power import design
 # The cable of the study: 1.2 m, half a pound at its end, stiff enough for few links.
 CABLE = ["--length", "1.2", "--bending-stiffness", "0.1", "--bending-damping", "0.01", "--load", "0.2",
          "--held", "0.6", "0.9", "--duration", "4"]
-RESOLVED = 2e-5  # m: below this a curve tells nothing
-STEPS = 8  # of the amplitude in four decades
+RESOLVED, LARGEST = 1e-4, 0.03  # m: below the first a curve tells nothing, more is not asked for
+STEPS = 12  # of the amplitude, half a decade each
 LINKS = 24  # of the recordings measured, and of their baselines: what is left is the effect alone
 
 
@@ -76,24 +76,19 @@ class Strengths:
         return None
 
     def measure(self, name):
-        """Residuals of the baseline at amplitudes from the largest downwards."""
+        """Residuals of the baseline from small amplitudes upwards, as far as they grow."""
         most = {**design.EFFECTS, **design.OUTSIDE}[name][2]
-        curve, amplitude = [], most
-        while len(curve) < 3 * STEPS and amplitude > 1e-9:
+        curve = []
+        for step in range(-STEPS, 1):
+            amplitude = most * 10 ** (step / 2)
             left = self.residual(name, amplitude)
-            if left is not None:
-                curve.append((amplitude, left))
-                if left < 2e-4:
-                    break
-            amplitude /= 10 ** (4 / STEPS)
-        # From small to large, as far as it grows.
-        curve.reverse()
-        growing = []
-        for point in curve:
-            if growing and point[1] <= growing[-1][1]:
+            if left is None or (curve and left < curve[-1][1]):
                 break
-            growing.append(point)
-        return growing
+            if left > RESOLVED:
+                curve.append((amplitude, left))
+            if left > LARGEST:
+                break
+        return curve
 
     def residual(self, name, amplitude):
         with tempfile.TemporaryDirectory() as folder:
@@ -105,7 +100,7 @@ class Strengths:
                 return None
             fit = subprocess.run(
                 [self.binaries / "bin" / "catena", "identify", f"{folder}/case.toml", "--quiet",
-                 "--output", f"{folder}/fit"], capture_output=True, check=False)
+                 "--time-limit", "20", "--output", f"{folder}/fit"], capture_output=True, check=False)
             if fit.returncode != 0:
                 return None
             result = json.loads(pathlib.Path(folder, "fit", "result.json").read_text())
