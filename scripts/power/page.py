@@ -73,10 +73,10 @@ def rates(rows):
         some = [r for r in single if int(r["strength"]) == s]
         lines.append([f"strength {s}: something found", "", count(some, lambda r: r["verdict"] != "none")])
         lines.append([f"strength {s}: right", "", count(some, lambda r: r["right"] == "yes")])
-    seconds = [float(r["seconds"]) for r in rows if r["seconds"]]
+    seconds = [float(r["cpu_seconds"]) for r in rows if r["cpu_seconds"]]
     text = "## Rates\n\n" + table(["what", "asked", "observed"], lines)
     if seconds:
-        text += (f"One diagnosis on one thread, models in the cache or not: median "
+        text += (f"CPU time of one diagnosis, compiling where the cache lacked a model: median "
                  f"{statistics.median(seconds):.1f} s, longest {max(seconds):.1f} s.\n\n")
     return text
 
