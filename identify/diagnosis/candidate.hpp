@@ -34,7 +34,7 @@ struct CandidateParameter {
 /// One effect that may be missing.
 struct Candidate {
   std::string id, title;
-  Effect effect;  ///< effect.form_of: of two laws of one effect the name goes to that one
+  Effect effect;        ///< effect.form_of: of two laws of one effect the name goes to that one
   bool sensor = false;  ///< changes what is reported, not the motion
   /// Brings further coordinates or states: others should not pay for them, and at a limit they have
   /// no neutral value to rest at.
@@ -51,8 +51,9 @@ std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::
                                              const Description& present);
 
 /// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which
-/// the score is taken: the frequencies given, velocities of both signs at a sixtieth, a twentieth and a sixth of their bound, other scales around their
-/// default. One empty vector if the candidate has no shape.
+/// the score is taken: the frequencies given, velocities of both signs at a sixtieth, a twentieth
+/// and a sixth of their bound, other scales around their default. One empty vector if the candidate
+/// has no shape.
 std::vector<Eigen::VectorXd> shape_grid(const Candidate& candidate,
                                         const std::vector<double>& frequencies);
 

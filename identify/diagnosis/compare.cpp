@@ -42,6 +42,7 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
                                          static_cast<int>(added));
   const double misfit_before = std::pow(fit_gap(base, floors).misfit, 2);
   const double misfit_after = std::pow(fit_gap(larger, floors).misfit, 2);
+  result.misfit_removed = misfit_before - misfit_after;
   result.misfit_share = misfit_before > 0 ? 1 - misfit_after / misfit_before : 0;
   return result;
 }

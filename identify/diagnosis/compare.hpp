@@ -12,12 +12,13 @@ namespace catena {
 /// with the noise floors. They are not independent where something is still missing, so that both
 /// the likelihood and the counts are divided by the colour factor of the better model's residuals.
 struct Comparison {
-  double removed = 0;       ///< fall of the sum of squares, in units of the noise squared
-  int added = 0;            ///< further unknowns
-  double colour = 1;        ///< colour factor of the larger model's residuals
-  double criterion = 0;     ///< change of the Bayesian information criterion; negative: better
-  double log10_p = 0;       ///< of so large a fall by chance, for one model tried
-  double misfit_share = 0;  ///< fall of the squared misfit, as a share of what it was
+  double removed = 0;         ///< fall of the sum of squares, in units of the noise squared
+  int added = 0;              ///< further unknowns
+  double colour = 1;          ///< colour factor of the larger model's residuals
+  double criterion = 0;       ///< change of the Bayesian information criterion; negative: better
+  double log10_p = 0;         ///< of so large a fall by chance, for one model tried
+  double misfit_removed = 0;  ///< fall of the squared misfit, m^2 or rad^2
+  double misfit_share = 0;    ///< fall of the squared misfit, as a share of what it was
 };
 
 /// From `base` to `larger`, which has `base` as a special case.

@@ -17,17 +17,18 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kFarGap = 4;            // times the noise: the linear score may rank wrongly
-constexpr double kCertain = -3;          // log10 of the probability of a false name
-constexpr double kWorthwhile = 0.1;      // share of the squared misfit an effect must explain
-constexpr double kClosed = 1.2;          // times the noise, fitted part
-constexpr double kClosedHeldOut = 1.35;  // times the noise, held-out part
-constexpr double kTrace = 0.15;          // of the noise
-constexpr double kTraceSignificance = 4; // deviations
-constexpr double kTooSmallToName = 0.6;  // misfit over noise below which nothing is called missing
-constexpr int kFirstEvaluations = 40;    // of each start of the baseline; the best goes on
-constexpr int kEvaluations = 80;         // of every other fit
-constexpr double kHeldOutShare = 0.3;    // of a recording, where the case holds nothing out
+constexpr double kFarGap = 4;             // times the noise: the linear score may rank wrongly
+constexpr double kCertain = -3;           // log10 of the probability of a false name
+constexpr double kWorthwhile = 0.1;       // share of the squared misfit an effect must explain
+constexpr double kDetail = 0.01;          // of the squared misfit before the first effect
+constexpr double kClosed = 1.2;           // times the noise, fitted part
+constexpr double kClosedHeldOut = 1.35;   // times the noise, held-out part
+constexpr double kTrace = 0.15;           // of the noise
+constexpr double kTraceSignificance = 4;  // deviations
+constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothing is called missing
+constexpr int kFirstEvaluations = 40;     // of each start of the baseline; the best goes on
+constexpr int kEvaluations = 80;          // of every other fit
+constexpr double kHeldOutShare = 0.3;     // of a recording, where the case holds nothing out
 
 /// A diagnosis needs data that no fit has seen.
 void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) {
@@ -221,9 +222,9 @@ class Physician {
     stop_if_asked();
     std::size_t best = models.size();
     for (std::size_t k = 0; k < models.size(); ++k)
-      if (models[k].ok && (best == models.size() ||
-                           sum_of_squares(models[k], result_.floors) <
-                               sum_of_squares(models[best], result_.floors)))
+      if (models[k].ok &&
+          (best == models.size() || sum_of_squares(models[k], result_.floors) <
+                                        sum_of_squares(models[best], result_.floors)))
         best = k;
     if (best < models.size() &&
         sum_of_squares(models[best], result_.floors) <
@@ -232,15 +233,15 @@ class Physician {
       enter(std::move(models[best]), effects_with(*others[best]), others[best]->id, stage().added);
   }
 
-  /// More links may have taken what an effect explains better: with the effects in place, the number
-  /// of links is the smaller one if that leaves less.
+  /// More links may have taken what an effect explains better: with the effects in place, the
+  /// number of links is the smaller one if that leaves less.
   void go_back_to_fewer_links() {
     for (std::size_t s = result_.stages.size(); s-- > 0;) {
       const int links = result_.stages[s].links;
       if (links >= stage().links) continue;
       FittedModel model = refitted_with_links(stage().model, links, stage().effects, workshop_);
-      if (!model.ok || sum_of_squares(model, result_.floors) >=
-                           sum_of_squares(stage().model, result_.floors))
+      if (!model.ok ||
+          sum_of_squares(model, result_.floors) >= sum_of_squares(stage().model, result_.floors))
         break;
       enter(std::move(model), stage().effects, "", kTooFewLinks);
     }
@@ -273,6 +274,15 @@ class Physician {
     return explanations;
   }
 
+  /// Beside a large effect, what its law gets slightly wrong leaves a trace that others fit a
+  /// little.
+  bool no_detail(const Comparison& comparison) {
+    double before = 0;
+    for (const Stage& each : result_.stages)
+      if (each.effects.empty()) before = each.fit.misfit;
+    return comparison.misfit_removed > kDetail * before * before;
+  }
+
   bool acceptable(const Explanation& explanation) {
     if (!explanation.refitted) return false;
     const Comparison& comparison = explanation.comparison;
@@ -280,7 +290,7 @@ class Physician {
     const bool generalises =
         explanation.held_out.count == 0 || explanation.held_out.rms <= 1.05 * stage().held_out.rms;
     return log10_p < kCertain && comparison.criterion < 0 &&
-           comparison.misfit_share > kWorthwhile && generalises;
+           comparison.misfit_share > kWorthwhile && generalises && no_detail(comparison);
   }
 
   /// The explanation to add: the one that leaves least, unless the data do not decide against
@@ -456,8 +466,8 @@ void Physician::conclude(const Case& study) {
                                 ? " with " + std::to_string(stage().links) + " links (" +
                                       std::to_string(d.stages.front().links) + " were too few)"
                                 : "";
-  if (d.effects.empty() &&
-      (!gap_left(stage()) || (closed && d.final_fit.misfit < kTooSmallToName * d.final_fit.floor))) {
+  if (d.effects.empty() && (!gap_left(stage()) ||
+                            (closed && d.final_fit.misfit < kTooSmallToName * d.final_fit.floor))) {
     d.verdict = DiagnosisVerdict::kNone;
     d.sentence =
         "No missing effect" + (links.empty() ? std::string() : links) +

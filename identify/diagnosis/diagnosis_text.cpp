@@ -122,13 +122,13 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
                         fit.ratio());
   };
   for (const Stage& stage : d.stages) {
-    std::string change = stage.added.empty() && stage.removed.empty() ? "baseline"
-                         : stage.removed == kTooFewLinks ? fmt::format("{} links after all", stage.links)
-                         : stage.added.empty()           ? "without " + stage.removed
-                         : stage.added == kTooFewLinks
-                             ? fmt::format("{} links instead", stage.links)
-                         : stage.removed.empty() ? "+ " + stage.added
-                                                 : "+ " + stage.added + " for " + stage.removed;
+    std::string change =
+        stage.added.empty() && stage.removed.empty() ? "baseline"
+        : stage.removed == kTooFewLinks ? fmt::format("{} links after all", stage.links)
+        : stage.added.empty()           ? "without " + stage.removed
+        : stage.added == kTooFewLinks   ? fmt::format("{} links instead", stage.links)
+        : stage.removed.empty()         ? "+ " + stage.added
+                                        : "+ " + stage.added + " for " + stage.removed;
     row(change, stage.fit, stage.held_out);
   }
   if (!d.effects.empty())

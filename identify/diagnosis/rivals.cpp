@@ -80,19 +80,17 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   }
   finer.refitted = true;
   finer.comparison = compare(model, finer.model, floors);
-  finer.taken =
-      finer.comparison.misfit_share > kWorthTaking && finer.comparison.log10_p < kCertain;
+  finer.taken = finer.comparison.misfit_share > kWorthTaking && finer.comparison.log10_p < kCertain;
   if (!finer.taken) finer.note = "refitted, and no better";
   return finer;
 }
 
 FittedModel refitted_with_links(const FittedModel& model, int links,
-                              const std::vector<std::string>& effects, Workshop& workshop) {
+                                const std::vector<std::string>& effects, Workshop& workshop) {
   std::string why_not;
   const std::optional<Case> other = with_links(model.problem->study(), links, why_not);
   if (!other) return {};
-  const auto problem =
-      std::make_shared<const Problem>(*other, workshop.model_with(effects, links));
+  const auto problem = std::make_shared<const Problem>(*other, workshop.model_with(effects, links));
   workshop.say("refitting with " + std::to_string(links) + " links");
   return fit_model(problem, transfer(*model.problem, model.x, *problem), workshop.least_squares,
                    workshop.stop);

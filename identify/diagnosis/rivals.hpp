@@ -23,14 +23,15 @@ struct FinerChain {
 };
 
 /// Too few links, the first rival of every effect: simulates with twice the links, or with as many
-/// as are allowed, at the same physical values. Where what changes, less what the free parameters absorb, is no small part of
-/// the misfit, refits; taken if that explains a good part of the misfit.
+/// as are allowed, at the same physical values. Where what changes, less what the free parameters
+/// absorb, is no small part of the misfit, refits; taken if that explains a good part of the
+/// misfit.
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<double>& floors, int max_links, Workshop& workshop);
 
 /// The same model with another number of links, fitted; not ok where the case cannot have it.
 FittedModel refitted_with_links(const FittedModel& model, int links,
-                              const std::vector<std::string>& effects, Workshop& workshop);
+                                const std::vector<std::string>& effects, Workshop& workshop);
 
 /// Derivative of the stacked residuals of the fitted part by all unknowns.
 Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& floors);

@@ -17,10 +17,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMoreTerms = 4;  // of the start's shape, tried as a rival
-constexpr int kRateTerms = 3;  // of its velocity
-constexpr int kLines = 8;        // frequencies where the residuals are strongest
-constexpr int kFrequencies = 24; // and others, evenly spaced
+constexpr int kMoreTerms = 4;             // of the start's shape, tried as a rival
+constexpr int kRateTerms = 3;             // of its velocity
+constexpr int kLines = 8;                 // frequencies where the residuals are strongest
+constexpr int kFrequencies = 24;          // and others, evenly spaced
 constexpr double kHighestFrequency = 12;  // Hz
 constexpr std::size_t kTriedElsewhere = 3;
 
@@ -469,6 +469,7 @@ void Search::refit(Explanation& explanation, bool far) const {
     };
     const VectorXd x = start(explanation.start);
     fit_from(explanation, problem, scaled(candidate, *problem, x, 1));
+    if (candidate.own_model) far = false;  // dear enough once
     if (far) fit_from(explanation, problem, scaled(candidate, *problem, x, 0.25));
     if (far && !explanation.other_start.empty())
       fit_from(explanation, problem,
@@ -501,8 +502,8 @@ void Search::fit_from(Explanation& explanation, const std::shared_ptr<const Prob
                       const VectorXd& start) const {
   if (workshop_.stopped()) return;
   FittedModel model = fit_model(problem, start, workshop_.least_squares, workshop_.stop);
-  if (!model.ok || (explanation.refitted && sum_of_squares(model, floors_) >=
-                                                sum_of_squares(explanation.model, floors_)))
+  if (!model.ok || (explanation.refitted &&
+                    sum_of_squares(model, floors_) >= sum_of_squares(explanation.model, floors_)))
     return;
   explanation.refitted = true;
   explanation.comparison = compare(base_, model, floors_);
@@ -526,18 +527,18 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
     workshop_.say("refitting with " + explanation.id);
     refit(explanation, far);
   });
-  // What holds and slips, or is large, has more than one minimum: the best of those that still leave
-  // a gap are tried from elsewhere.
-  std::erase_if(chosen, [](const Explanation* each) {
-    return !each->refitted || each->candidate < 0 || !each->fit.present;
+  // What holds and slips, or is large, has more than one minimum: the best of those that still
+  // leave a gap are tried from elsewhere.
+  std::erase_if(chosen, [&](const Explanation* each) {
+    return !each->refitted || each->candidate < 0 || !each->fit.present ||
+           workshop_.library()[static_cast<std::size_t>(each->candidate)].own_model;
   });
   std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
     return sum_of_squares(a->model, floors_) < sum_of_squares(b->model, floors_);
   });
   chosen.resize(std::min<std::size_t>(chosen.size(), kTriedElsewhere));
-  run_parallel(workshop_.threads, static_cast<int>(chosen.size()), [&](int i) {
-    refit_from_elsewhere(*chosen[static_cast<std::size_t>(i)]);
-  });
+  run_parallel(workshop_.threads, static_cast<int>(chosen.size()),
+               [&](int i) { refit_from_elsewhere(*chosen[static_cast<std::size_t>(i)]); });
 }
 
 }  // namespace catena

@@ -24,8 +24,8 @@ Case without_effect(const Case& study, const std::string& id);
 
 /// The same case with another number of links, all physical quantities kept: per-joint stiffness
 /// and damping change with the spacing. Empty, with the reason in `why_not`, where links are real
-/// parts (lengths, masses or angles given link by link) or something sits at a joint the other chain
-/// has not.
+/// parts (lengths, masses or angles given link by link) or something sits at a joint the other
+/// chain has not.
 std::optional<Case> with_links(const Case& study, int links, std::string& why_not);
 
 /// The same case with a start that may bend more (`more_terms` further polynomials) and move

@@ -313,7 +313,8 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
   Index first = 0, last = frames;
   const double margin = kEndKnots * force.resolution;
   while (first + 1 < last && time[static_cast<std::size_t>(first)] < time.front() + margin) ++first;
-  while (last > first + 1 && time[static_cast<std::size_t>(last - 1)] > time.back() - margin) --last;
+  while (last > first + 1 && time[static_cast<std::size_t>(last - 1)] > time.back() - margin)
+    --last;
   if (last - first < frames / 4) first = 0, last = frames;
   time = std::vector<double>(time.begin() + first, time.begin() + last);
   column = std::vector<Index>(column.begin() + first, column.begin() + last);
