@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "generator/description/input_error.hpp"
 #include "identify/ceres/least_squares.hpp"
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/process.hpp"
@@ -40,6 +41,39 @@ class ScratchFolder {
   fs::path path_;
 };
 
+/// A folder beside `folder` in which a result is put together: what stands in `folder` is replaced at
+/// once when all of it is there, and an interrupted run leaves nothing.
+class UnfinishedFolder {
+ public:
+  explicit UnfinishedFolder(fs::path folder) : folder_(std::move(folder)), path_(folder_) {
+    path_ += ".unfinished";
+    std::error_code error;
+    fs::remove_all(path_, error);
+    fs::create_directories(path_, error);
+    if (error)
+      throw InputError("--output " + folder_.string() + ": cannot be made: " + error.message());
+  }
+  ~UnfinishedFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  UnfinishedFolder(const UnfinishedFolder&) = delete;
+  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+  void publish() {
+    fs::create_directories(folder_);
+    for (const auto& entry : fs::directory_iterator(path_)) {
+      const fs::path target = folder_ / entry.path().filename();
+      fs::remove_all(target);
+      fs::rename(entry.path(), target);
+    }
+  }
+
+ private:
+  fs::path folder_, path_;
+};
+
 /// The case with the final model, its description and the emitted code.
 void keep_model(const Diagnosis& found, const Workshop& workshop, const fs::path& folder) {
   Case study = found.final.problem->with(found.final.x);
@@ -68,14 +102,17 @@ int diagnose_case(const DiagnoseOptions& options) {
   workshop.stop = &interrupted();
   workshop.threads = options.threads;
   if (isatty(STDERR_FILENO)) workshop.notice = provider.notice;
+  fs::path folder = fs::absolute(output_folder(options)).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // "found/"
+  UnfinishedFolder output(folder);
   try {
     const Diagnosis found = diagnose(study, workshop, options.diagnosis);
     const DiagnosisFindings findings = find_out(found);
-    const auto folder = fs::absolute(output_folder(options));
     const OutputFiles files = diagnosis_files(found, findings, workshop);
     for (const auto& [name, text] : files)
-      write_output((folder / name).parent_path(), {{fs::path(name).filename().string(), text}});
-    keep_model(found, workshop, folder);
+      write_output((output.path() / name).parent_path(), {{fs::path(name).filename().string(), text}});
+    keep_model(found, workshop, output.path());
+    output.publish();
     if (options.json)
       std::cout << files.back().second;
     else if (!options.quiet)
