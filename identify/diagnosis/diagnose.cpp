@@ -7,8 +7,10 @@
 #include <stdexcept>
 
 #include "generator/description/input_error.hpp"
+#include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/variant.hpp"
+#include "identify/diagnosis/verdict.hpp"
 
 namespace catena {
 
@@ -17,45 +19,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kFarGap = 4;             // times the noise: the linear score may rank wrongly
-constexpr double kCertain = -3;           // log10 of the probability of a false name
-constexpr double kWorthwhile = 0.1;       // share of the squared misfit an effect must explain
-constexpr double kDetail = 0.01;          // of the squared misfit before the first effect
-constexpr double kClosed = 1.2;           // times the noise, fitted part
-constexpr double kClosedHeldOut = 1.35;   // times the noise, held-out part
-constexpr double kTrace = 0.15;           // of the noise
-constexpr double kTraceSignificance = 4;  // deviations
-constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothing is called missing
-constexpr int kFirstEvaluations = 40;     // of each start of the baseline; the best goes on
-constexpr int kEvaluations = 80;          // of every other fit
-constexpr double kHeldOutShare = 0.3;     // of a recording, where the case holds nothing out
-
-/// A diagnosis needs data that no fit has seen.
-void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) {
-  bool held = false;
-  for (const ExperimentSpec& experiment : study.experiments)
-    held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
-  if (held) return;
-  const Problem problem(study, workshop.model_with({}, study.links));
-  for (std::size_t e = 0; e < study.experiments.size(); ++e) {
-    const auto& time = problem.experiments()[e].recording.time;
-    ExperimentSpec& experiment = study.experiments[e];
-    if (problem.experiments().size() == study.experiments.size())
-      experiment.fit_until = time.back() - kHeldOutShare * (time.back() - time.front());
-  }
-  notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
-}
-
-/// What is sought stands out from the noise of a camera: the search need not simulate and fit more
-/// finely than this. The final model is fitted as the case asks.
-Case for_the_search(Case study) {
-  SimulationSpec& simulation = study.simulation;
-  simulation.relative_tolerance = std::max(simulation.relative_tolerance, 1e-6);
-  simulation.absolute_tolerance_position = std::max(simulation.absolute_tolerance_position, 1e-8);
-  simulation.absolute_tolerance_velocity = std::max(simulation.absolute_tolerance_velocity, 1e-7);
-  study.optimiser.tolerance = std::max(study.optimiser.tolerance, 1e-4);
-  return study;
-}
+constexpr double kFarGap = 4;        // times the noise: the linear score may rank wrongly
+constexpr double kCertain = -3;      // log10 of the probability of a false name
+constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
+constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
 
 class Physician {
  public:
@@ -64,11 +31,13 @@ class Physician {
 
   Diagnosis examine(Case study) {
     const auto begin = std::chrono::steady_clock::now();
+    if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
     hold_out(study, workshop_, result_.notes);
-    fit_baseline(for_the_search(study));
+    workshop_.say("fitting the baseline");
+    enter(fit_baseline(for_the_search(study), workshop_), {}, "");
     look_for_effects();
     if (!result_.effects.empty()) look_back();
-    conclude(study);
+    conclude(result_, study, workshop_);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(result_);
@@ -76,38 +45,6 @@ class Physician {
 
  private:
   Stage& stage() { return result_.stages.back(); }
-
-  /// Too little for an effect to be sought, but not by chance.
-  static bool trace_left(const Stage& stage) {
-    return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
-  }
-
-  void fit_baseline(Case study) {
-    if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
-    workshop_.say("fitting the baseline");
-    study.optimiser.max_evaluations = std::min(study.optimiser.max_evaluations, kFirstEvaluations);
-    const Model model_of_case = workshop_.model_with({}, study.links);
-    const auto problem = std::make_shared<const Problem>(study, model_of_case);
-    // From several starts: with more damping the motion is simpler, and what the fit descends on
-    // too.
-    const std::vector<double> factors = {1, 5, 25};
-    std::vector<FittedModel> fits(factors.size());
-    run_parallel(workshop_.threads, static_cast<int>(factors.size()), [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
-      fits[k] = fit_model(problem, more_damped(*problem, factors[k]), workshop_.least_squares,
-                          workshop_.stop);
-    });
-    stop_if_asked();
-    FittedModel* best = nullptr;
-    for (FittedModel& fit : fits)
-      if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
-    if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
-    study.optimiser.max_evaluations = kEvaluations;
-    const auto longer = std::make_shared<const Problem>(study, model_of_case);
-    FittedModel model = fit_model(longer, best->x, workshop_.least_squares, workshop_.stop);
-    if (!model.ok) model = std::move(*best);
-    enter(std::move(model), {}, "");
-  }
 
   /// A new stage; the noise floor follows the best model so far.
   void enter(FittedModel model, std::vector<std::string> effects, const std::string& added,
@@ -139,39 +76,11 @@ class Physician {
     result_.stages.push_back(std::move(next));
   }
 
-  static double squares(const FittedModel& model) {
-    return sum_of_squares(model, std::vector<double>(model.fit_residual.size(), 1.0));
-  }
-
-  static VectorXd more_damped(const Problem& problem, double factor) {
-    VectorXd start = problem.start();
-    for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
-      const Unknown& unknown = problem.unknowns()[j];
-      if (unknown.parameter < 0) continue;
-      const ParameterSpec& spec =
-          problem.study().parameters[static_cast<std::size_t>(unknown.parameter)];
-      double& value = start[static_cast<Index>(j)];
-      if (spec.sets.starts_with("damping"))
-        value = std::clamp(factor * value, spec.lower, spec.upper);
-    }
-    return start;
-  }
-
-  void stop_if_asked() {
-    if (workshop_.stopped()) throw Interrupted();
-  }
-
   bool far() { return stage().fit.ratio() > kFarGap; }
-
-  /// A gap where it was fitted, or in what the fit has not seen.
-  static bool gap_left(const Stage& stage) {
-    return stage.fit.present ||
-           (stage.held_out.count > 0 && stage.held_out.ratio() > kClosedHeldOut);
-  }
 
   void look_for_effects() {
     for (;;) {
-      stop_if_asked();
+      workshop_.stop_if_asked();
       const bool gap = gap_left(stage());
       // A name is given only at a number of links that leaves no trace.
       if (!gap && (stage().effects.empty() || !trace_left(stage()))) break;
@@ -219,7 +128,7 @@ class Physician {
       const auto k = static_cast<std::size_t>(i);
       models[k] = refitted_with_links(others[k]->model, links, effects_with(*others[k]), workshop_);
     });
-    stop_if_asked();
+    workshop_.stop_if_asked();
     std::size_t best = models.size();
     for (std::size_t k = 0; k < models.size(); ++k)
       if (models[k].ok &&
@@ -253,7 +162,7 @@ class Physician {
     const int refits = far() ? options_.refits + 2 : options_.refits;
     std::vector<Explanation> explanations = search.score(false);
     search.refit_best(explanations, refits, far());
-    stop_if_asked();
+    workshop_.stop_if_asked();
     // Effects that need a model of their own cost more: only if the others leave a gap.
     const bool closed = std::any_of(explanations.begin(), explanations.end(), [](const auto& each) {
       return each.refitted && each.fit.ratio() < kClosed;
@@ -266,7 +175,7 @@ class Physician {
         return a.score.removed > b.score.removed;
       });
     }
-    stop_if_asked();
+    workshop_.stop_if_asked();
     int tried = 0;
     for (const Explanation& each : explanations)
       tried += each.score.admissible || each.note.empty();
@@ -329,7 +238,7 @@ class Physician {
   /// With all effects in place: is each still needed, and could another stand in its place?
   void look_back() {
     for (std::size_t i = 0; i < result_.effects.size();) {
-      stop_if_asked();
+      workshop_.stop_if_asked();
       const std::string id = result_.effects[i];
       std::vector<std::string> others = result_.effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
@@ -437,83 +346,13 @@ class Physician {
     return result_.stages.back().added;
   }
 
-  void conclude(const Case& study);
-
   Workshop& workshop_;
   const DiagnosisOptions& options_;
   Diagnosis result_;
   int swaps_ = 0;
 };
 
-std::string listed_ids(const std::vector<std::string>& ids) {
-  std::string text;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") + ids[i];
-  return text;
-}
-
-void Physician::conclude(const Case& study) {
-  Diagnosis& d = result_;
-  d.final = stage().model;
-  make_final_model(d, study, workshop_);
-  d.final_fit = fit_gap(d.final, d.floors);
-  d.final_held_out = held_out_gap(d.final, d.floors);
-  d.parameters = final_parameters(d);
-
-  const bool closed = d.final_fit.ratio() <= kClosed &&
-                      (d.final_held_out.count == 0 || d.final_held_out.ratio() <= kClosedHeldOut);
-  const std::string links = stage().links != d.stages.front().links
-                                ? " with " + std::to_string(stage().links) + " links (" +
-                                      std::to_string(d.stages.front().links) + " were too few)"
-                                : "";
-  if (d.effects.empty() && (!gap_left(stage()) ||
-                            (closed && d.final_fit.misfit < kTooSmallToName * d.final_fit.floor))) {
-    d.verdict = DiagnosisVerdict::kNone;
-    d.sentence =
-        "No missing effect" + (links.empty() ? std::string() : links) +
-        (d.freer_start ? "; the start of the motion needed more freedom" : "") +
-        (d.final_fit.present ? "; a remainder below the noise is left, too small to name" : "") +
-        ".";
-    return;
-  }
-  if (!closed) {
-    d.verdict = DiagnosisVerdict::kUnexplained;
-    d.sentence = d.effects.empty()
-                     ? "There is a gap, and nothing in the library explains it."
-                     : "There is a gap; " + listed_ids(d.effects) +
-                           " would explain part of it, but what is left is far above the noise.";
-    return;
-  }
-  std::erase_if(d.alternatives, [&](const Alternative& alternative) {
-    return alternative.explanation.candidate < 0 || alternative.explanation.fit.ratio() > kClosed;
-  });
-  d.verdict = d.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
-  d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";
-  for (const Alternative& form : d.forms)
-    d.sentence += " Its other form " + form.explanation.id + " would do as well.";
-  if (d.verdict == DiagnosisVerdict::kAmbiguous) {
-    std::vector<std::string> others;
-    for (const Alternative& alternative : d.alternatives)
-      others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
-    d.sentence += " These data do not decide against " + listed_ids(others) + ".";
-  }
-}
-
 }  // namespace
-
-const char* name_of(DiagnosisVerdict verdict) {
-  switch (verdict) {
-    case DiagnosisVerdict::kNone:
-      return "none";
-    case DiagnosisVerdict::kNamed:
-      return "named";
-    case DiagnosisVerdict::kAmbiguous:
-      return "ambiguous";
-    case DiagnosisVerdict::kUnexplained:
-      return "unexplained";
-  }
-  return "";
-}
 
 Diagnosis diagnose(Case study, Workshop& workshop, const DiagnosisOptions& options) {
   return Physician(workshop, options).examine(std::move(study));

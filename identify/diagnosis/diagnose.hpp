@@ -73,12 +73,6 @@ struct DiagnosisOptions {
   int refits = 6;
 };
 
-/// Thrown where the workshop's `stop` was set.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted") {}
-};
-
 /// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to
 /// fit), ModelError where a model cannot be made, std::runtime_error where the baseline cannot be
 /// fitted.

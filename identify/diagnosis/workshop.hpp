@@ -7,6 +7,7 @@
 #include <future>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@
 #include "identify/model_provider.hpp"
 
 namespace catena {
+
+/// Thrown where a workshop's `stop` was set.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
 
 /// What every part of a diagnosis needs: the effects to look for, models that hold them, a solver,
 /// and somebody to tell what is going on.
@@ -49,6 +56,10 @@ class Workshop {
 
   void say(const std::string& text);
   bool stopped() const { return stop && stop->load(); }
+  /// Throws Interrupted if somebody wants it to stop.
+  void stop_if_asked() const {
+    if (stopped()) throw Interrupted();
+  }
 
  private:
   Description original_;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/baseline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "identify/diagnosis/compare.hpp"
+#include "identify/diagnosis/search.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kFirstEvaluations = 40;  // of each start; the best goes on
+constexpr int kEvaluations = 80;       // of every later fit
+constexpr double kHeldOutShare = 0.3;  // of a recording, where the case holds nothing out
+
+double squares(const FittedModel& model) {
+  return sum_of_squares(model, std::vector<double>(model.fit_residual.size(), 1.0));
+}
+
+VectorXd more_damped(const Problem& problem, double factor) {
+  VectorXd start = problem.start();
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[j];
+    if (unknown.parameter < 0) continue;
+    const ParameterSpec& spec =
+        problem.study().parameters[static_cast<std::size_t>(unknown.parameter)];
+    double& value = start[static_cast<Index>(j)];
+    if (spec.sets.starts_with("damping"))
+      value = std::clamp(factor * value, spec.lower, spec.upper);
+  }
+  return start;
+}
+
+}  // namespace
+
+void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) {
+  bool held = false;
+  for (const ExperimentSpec& experiment : study.experiments)
+    held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
+  if (held) return;
+  const Problem problem(study, workshop.model_with({}, study.links));
+  for (std::size_t e = 0; e < study.experiments.size(); ++e) {
+    const auto& time = problem.experiments()[e].recording.time;
+    ExperimentSpec& experiment = study.experiments[e];
+    if (problem.experiments().size() == study.experiments.size())
+      experiment.fit_until = time.back() - kHeldOutShare * (time.back() - time.front());
+  }
+  notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
+}
+
+Case for_the_search(Case study) {
+  SimulationSpec& simulation = study.simulation;
+  simulation.relative_tolerance = std::max(simulation.relative_tolerance, 1e-6);
+  simulation.absolute_tolerance_position = std::max(simulation.absolute_tolerance_position, 1e-8);
+  simulation.absolute_tolerance_velocity = std::max(simulation.absolute_tolerance_velocity, 1e-7);
+  study.optimiser.tolerance = std::max(study.optimiser.tolerance, 1e-4);
+  return study;
+}
+
+FittedModel fit_baseline(Case study, Workshop& workshop) {
+  study.optimiser.max_evaluations = std::min(study.optimiser.max_evaluations, kFirstEvaluations);
+  const Model model_of_case = workshop.model_with({}, study.links);
+  const auto problem = std::make_shared<const Problem>(study, model_of_case);
+  // With more damping the motion is simpler, and what the fit descends on too.
+  const std::vector<double> factors = {1, 5, 25};
+  std::vector<FittedModel> fits(factors.size());
+  run_parallel(workshop.threads, static_cast<int>(factors.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    fits[k] = fit_model(problem, more_damped(*problem, factors[k]), workshop.least_squares,
+                        workshop.stop);
+  });
+  workshop.stop_if_asked();
+  FittedModel* best = nullptr;
+  for (FittedModel& fit : fits)
+    if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
+  if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
+  study.optimiser.max_evaluations = kEvaluations;
+  const auto longer = std::make_shared<const Problem>(study, model_of_case);
+  FittedModel model = fit_model(longer, best->x, workshop.least_squares, workshop.stop);
+  return model.ok ? model : *best;
+}
+
+}  // namespace catena

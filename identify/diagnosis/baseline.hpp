@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identify/case.hpp"
+#include "identify/diagnosis/fitted_model.hpp"
+#include "identify/diagnosis/workshop.hpp"
+
+namespace catena {
+
+/// A diagnosis needs data that no fit has seen: the end of every recording, where the case holds
+/// nothing out. Says so in `notes`.
+void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes);
+
+/// The case with tolerances no finer than a search needs: what is sought stands out from the noise
+/// of a camera. The final model is fitted as the case asks.
+Case for_the_search(Case study);
+
+/// The case's own model fitted, from several starts. Throws std::runtime_error where none of them
+/// could be simulated; Interrupted.
+FittedModel fit_baseline(Case study, Workshop& workshop);
+
+}  // namespace catena

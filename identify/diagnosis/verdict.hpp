@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "identify/diagnosis/diagnose.hpp"
+
+namespace catena {
+
+inline constexpr double kClosed = 1.2;          ///< a gap is, below this many times the noise
+inline constexpr double kClosedHeldOut = 1.35;  ///< the same where it was not fitted
+
+/// A gap where it was fitted, or in what the fit has not seen.
+bool gap_left(const Stage& stage);
+/// Too little for an effect to be sought, but not there by chance.
+bool trace_left(const Stage& stage);
+
+/// Fits the final model as `asked` says and tells what the stages amount to.
+void conclude(Diagnosis& d, const Case& asked, Workshop& workshop);
+
+}  // namespace catena
