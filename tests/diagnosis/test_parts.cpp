@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "identify/diagnosis/candidate.hpp"
 #include "identify/diagnosis/noise.hpp"
 #include "identify/diagnosis/score.hpp"
+#include "identify/diagnosis/variant.hpp"
 
 namespace {
 
@@ -126,6 +129,56 @@ TEST_CASE("what the fit can imitate entirely scores nothing") {
   catena::ScoreTest test(white(300, 1, 1, 4), jacobian);
   CHECK_FALSE(
       test.score({test.add({jacobian.col(0) - 2 * jacobian.col(1), -1e9, 1e9})}).admissible);
+}
+
+/// A case of 12 links with one stiffness for the joints named.
+catena::Case case_of_joints(const std::string& joints) {
+  return catena::parse_case(
+      "format = 1\nkind = \"case\"\ntitle = \"a cable\"\n[model]\nlinks = 12\n[cable]\n"
+      "length = 1.2\ndensity = 0.1\nload_mass = 0.2\n[[parameter]]\nname = \"k\"\nsets = \"" +
+          joints +
+          "\"\nvalue = 2.0\nunit = \"N m/rad\"\n[initial]\nshape = \"straight\"\nangle = 0.3\n",
+      "case.toml", ".");
+}
+
+TEST_CASE("the same cable with other numbers of links: joints keep their places, softer ones more") {
+  std::string why_not;
+  const auto finer = catena::with_links(case_of_joints("stiffness_2..12"), 24, why_not);
+  REQUIRE(finer);
+  CHECK(finer->links == 24);
+  CHECK(finer->parameters[0].sets == "stiffness_2..24");
+  CHECK(finer->parameters[0].factor == 2.0);
+  // joint 7, at half the length, is joint 13 of 24 and joint 31 of 60
+  CHECK(catena::with_links(case_of_joints("stiffness_7..12"), 24, why_not)->parameters[0].sets ==
+        "stiffness_13..24");
+  CHECK(catena::with_links(case_of_joints("stiffness_7..12"), 60, why_not)->parameters[0].sets ==
+        "stiffness_31..60");
+  // and back
+  CHECK(catena::with_links(*finer, 12, why_not)->parameters[0].sets == "stiffness_2..12");
+  // three quarters of a link further there is no joint
+  CHECK_FALSE(catena::with_links(case_of_joints("stiffness_6..12"), 15, why_not));
+  CHECK(why_not.find("parameter k") != std::string::npos);
+}
+
+TEST_CASE("the built-in effects as candidates: amplitudes, shapes, phases, limits and forms") {
+  const auto library = catena::library_of_candidates({}, catena::plain_chain());
+  const auto find = [&](const std::string& id) {
+    const auto found =
+        std::find_if(library.begin(), library.end(), [&](const auto& c) { return c.id == id; });
+    REQUIRE(found != library.end());
+    return *found;
+  };
+  using catena::ParameterRole;
+  const auto motion = find("support_motion");
+  CHECK(motion.with_role(ParameterRole::kAmplitude).size() == 2);
+  CHECK(motion.with_role(ParameterRole::kPhase).size() == 2);
+  CHECK(motion.with_role(ParameterRole::kShape).size() == 1);
+  const auto grid = catena::shape_grid(motion, {0.5, 1.5});
+  REQUIRE(grid.size() == 2);
+  CHECK(grid[1][0] == 1.5);
+  CHECK(find("axial_stretch").with_role(ParameterRole::kLimit).size() == 1);
+  CHECK(find("air_drag_isotropic").effect.form_of == "air_drag_quadratic");
+  CHECK(find("support_series").unavailable != "");
 }
 
 }  // namespace
