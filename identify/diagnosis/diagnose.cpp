@@ -203,8 +203,8 @@ class Physician {
   }
 
   /// The explanation to add: the one that leaves least, unless the data do not decide against
-  /// something simpler: a freer start in place of any effect, an effect inside the other, or one of
-  /// fewer unknowns.
+  /// something simpler: one of fewer unknowns (a freer start is one of many), or an effect inside
+  /// the other.
   const Explanation* choose(const std::vector<Explanation>& explanations) {
     const auto worth = [&](const Explanation& explanation) {
       return sum_of_squares(explanation.model, result_.floors) +
@@ -215,7 +215,7 @@ class Physician {
     for (const Explanation& explanation : explanations)
       if (acceptable(explanation) && (!best || worth(explanation) < worth(*best)))
         best = &explanation;
-    if (!best || best->candidate < 0) return best;
+    if (!best) return best;
     const Explanation* simplest = best;
     for (const Explanation& explanation : explanations) {
       if (!acceptable(explanation) || &explanation == best || !simpler(explanation, *best) ||
@@ -227,7 +227,8 @@ class Physician {
   }
 
   bool simpler(const Explanation& a, const Explanation& b) {
-    return a.candidate < 0 || a.comparison.added < b.comparison.added ||
+    if (a.comparison.added != b.comparison.added) return a.comparison.added < b.comparison.added;
+    return a.candidate >= 0 && b.candidate >= 0 &&
            is_special_case(*workshop_.find(a.id), *workshop_.find(b.id),
                            workshop_.model_with_all(stage().links));
   }
@@ -287,7 +288,8 @@ class Physician {
   Stage stage_without(const std::string& id, const std::vector<std::string>& others) {
     Stage without;
     const Case study = without_effect(stage().model.problem->study(), id);
-    const auto problem = std::make_shared<const Problem>(study, stage().model.problem->model());
+    const auto problem =
+        std::make_shared<const Problem>(study, workshop_.model_with(others, study.links));
     without.model = fit_model(problem, transfer(*stage().model.problem, stage().model.x, *problem),
                               workshop_.least_squares, workshop_.stop);
     if (!without.model.ok) return {};
