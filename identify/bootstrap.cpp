@@ -3,7 +3,7 @@
 #include <random>
 
 #include "identify/error.hpp"
-#include "identify/parallel.hpp"
+#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
 
 namespace catena {

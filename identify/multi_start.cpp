@@ -9,7 +9,7 @@
 #include <numeric>
 #include <random>
 
-#include "identify/parallel.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "identify/error.hpp"
-#include "identify/parallel.hpp"
+#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
 
 namespace catena {

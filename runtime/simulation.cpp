@@ -7,6 +7,7 @@
 #include "runtime/adjoint_solver.hpp"
 #include "runtime/integrator.hpp"
 #include "runtime/number_text.hpp"
+#include "runtime/parallel.hpp"
 #include "runtime/sensitivity.hpp"
 
 namespace catena {
@@ -97,6 +98,26 @@ Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const
                     const std::vector<double>& times, const SimulationOptions& options,
                     const Signals& signals) {
   return simulate_with_sensitivities(model, parameters, initial, {}, times, options, signals);
+}
+
+std::vector<Simulation> simulate_sets(const Model& model,
+                                      const std::vector<Eigen::VectorXd>& parameters,
+                                      const std::vector<State>& initial,
+                                      const std::vector<double>& times, int threads,
+                                      const SimulationOptions& options, const Signals& signals) {
+  if (parameters.size() != initial.size())
+    refuse(std::to_string(parameters.size()) + " sets of parameters, but " +
+           std::to_string(initial.size()) + " starts; give as many of both");
+  for (std::size_t i = 0; i < parameters.size(); ++i) try {
+      check_run(model, parameters[i], initial[i], times, options, signals);
+    } catch (const std::invalid_argument& error) {
+      refuse("set " + std::to_string(i + 1) + ": " + error.what());
+    }
+  std::vector<Simulation> results(parameters.size());
+  in_parallel(results.size(), threads, [&](std::size_t i) {
+    results[i] = simulate(model, parameters[i], initial[i], times, options, signals);
+  });
+  return results;
 }
 
 SensitiveSimulation simulate_with_sensitivities(

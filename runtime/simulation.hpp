@@ -70,4 +70,15 @@ Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const
                     const std::vector<double>& times, const SimulationOptions& options = {},
                     const Signals& signals = {});
 
+/// simulate for many sets of parameters and starts, as many of each, on up to `threads` threads.
+/// Result i is that of set i simulated alone, bit for bit (but for cpu_seconds). options.keep_going
+/// is called from several threads. All sets are checked before the first is simulated; what is
+/// thrown names the set.
+std::vector<Simulation> simulate_sets(const Model& model,
+                                      const std::vector<Eigen::VectorXd>& parameters,
+                                      const std::vector<State>& initial,
+                                      const std::vector<double>& times, int threads,
+                                      const SimulationOptions& options = {},
+                                      const Signals& signals = {});
+
 }  // namespace catena

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "identify/ceres/least_squares.hpp"
-#include "identify/parallel.hpp"
+#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
 #include "tests/identify/coverage.hpp"
 #include "tests/identify/recordings.hpp"

@@ -53,6 +53,40 @@ TEST_CASE("one rigid link swings with the period of the physical pendulum") {
   CHECK(run.trajectory.q(0, 3) == doctest::Approx(amplitude).epsilon(2e-6));
 }
 
+TEST_CASE("many sets on several threads give the bits of one at a time") {
+  const Model model = Model::built_in(12);
+  std::vector<Eigen::VectorXd> parameters;
+  std::vector<State> initial;
+  for (int i = 0; i < 7; ++i) {
+    parameters.push_back(cable_parameters(model, 20.0 + 5 * i, 0.01 * (i + 1)));
+    initial.push_back(catena::straight(model, 0.1 * (i + 1)));
+  }
+  const auto together =
+      catena::simulate_sets(model, parameters, initial, times(0.2, 5), 3, SimulationOptions{});
+  REQUIRE(together.size() == 7);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const auto alone = catena::simulate(model, parameters[i], initial[i], times(0.2, 5));
+    REQUIRE(alone.status == Status::kSuccess);
+    REQUIRE(together[i].status == Status::kSuccess);
+    CHECK(together[i].statistics.steps == alone.statistics.steps);
+    CHECK(largest_difference(together[i].trajectory.q, alone.trajectory.q) == 0.0);
+    CHECK(largest_difference(together[i].trajectory.v, alone.trajectory.v) == 0.0);
+    CHECK(together[i].energy_imbalance == alone.energy_imbalance);
+  }
+  CHECK(catena::simulate_sets(model, {}, {}, times(0.2, 5), 3).empty());
+  CHECK_THROWS_WITH_AS(catena::simulate_sets(model, parameters, {}, times(0.2, 5), 3),
+                       "7 sets of parameters, but 0 starts; give as many of both",
+                       std::invalid_argument);
+  parameters[4][0] = std::nan("");
+  std::string message;
+  try {
+    catena::simulate_sets(model, parameters, initial, times(0.2, 5), 3);
+  } catch (const std::invalid_argument& error) {
+    message = error.what();
+  }
+  CHECK(message.starts_with("set 5: "));
+}
+
 TEST_CASE("both linear solvers give the same motion, and statistics say which was used") {
   const Model model(reference_model<4>());
   const auto p = cable_parameters(model, 5.0, 0.05);
