@@ -84,7 +84,7 @@ def compare_methods(title, runs):
     """Nelder-Mead beside least squares; `runs`: what was fitted -> (simplex, least squares)."""
     rows = []
     for name, (simplex, squares) in runs.items():
-        reached = next((k + 1 for k, e in enumerate(squares.errors)
+        reached = next((squares.evaluations - len(squares.errors) + k + 1 for k, e in enumerate(squares.errors)
                         if e is not None and e <= simplex.error), "-")  # fmt: skip
         rows.append([name, simplex.evaluations, simplex.cpu_seconds, simplex.error,
                      squares.evaluations, reached, squares.cpu_seconds, squares.error,
