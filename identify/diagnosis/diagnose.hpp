@@ -68,7 +68,7 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
-  int max_effects = 3;
+  int max_effects = 2;  ///< three can imitate much that is none of them
   int max_links = 60;
   int refits = 6;
 };

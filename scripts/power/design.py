@@ -81,7 +81,7 @@ def trials():
 
     def add(kind, hidden, strength, noise, k):
         result.append(Trial(kind, hidden, strength, noise, RATES[k % 3], LINKS[k % 4],
-                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, 3000 + k))
+                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, 4000 + k))
 
     rounds = len(STRENGTHS) * len(NOISES) * SEEDS
     for r in range(rounds):
