@@ -3,8 +3,8 @@
 #include <random>
 
 #include "identify/error.hpp"
-#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 namespace {

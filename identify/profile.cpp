@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "identify/error.hpp"
-#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 namespace {

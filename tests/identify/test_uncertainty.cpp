@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "identify/ceres/least_squares.hpp"
-#include "runtime/parallel.hpp"
 #include "identify/uncertainty.hpp"
+#include "runtime/parallel.hpp"
 #include "tests/identify/coverage.hpp"
 #include "tests/identify/recordings.hpp"
 
