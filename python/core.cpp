@@ -12,6 +12,7 @@
 #include <chrono>
 
 #include "generator/description/input_error.hpp"
+#include "identify/model_provider.hpp"
 #include "python/core.hpp"
 #include "runtime/initial_shape.hpp"
 #include "runtime/model.hpp"
@@ -275,9 +276,18 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "Models, simulation, identification and diagnosis of a hanging cable.";
   py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
   py::register_exception<ComputationError>(module, "ComputationError", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr raised) {
+    try {
+      std::rethrow_exception(raised);
+    } catch (const ModelError& error) {
+      const py::object type = py::module_::import("catena._core").attr("ComputationError");
+      PyErr_SetString(type.ptr(), error.what());
+    }
+  });
   add_model(module);
   add_simulation(module);
   add_studies(module);
+  add_diagnoses(module);
 }
 
 }  // namespace catena::python

@@ -34,7 +34,9 @@ pybind11::array read_only(pybind11::array array);
 /// memory alive.
 pybind11::array rows_per_time(const Eigen::MatrixXd& matrix, pybind11::handle owner);
 
-/// Cases, identify and diagnose (studies.cpp).
+/// Cases and identify (studies.cpp).
 void add_studies(pybind11::module_& module);
+/// diagnose (diagnoses.cpp).
+void add_diagnoses(pybind11::module_& module);
 
 }  // namespace catena::python

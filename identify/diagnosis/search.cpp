@@ -210,8 +210,11 @@ MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
     std::vector<Direction> along;
     for (const Index j : unknowns) along.push_back(every[static_cast<std::size_t>(j)]);
     Prediction prediction = problem.predict(x, index, false, along);
+    if (!prediction.ok())
+      throw std::runtime_error("the model with every effect cannot be simulated at the fit: " +
+                               prediction.message);
     for (std::size_t j = 0; j < unknowns.size(); ++j)
-      derivatives[j].push_back(prediction.ok() ? prediction.sensitivity[j] : MatrixXd());
+      derivatives[j].push_back(std::move(prediction.sensitivity[j]));
   }
   MatrixXd result;
   for (std::size_t j = 0; j < unknowns.size(); ++j) {
