@@ -27,6 +27,8 @@ std::string milli(const std::string& unit) { return unit == "rad" ? "mrad" : "mm
 
 std::string name_of(const Diagnosis& diagnosis, std::size_t round) {
   const Round& at = diagnosis.rounds[round];
+  if (at.added == kTooFewLinks || at.removed == kTooFewLinks)
+    return fmt::format("{} links", at.links);
   if (!at.added.empty()) return fmt::format("with {}", at.added);
   if (!at.removed.empty()) return fmt::format("without {}", at.removed);
   return round == 0 ? "baseline" : at.model;
@@ -143,7 +145,7 @@ class BeforeAfter {
 
  private:
   void put(const std::string& family, Figure figure) {
-    add(figures_, family, std::move(figure), "Effect", change_, experiment_.name);
+    add(figures_, family, std::move(figure), "Change", change_, experiment_.name);
   }
 
   std::string quantity() const { return after_.angles ? "size of residual" : "distance"; }
@@ -234,22 +236,22 @@ class BeforeAfter {
 };
 
 void add_before_after(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
-  const Round* before = nullptr;
-  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
-    const Round& after = diagnosis.rounds[k];
-    if (!after.result) continue;
-    if (before != nullptr) {
-      for (const Experiment& experiment : after.result->experiments) {
-        const auto& earlier = before->result->experiments;
-        const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const Experiment& e) {
-          return e.name == experiment.name;
-        });
-        if (same == earlier.end() || !same->measured || !experiment.measured) continue;
-        BeforeAfter(name_of(diagnosis, k), *same, experiment, figures).add_all();
-      }
+  std::vector<std::size_t> rounds;  // with a result
+  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k)
+    if (diagnosis.rounds[k].result) rounds.push_back(k);
+  const auto compare = [&](const std::string& change, std::size_t before, std::size_t after) {
+    for (const Experiment& experiment : diagnosis.rounds[after].result->experiments) {
+      const auto& earlier = diagnosis.rounds[before].result->experiments;
+      const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const Experiment& e) {
+        return e.name == experiment.name;
+      });
+      if (same == earlier.end() || !same->measured || !experiment.measured) continue;
+      BeforeAfter(change, *same, experiment, figures).add_all();
     }
-    before = &after;
-  }
+  };
+  if (rounds.size() > 2) compare("all changes", rounds.front(), rounds.back());
+  for (std::size_t k = 1; k < rounds.size(); ++k)
+    compare(name_of(diagnosis, rounds[k]), rounds[k - 1], rounds[k]);
 }
 
 void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {

@@ -84,7 +84,7 @@ std::string to_html(const Document& document, const std::vector<ReportFigure>& f
        document.diagnosis ? diagnosis_html(*document.diagnosis) + frames("diagnosis", figures)
                           : ""},
       {"motion", "Motion", frames("motion", figures, player)},
-      {"residuals", "Residuals", frames("residuals", figures)},
+      {"residuals", "Residuals", residuals_html(result) + frames("residuals", figures)},
       {"parameters", "Parameters", parameters_html(result)},
       {"fit", "Fit", fit_html(result) + frames("fit", figures)},
       {"energy", "Energy", frames("energy", figures)},

@@ -9,6 +9,7 @@
 
 #include "identify/report/assets.hpp"
 #include "identify/report/equations.hpp"
+#include "identify/report/residuals.hpp"
 #include "identify/report/svg_elements.hpp"
 #include "identify/report/ticks.hpp"
 
@@ -110,6 +111,14 @@ std::string interval(const Parameter& parameter) {
                      for_people(parameter.high, 5));
 }
 
+/// A probability of which the decimal logarithm is given; it may be too small for a number.
+std::string chance(double log10_p) {
+  if (std::isnan(log10_p)) return "–";
+  if (log10_p >= -4) return for_people(std::pow(10.0, std::min(0.0, log10_p)), 2);
+  if (std::isinf(log10_p)) return "below 10<sup>−300</sup>";
+  return fmt::format("10<sup>−{:.0f}</sup>", -log10_p);
+}
+
 std::string estimates(const Candidate& candidate) {
   std::vector<std::string> parts;
   for (const auto& [name, value] : candidate.estimate) {
@@ -124,18 +133,20 @@ std::string candidates_table(const Round& round, const std::string& unit) {
                    [](const Candidate& a, const Candidate& b) {
                      return std::isnan(b.score) ? !std::isnan(a.score) : a.score > b.score;
                    });
-  std::vector<Cells> rows = {{"Effect", "Score", "Significance", "Survives", "Estimate",
-                              "Refit, fitted", "Refit, held out", "Note"}};
+  std::vector<Cells> rows = {{"Effect", "Score", "Chance", "Survives", "Estimate", "Refit, fitted",
+                              "Refit, held out", "Chance, refit", "Note"}};
   for (const Candidate& c : candidates) {
     std::string name = c.title.empty() ? escaped(c.id) : escaped(c.title);
     std::string note = escaped(c.note);
     if (!c.admissible && note.empty()) note = "not admissible";
-    rows.push_back({name, percent(c.score), for_people(c.significance, 2), percent(c.survives),
-                    estimates(c), length(c.refit_fit, unit), length(c.refit_validate, unit), note});
+    rows.push_back({name, percent(c.score), chance(std::log10(c.significance)),
+                    percent(c.survives), estimates(c), length(c.refit_fit, unit),
+                    length(c.refit_validate, unit), chance(c.log10_p), note});
   }
   return table(
-      "Score: share of the squared residual the effect would remove; survives: share of its "
-      "sensitivity that the free parameters cannot imitate",
+      "Score: share of the squared residual the effect would remove; chance: that noise alone "
+      "would remove as much from one of all candidates; survives: share of its sensitivity that "
+      "the free parameters cannot imitate",
       rows);
 }
 
@@ -157,10 +168,97 @@ std::string group_html(const EquationGroup& group) {
   return html;
 }
 
+std::string list_html(const std::string& heading, const std::vector<std::string>& items) {
+  if (items.empty()) return "";
+  std::string html = fmt::format("<h3>{}</h3>\n<ul>\n", heading);
+  for (const std::string& item : items) html += fmt::format("<li>{}</li>\n", escaped(item));
+  return html + "</ul>\n";
+}
+
+/// An effect's title where some round knows it, else its id.
+std::string title_of(const Diagnosis& diagnosis, const std::string& id) {
+  for (const EffectEntry& effect : diagnosis.effects)
+    if (effect.id == id && !effect.title.empty()) return effect.title;
+  for (const Round& round : diagnosis.rounds)
+    for (const Candidate& candidate : round.candidates)
+      if (candidate.id == id && !candidate.title.empty()) return candidate.title;
+  return spaced(id);
+}
+
+std::string others_html(const Diagnosis& diagnosis, const std::string& caption,
+                        const std::vector<OtherEffect>& others) {
+  if (others.empty()) return "";
+  std::vector<Cells> rows = {
+      {"Effect", "In place of", "Gap, fitted part", "Gap, held out", "Predictions apart"}};
+  for (const OtherEffect& other : others) {
+    rows.push_back({escaped(title_of(diagnosis, other.id)),
+                    other.instead_of.empty() ? "–" : escaped(title_of(diagnosis, other.instead_of)),
+                    length(other.fit, diagnosis.unit), length(other.validate, diagnosis.unit),
+                    std::isnan(other.difference)
+                        ? "–"
+                        : for_people(other.difference, 2) + " times the noise"});
+  }
+  return table(caption, rows);
+}
+
+/// What the data do not decide, and what would.
+std::string undecided_html(const Diagnosis& diagnosis) {
+  const std::vector<OtherEffect>& undecided = diagnosis.undecided;
+  std::string html;
+  if (!undecided.empty())
+    html += "<h3>What the data do not decide</h3>\n" +
+            others_html(diagnosis, "Effects that explain the same recording as well", undecided);
+  std::string items;
+  for (const OtherEffect& other : undecided) {
+    if (other.experiment_that_tells.empty()) continue;
+    items += fmt::format("<li>{}: {}",  escaped(title_of(diagnosis, other.id)),
+                         escaped(other.experiment_that_tells));
+    if (!std::isnan(other.difference_there))
+      items += fmt::format("; the predictions differ by {} times the noise there",
+                           for_people(other.difference_there, 3));
+    items += "</li>\n";
+  }
+  if (items.empty() && !diagnosis.experiment_that_tells.empty())
+    items = fmt::format("<li>{}</li>\n", escaped(diagnosis.experiment_that_tells));
+  if (!items.empty())
+    html += "<h3>The experiment that would tell them apart</h3>\n<ul>\n" + items + "</ul>\n";
+  html += others_html(diagnosis, "Other laws of the effect that is named, undecided too",
+                      diagnosis.forms);
+  if (!diagnosis.runners_up.empty())
+    html += disclosed("Effects that the data decide against",
+                      others_html(diagnosis, "Refitted, and worse", diagnosis.runners_up), false);
+  return html;
+}
+
+/// How many links were needed, and what more of them would change.
+std::string links_html(const Diagnosis& diagnosis) {
+  if (diagnosis.links_used == 0) return "";
+  const bool more = diagnosis.links_used != diagnosis.links_given;
+  std::string html = fmt::format(
+      "<h3>Links</h3>\n<p>{}</p>\n",
+      more ? fmt::format("The case has {} links; the final model has {}.", diagnosis.links_given,
+                         diagnosis.links_used)
+           : fmt::format("The case's {} links are those of the final model.", diagnosis.links_given));
+  std::vector<Cells> rows = {{"Asked of", "Links", "Change of the prediction", "Refitted", "Taken", "Note"}};
+  for (const Round& round : diagnosis.rounds) {
+    if (!round.finer_chain) continue;
+    const FinerChain& finer = *round.finer_chain;
+    rows.push_back({escaped(round.model), std::to_string(finer.links),
+                    length(finer.predicted_change, diagnosis.unit), finer.refitted ? "yes" : "no",
+                    finer.taken ? "yes" : "no", escaped(finer.note)});
+  }
+  if (rows.size() > 1)
+    html += table("What more links would change that the free parameters cannot imitate", rows);
+  return html;
+}
+
 /// The formulas of the effects that were named or are candidates for the name.
 std::string members_html(const Diagnosis& diagnosis) {
   std::string html;
+  for (const EffectEntry& effect : diagnosis.effects) html += group_html(formulas_of(effect));
   for (const std::string& member : diagnosis.members) {
+    const auto named = [&](const EffectEntry& effect) { return effect.id == member; };
+    if (std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), named)) continue;
     EffectEntry entry{member, "", "", {}};
     for (const Round& round : diagnosis.rounds) {
       for (const Candidate& candidate : round.candidates) {
@@ -232,6 +330,35 @@ std::string summary_html(const Document& document) {
   return html;
 }
 
+std::string residuals_html(const Result& result) {
+  std::string html;
+  for (const Experiment& experiment : result.experiments) {
+    const Residuals residuals = residuals_of(experiment);
+    if (residuals.points.empty()) continue;
+    std::vector<Cells> rows = {residuals.angles ? Cells{"Point", "Angle"}
+                                                : Cells{"Point", "Down", "Side", "Radial (6.7)–(6.10)",
+                                                        "Distance (6.5)"}};
+    const auto mean = [](const Row& row) { return for_people(mean_absolute(row), 4); };
+    for (std::size_t p = 0; p < residuals.points.size(); ++p) {
+      Cells cells = {escaped(residuals.points[p].name)};
+      if (residuals.angles) {
+        cells.push_back(mean(residuals.angle[p]));
+      } else {
+        for (const Rows* part : {&residuals.down, &residuals.side, &residuals.radial, &residuals.size})
+          cells.push_back(mean((*part)[p]));
+      }
+      rows.push_back(std::move(cells));
+    }
+    html += disclosed(fmt::format("Mean differences, {}", escaped(experiment.name)),
+                      table(fmt::format("Mean over all frames of the size of measured minus "
+                                        "simulated, {}; radial: of the distance from the support",
+                                        residuals.unit),
+                            rows),
+                      result.experiments.size() == 1 && rows.size() <= 14);
+  }
+  return html;
+}
+
 std::string parameters_html(const Result& result) {
   if (result.parameters.empty()) return "";
   std::vector<Cells> free = {{"Parameter", "Value", "Unit", "Standard error", "95 % interval",
@@ -280,29 +407,24 @@ std::string fit_html(const Result& result) {
 }
 
 std::string diagnosis_html(const Diagnosis& diagnosis) {
-  std::string html;
-  if (!diagnosis.where.empty()) {
-    html += "<h3>Where the gap is</h3>\n<ul>\n";
-    for (const std::string& words : diagnosis.where)
-      html += fmt::format("<li>{}</li>\n", escaped(words));
-    html += "</ul>\n";
-  }
-  if (!diagnosis.notes.empty()) {
-    html += "<h3>Notes</h3>\n<ul>\n";
-    for (const std::string& words : diagnosis.notes) {
-      html += fmt::format("<li>{}</li>\n", escaped(words));
-    }
-    html += "</ul>\n";
-  }
-  std::vector<Cells> rows = {{"Model", "Links", "Gap, fitted part", "Gap, held out"}};
+  std::string html = list_html("Where the gap is", diagnosis.where);
+  if (diagnosis.missing_force)
+    html += list_html("The force that is missing", diagnosis.missing_force->words);
+  html += list_html("Notes", diagnosis.notes);
+  std::vector<Cells> rows = {
+      {"Model", "Links", "Gap, fitted part", "Gap, held out", "Fitted / noise"}};
   for (const Round& round : diagnosis.rounds) {
     std::string name = escaped(round.model);
     const bool said = round.model.find(round.added) != std::string::npos;
-    if (!round.added.empty() && !said) name += fmt::format(" + {}", escaped(round.added));
-    if (!round.removed.empty()) name += fmt::format(" − {}", escaped(round.removed));
+    if (!round.added.empty() && !said && round.added != kTooFewLinks)
+      name += fmt::format(" + {}", escaped(round.added));
+    if (!round.removed.empty() && round.removed != kTooFewLinks)
+      name += fmt::format(", no longer {}", escaped(round.removed));
+    const double noise = std::isnan(round.gap.floor) ? diagnosis.floor : round.gap.floor;
     rows.push_back({name, round.links > 0 ? std::to_string(round.links) : "–",
                     length(round.gap.fit, diagnosis.unit),
-                    length(round.gap.validate, diagnosis.unit)});
+                    length(round.gap.validate, diagnosis.unit),
+                    for_people(round.gap.fit / noise, 3)});
   }
   if (rows.size() > 1) {
     const std::string floor =
@@ -311,11 +433,15 @@ std::string diagnosis_html(const Diagnosis& diagnosis) {
             : fmt::format("; noise {}", length(diagnosis.floor, diagnosis.unit));
     html += table("Gap, round by round" + floor, rows);
   }
+  html += links_html(diagnosis);
   html += members_html(diagnosis);
-  if (!diagnosis.experiment_that_tells.empty()) {
-    html += fmt::format("<h3>What would tell them apart</h3>\n<p>{}</p>\n",
-                        escaped(diagnosis.experiment_that_tells));
-  }
+  if (!std::isnan(diagnosis.equality_at_neutral) && !diagnosis.effects.empty())
+    html += fmt::format("<p>At the neutral values the new model equals the case's{}.</p>\n",
+                        diagnosis.equality_at_neutral == 0
+                            ? " exactly"
+                            : fmt::format(" to {} (relative)",
+                                          for_people(diagnosis.equality_at_neutral, 1)));
+  html += undecided_html(diagnosis);
   for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
     const Round& round = diagnosis.rounds[k];
     if (round.candidates.empty()) continue;

@@ -14,6 +14,8 @@ namespace catena::report {
 std::string table(const std::string& caption, const std::vector<std::vector<std::string>>& rows);
 
 std::string summary_html(const Document& document);
+/// Mean sizes of the residuals of every point, over all frames.
+std::string residuals_html(const Result& result);
 std::string parameters_html(const Result& result);
 std::string fit_html(const Result& result);
 std::string diagnosis_html(const Diagnosis& diagnosis);

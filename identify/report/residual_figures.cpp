@@ -32,7 +32,9 @@ void add_by_point(const Experiment& experiment, const Residuals& residuals,
   for (std::size_t p = 0; p < residuals.points.size(); ++p) {
     Figure figure;
     figure.title = fmt::format("Residuals of {}", residuals.points[p].name);
-    figure.caption = "Measured minus simulated.";
+    figure.caption = residuals.angles ? "Measured minus simulated."
+                                      : "Measured minus simulated; radial: of the distance from "
+                                        "the support, (6.7) to (6.10).";
     figure.x = {"time", "s"};
     figure.y = {"residual", residuals.unit};
     if (residuals.angles) {
@@ -40,6 +42,7 @@ void add_by_point(const Experiment& experiment, const Residuals& residuals,
     } else {
       figure.series.push_back({"side", residuals.time, residuals.side[p], Mark::kLine, 1});
       figure.series.push_back({"down", residuals.time, residuals.down[p], Mark::kLine, 2});
+      figure.series.push_back({"radial", residuals.time, residuals.radial[p], Mark::kLine, 3});
     }
     add(figures, experiment, "residuals", residuals.points[p].name, std::move(figure));
   }

@@ -43,8 +43,12 @@ Residuals residuals_of(const Experiment& experiment) {
   residuals.down = differences(measured.values.down, measured.predicted.down);
   for (std::size_t p = 0; p < residuals.side.size(); ++p) {
     residuals.size.emplace_back();
+    residuals.radial.emplace_back();
     for (std::size_t t = 0; t < residuals.time.size(); ++t) {
       residuals.size.back().push_back(std::hypot(residuals.side[p][t], residuals.down[p][t]));
+      residuals.radial.back().push_back(
+          kMilli * (std::hypot(measured.values.side[p][t], measured.values.down[p][t]) -
+                    std::hypot(measured.predicted.side[p][t], measured.predicted.down[p][t])));
     }
   }
   return residuals;
@@ -63,6 +67,17 @@ Row mean_over_points(const Rows& rows, std::size_t times) {
     if (seen > 0) mean[t] = sum / seen;
   }
   return mean;
+}
+
+double mean_absolute(const Row& row) {
+  double sum = 0;
+  int seen = 0;
+  for (const double value : row) {
+    if (std::isnan(value)) continue;
+    sum += std::abs(value);
+    ++seen;
+  }
+  return seen == 0 ? kAbsent : sum / seen;
 }
 
 double root_mean_square(const Row& row) {

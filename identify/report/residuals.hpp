@@ -16,6 +16,7 @@ struct Residuals {
   std::vector<Point> points;
   Rows side, down;  ///< markers
   Rows angle;       ///< angles
+  Rows radial;      ///< markers: of the distance from the support, as in (6.7)-(6.10)
   Rows size;        ///< distance (6.5), or size of the angle's residual: [point][time]
 };
 
@@ -24,6 +25,9 @@ Residuals residuals_of(const Experiment& experiment);
 
 /// Mean over the points, NaN left out, at each time.
 Row mean_over_points(const Rows& rows, std::size_t times);
+
+/// Mean of the sizes of all entries that are not NaN; NaN if there is none.
+double mean_absolute(const Row& row);
 
 /// Root mean square over all entries that are not NaN; NaN if there is none.
 double root_mean_square(const Row& row);

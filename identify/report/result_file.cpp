@@ -268,9 +268,11 @@ std::vector<std::string> read_texts(const Node& node) {
   return texts;
 }
 
-/// MathML and LaTeX of the same formulas, either of which may be missing.
+/// MathML and LaTeX of the same formulas, either of which may be missing: under "formulas", one by
+/// one or as two lists, or as two lists of the node itself.
 std::vector<Equation> read_formulas(const Node& node) {
   if (node.has("formulas")) {
+    if (node["formulas"].is_object()) return read_formulas(node["formulas"]);
     std::vector<Equation> formulas;
     for (const Node& formula : node["formulas"].list()) {
       formulas.push_back({formula["what"].text(), formula["mathml"].text(), formula["latex"].text()});
@@ -350,6 +352,7 @@ Candidate read_candidate(const Node& node) {
     candidate.refit_fit = node["refit"]["fit"].number();
     candidate.refit_validate = node["refit"]["validate"].number();
     candidate.criterion = node["refit"]["criterion"].number();
+    candidate.log10_p = node["refit"]["log10_p"].number();
   }
   candidate.formulas = read_formulas(node);
   return candidate;
@@ -386,6 +389,12 @@ Round read_round(const Node& node, const std::filesystem::path& folder) {
   round.removed = node["removed"].text();
   round.links = node["links"].count();
   round.gap = read_gap(node["gap"]);
+  if (node.has("finer_chain")) {
+    const Node finer = node["finer_chain"];
+    round.finer_chain = {finer["links"].count(), finer["predicted_change"].number(),
+                         finer["refitted"].flag(false), finer["taken"].flag(false),
+                         finer["note"].text()};
+  }
   for (const Node& candidate : node["candidates"].list()) {
     round.candidates.push_back(read_candidate(candidate));
   }
@@ -402,6 +411,20 @@ Round read_round(const Node& node, const std::filesystem::path& folder) {
   return round;
 }
 
+std::vector<OtherEffect> read_others(const Node& node) {
+  std::vector<OtherEffect> others;
+  for (const Node& entry : node.list()) {
+    OtherEffect other{entry["id"].text(), entry["instead_of"].text(), entry["fit"].number(),
+                      entry["validate"].number(), entry["difference"].number(), "", kAbsent};
+    if (entry.has("experiment_that_tells")) {
+      other.experiment_that_tells = entry["experiment_that_tells"]["words"].text();
+      other.difference_there = entry["experiment_that_tells"]["difference"].number();
+    }
+    others.push_back(std::move(other));
+  }
+  return others;
+}
+
 Diagnosis read_diagnosis(const Node& node, const std::filesystem::path& folder) {
   Diagnosis diagnosis;
   diagnosis.verdict = node["verdict"].text();
@@ -412,10 +435,23 @@ Diagnosis read_diagnosis(const Node& node, const std::filesystem::path& folder) 
   for (const Node& words : node["where"].list()) diagnosis.where.push_back(words.text());
   for (const Node& words : node["notes"].list()) diagnosis.notes.push_back(words.text());
   for (const Node& member : node["members"].list()) diagnosis.members.push_back(member.text());
+  if (node.has("links")) {
+    diagnosis.links_given = node["links"]["given"].count();
+    diagnosis.links_used = node["links"]["used"].count();
+  }
+  diagnosis.equality_at_neutral = node["equality_at_neutral"].number();
+  for (const Node& effect : node["effects"].list()) {
+    diagnosis.effects.push_back(
+        {effect["id"].text(), effect["title"].text(), "", read_formulas(effect)});
+  }
+  diagnosis.undecided = read_others(node["undecided"]);
+  diagnosis.forms = read_others(node["forms"]);
+  diagnosis.runners_up = read_others(node["runners_up"]);
   if (node.has("missing_force")) {
     const Node force = node["missing_force"];
     MissingForce missing;
     missing.unit = force["unit"].text();
+    for (const Node& words : force["words"].list()) missing.words.push_back(words.text());
     missing.time = force["time"].row();
     for (const Node& row : force["rows"].list()) missing.rows.push_back(row.text());
     missing.value = force["value"].rows(missing.time.size());

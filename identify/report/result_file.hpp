@@ -131,19 +131,42 @@ struct Candidate {
   double survives = kAbsent;      ///< share of the sensitivity the free parameters cannot imitate
   std::vector<std::pair<std::string, double>> estimate;
   double refit_fit = kAbsent, refit_validate = kAbsent, criterion = kAbsent;
+  double log10_p = kAbsent;  ///< of the refit's fall by chance, number of candidates allowed for
   std::vector<Equation> formulas;
 };
+
+/// What twice the links would change, asked before an effect is blamed.
+struct FinerChain {
+  int links = 0;
+  double predicted_change = kAbsent;  ///< rms, m or rad, that the fit cannot absorb
+  bool refitted = false, taken = false;
+  std::string note;
+};
+
+/// What a round has "added" where it has more links, or "removed" where it went back to fewer.
+inline constexpr const char* kTooFewLinks = "too_few_links";
 
 struct Round {
   std::string model, added, removed;
   int links = 0;
   Gap gap;
+  std::optional<FinerChain> finer_chain;
   std::vector<Candidate> candidates;
   std::shared_ptr<Result> result;  ///< null where the file does not say
 };
 
+/// An effect that was refitted and is not the one that is named.
+struct OtherEffect {
+  std::string id, instead_of;
+  double fit = kAbsent, validate = kAbsent;
+  double difference = kAbsent;  ///< of its predictions from the final model's, in noises
+  std::string experiment_that_tells;
+  double difference_there = kAbsent;  ///< in noises
+};
+
 struct MissingForce {
   std::string unit;
+  std::vector<std::string> words;  ///< where it is and what it goes with
   Row time;
   std::vector<std::string> rows;
   Rows value;
@@ -154,6 +177,10 @@ struct Diagnosis {
   double floor = kAbsent;
   std::string unit;
   std::vector<std::string> where, notes, members;
+  int links_given = 0, links_used = 0;
+  double equality_at_neutral = kAbsent;  ///< largest relative difference
+  std::vector<EffectEntry> effects;      ///< of the final model
+  std::vector<OtherEffect> undecided, forms, runners_up;
   std::optional<MissingForce> missing_force;
   std::vector<Round> rounds;
 };

@@ -260,7 +260,40 @@ TEST_CASE(
   CHECK(parameters[2].verdict == "identifiable");
   const std::string html = to_html(document, {});
   CHECK(html.find("<math><mi>V</mi></math>") != std::string::npos);
-  CHECK(html.find("12 links are enough") != std::string::npos);
+  for (const char* shown :
+       {"12 links are enough", "The case's 12 links are those of the final model",
+        "too small a change to matter", "it opposes the motion and grows with its square",
+"film it for 12 s; look at the load",
+        "the predictions differ by 8.7 times the noise there", "Refitted, and worse",
+        "10<sup>−523</sup>", "dissipated power", "equals the case's to 3×10⁻¹⁵"}) {
+    CAPTURE(shown);
+    CHECK(html.find(shown) != std::string::npos);
+  }
+}
+
+TEST_CASE("formulas are read one by one or as two lists") {
+  json diagnosis = made_diagnosis();
+  json& candidate = diagnosis["rounds"][0]["candidates"][0];
+  candidate["formulas"] = {{"mathml", json::array({"<math><mi>Q</mi></math>"})},
+                           {"latex", json::array({"Q"})}};
+  const auto formulas = read(diagnosis).diagnosis->rounds[0].candidates[0].formulas;
+  REQUIRE(formulas.size() == 1);
+  CHECK(formulas[0].mathml == "<math><mi>Q</mi></math>");
+  CHECK(formulas[0].latex == "Q");
+}
+
+TEST_CASE("radial residuals are differences of the distance from the support") {
+  Experiment experiment;
+  experiment.measured = Measured{};
+  experiment.measured->points = {{"load", 1}};
+  experiment.measured->values = {{0, 1}, {{3, 0.6}}, {{4, 0.8}}, {}};
+  experiment.measured->predicted = {{0, 1}, {{0, 0.6}}, {{4.9, 0.8}}, {}};
+  const Residuals residuals = residuals_of(experiment);
+  REQUIRE(residuals.radial.size() == 1);
+  CHECK(residuals.radial[0][0] == doctest::Approx(100));  // mm
+  CHECK(residuals.radial[0][1] == 0);
+  CHECK(mean_absolute(residuals.radial[0]) == doctest::Approx(50));
+  CHECK(residuals.size[0][0] == doctest::Approx(1e3 * std::hypot(3, 0.9)));
 }
 
 TEST_CASE("files: one CSV and one SVG for each figure, and the parameters") {

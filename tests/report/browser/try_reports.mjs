@@ -188,6 +188,7 @@ await attempt('charts over time zoom together, show values and move the player',
   await page.mouse.move(box.x + 0.4 * box.width, box.y + 60, {steps: 5});
   await page.mouse.up();
   assert.notEqual(await other(), before, 'another chart kept its stretch of time');
+  assert(Math.abs((await clock(page)) - 3) < 0.05, 'choosing a stretch of time moved the player');
   assert.equal(await frequency(), spectrum, 'a chart over frequency followed');
   await side.screenshot({path: join(folder, 'zoomed.png')});
   await page.getByRole('button', {name: 'Whole time'}).click();

@@ -38,8 +38,10 @@ export class Chart {
     this.line.className = 'player-line';
     this.line.hidden = true;
     this.plot.over.append(this.line);
+    let pressed = 0;  // a drag chooses a stretch of x; it ends in a click, too
+    this.plot.over.addEventListener('mousedown', (event) => { pressed = event.clientX; });
     this.plot.over.addEventListener('click', (event) => {
-      if (this.plot.select.width < 1) this.on.pick(this.plot.posToVal(event.offsetX, 'x'));
+      if (Math.abs(event.clientX - pressed) < 2) this.on.pick(this.plot.posToVal(event.offsetX, 'x'));
     });
     this.plot.over.addEventListener('dblclick', () => this.on.zoom(null));
   }
@@ -62,9 +64,10 @@ export class Chart {
     const {figure} = this;
     const rows = figure.map ? figure.map.rows : null;
     const categories = rows ?? figure.y.categories;
+    this.height = figure.map ? Math.max(160, Math.min(420, 18 * rows.length + 70)) : 280;
     return {
       width: Math.max(240, this.host.clientWidth),
-      height: figure.map ? Math.max(160, Math.min(420, 18 * rows.length + 70)) : 280,
+      height: this.height,
       legend: {show: false},
       cursor: {
         drag: {x: true, y: false},
@@ -79,7 +82,7 @@ export class Chart {
             : {distr: figure.y.logarithmic ? 3 : 1, range: (plot, low, high) => this.yRange(low, high)},
       },
       axes: [
-        {...this.axis(figure.x, figure.x.categories, 80), size: 28},
+        {...this.axis(figure.x, figure.x.categories, 80), size: figure.x.categories ? 42 : 28},
         {...this.axis(rows ? {label: '', unit: ''} : figure.y, categories, 45), size: widthOfLabels},
       ],
       series: [{}, ...(figure.map ? [{show: true, paths: () => null, points: {show: false}}]
@@ -107,8 +110,10 @@ export class Chart {
       grid: {stroke: () => cssColour('grid'), width: 1, show: !this.figure.map},
       ticks: {stroke: () => cssColour('ink'), width: 1, size: 5},
       ...(categories ? {
-        splits: () => thinned(categories, this.host.clientHeight).map((k) => k + 1),
-        values: (plot, splits) => splits.map((at) => categories[at - 1]),
+        splits: () => thinned(categories, this.height).map((k) => k + 1),
+        // A line for each word: names under an axis stand side by side.
+        values: (plot, splits) => splits.map((at) =>
+          axis === this.figure.x ? categories[at - 1].replace(' ', '\n') : categories[at - 1]),
       } : {splits, values: labels, filter: (plot, at) => at}),
     };
   }
