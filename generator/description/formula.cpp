@@ -154,7 +154,7 @@ class MathMl : public Language {
     return a + "<mo>" + (sign == '-' ? "&#8722;" : std::string(1, sign)) + "</mo>" + b;
   }
   std::string product(const std::string& a, const std::string& b, bool numbers) const override {
-    return a + (numbers ? "<mo>&#8901;</mo>" : "<mo>&#8290;</mo>") + b;
+    return a + (numbers ? "<mo>&#8901;</mo>" : "<mo rspace=\"0.17em\">&#8290;</mo>") + b;
   }
   std::string negative(const std::string& a) const override {
     return "<mrow><mo>&#8722;</mo>" + a + "</mrow>";

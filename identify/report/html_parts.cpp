@@ -30,8 +30,8 @@ std::string spaced(std::string words) {
 std::string length(double value, const std::string& unit) {
   if (std::isnan(value)) return "–";
   const bool small = std::abs(value) < 1;
-  if (unit == "m" && small) return for_people(1e3 * value) + " mm";
-  if (unit == "rad" && small) return for_people(1e3 * value) + " mrad";
+  if (unit == "m" && small) return for_people(1e3 * value) + "\u00a0mm";
+  if (unit == "rad" && small) return for_people(1e3 * value) + "\u00a0mrad";
   return unit == "1" || unit.empty() ? for_people(value) : for_people(value) + " " + escaped(unit);
 }
 
@@ -122,7 +122,9 @@ std::string chance(double log10_p) {
 std::string estimates(const Candidate& candidate) {
   std::vector<std::string> parts;
   for (const auto& [name, value] : candidate.estimate) {
-    parts.push_back(fmt::format("{} = {}", escaped(name), for_people(value)));
+    const bool own = name.starts_with(candidate.id + ".");
+    parts.push_back(fmt::format("{} = {}", escaped(own ? name.substr(candidate.id.size() + 1) : name),
+                                for_people(value)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

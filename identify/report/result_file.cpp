@@ -509,6 +509,7 @@ Document read_document(const std::filesystem::path& path) {
     document.result.case_text = outer.case_text;
     document.result.case_file = outer.case_file;
   }
+  if (document.result.effects.empty()) document.result.effects = document.diagnosis->effects;
   use_estimates(outer.parameters, document.result.parameters);
   return document;
 }
