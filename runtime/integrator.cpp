@@ -16,6 +16,10 @@ namespace {
 
 constexpr long kStepsPerCheckPoint = 500;
 
+// s: at rest, the first step is chosen from how far there is to go. No farther than this, so that a
+// distant end does not let it leap over what the signals do.
+constexpr double kFirstSight = 100.0;
+
 double cpu_seconds() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -254,7 +258,8 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
                        number_text(times.back()) + " s";
       break;
     }
-    const int flag = this->step(step, times.back(), t);
+    const double sight = step == 0 ? std::min(times.back(), t + kFirstSight) : times.back();
+    const int flag = this->step(step, sight, t);
     if (flag < 0) {
       explain(flag, result);
       break;

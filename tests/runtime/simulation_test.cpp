@@ -324,6 +324,23 @@ TEST_CASE("too many steps and interruption are statuses") {
   CHECK(run.trajectory.time.back() == doctest::Approx(0.4));
 }
 
+TEST_CASE("the first step at rest does not grow with the time to be simulated") {
+  const Model model(reference_model<2>());
+  const auto p = cable_parameters(model, 5.0, 0.05);
+  const auto first_step = [&](double end) {
+    SimulationOptions options;
+    double reached = 0;
+    options.keep_going = [&](double t) {
+      reached = t;
+      return false;
+    };
+    catena::simulate(model, p, catena::straight(model, 0.0), {0.0, end}, options);
+    return reached;
+  };
+  CHECK(first_step(1e6) == first_step(1e3));
+  CHECK(first_step(1e6) < 0.1);
+}
+
 TEST_CASE("a simulation that was not run says so") {
   CHECK(catena::Simulation{}.status == Status::kNotRun);
 }
