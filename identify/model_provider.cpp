@@ -38,7 +38,6 @@ fs::path find_in_path(const std::string& name) {
   return {};
 }
 
-
 /// A fresh folder beside the cache's entries, removed again unless it was moved into place.
 class WorkFolder {
  public:
@@ -115,7 +114,9 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   const std::vector<std::string> flags = {"-std=c++20", "-O2", "-shared", "-fPIC",
                                           "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
-                        identity_of(derive) + "\n" + compiler;
+                        identity_of(derive) + "\n" + "interface " +
+                        std::to_string(CATENA_MODEL_ABI) + ", " +
+                        std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;
   const fs::path cache = cache_directory(options);
   const fs::path entry = cache / sha256_hex(decides);
