@@ -17,7 +17,7 @@ enum class FitStatus {
   kEvaluationLimit,  ///< the best so far is returned
   kTimeLimit,        ///< the best so far is returned
   kInterrupted,      ///< the best so far is returned
-  kFailed,           ///< no evaluation succeeded
+  kFailed,           ///< no evaluation succeeded, or the method could not leave its start
 };
 
 const char* name_of(FitStatus status);

@@ -95,7 +95,7 @@ FitResult FitJournal::result(FitStatus status, const std::string& message) {
                        ? status
                        : FitStatus::kFailed;
   result_.message = message;
-  if (result_.status == FitStatus::kFailed && !result_.failed.empty())
+  if (!std::isfinite(result_.error) && !result_.failed.empty())
     result_.message = "no simulation succeeded; the first: " + result_.failed.front().message;
   result_.seconds = seconds();
   result_.cpu_seconds = cpu_now() - cpu_begin_;

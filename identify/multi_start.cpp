@@ -92,7 +92,11 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
 }
 
 std::size_t best_of(const std::vector<FitResult>& results) {
-  const auto less = [](const FitResult& a, const FitResult& b) { return a.error < b.error; };
+  // one that could not leave its start is no fit, however good the start
+  const auto rank = [](const FitResult& result) {
+    return std::pair(result.status == FitStatus::kFailed, result.error);
+  };
+  const auto less = [&](const FitResult& a, const FitResult& b) { return rank(a) < rank(b); };
   return static_cast<std::size_t>(std::min_element(results.begin(), results.end(), less) -
                                   results.begin());
 }

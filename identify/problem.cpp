@@ -12,6 +12,9 @@
 namespace catena {
 namespace {
 
+// A beginning only gives the next a start: its minimum need not be found more closely.
+constexpr double kStartTolerance = 1e-3;
+
 double cable_length(const Case& study) {
   if (study.cable.link_lengths.empty()) return study.cable.length;
   double length = 0;
@@ -341,6 +344,7 @@ Case Problem::with(const Eigen::VectorXd& x) const {
 
 Problem Problem::shortened(double seconds) const {
   Problem shorter = *this;
+  shorter.study_.optimiser.tolerance = std::max(kStartTolerance, study_.optimiser.tolerance);
   for (Experiment& experiment : shorter.experiments_) {
     const std::vector<double>& time = experiment.recording.time;
     const double end = experiment.spec.start + seconds + 1e-9;

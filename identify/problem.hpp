@@ -104,7 +104,7 @@ class Problem {
   double joint_weight() const { return joint_weight_; }
   Problem with_joint_weight(double weight) const;
 
-  /// The same problem, only the first `seconds` of each experiment to be fitted.
+  /// The same, only the first `seconds` of each experiment, to a start for the next (tolerance 1e-3).
   Problem shortened(double seconds) const;
   /// The same problem with one unknown of the physics at a value, no longer free.
   Problem fixed(int unknown, double value) const;

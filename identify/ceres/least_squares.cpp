@@ -47,26 +47,38 @@ class Block : public ceres::CostFunction {
   double weight_;
 };
 
+// A first step that promises this share of the cost, of which less than the second share is ever kept:
+// the sensitivities describe a slope too short to walk on.
+constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
+
 /// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by no
 /// more than `tolerance` of it; `offset` is no cost.
 class Watch : public ceres::IterationCallback {
  public:
-  Watch(FitJournal& journal, double tolerance, double offset)
-      : journal_(journal), tolerance_(tolerance), offset_(offset) {}
+  /// `promised`: by a first step that is too short, of which Ceres does not tell.
+  Watch(FitJournal& journal, double tolerance, double offset, double promised)
+      : journal_(journal), tolerance_(tolerance), offset_(offset), promised_(promised) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     journal_.count_iteration();
     if (journal_.must_stop()) return ceres::SOLVER_ABORT;
+    const double cost = step.cost - offset_;
     if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
-    const double least = tolerance_ * (step.cost - offset_);
+    if (step.iteration == 1) promised_ = expected / cost;
+    if (step.step_is_successful) gained_ += step.cost_change / cost;
+    const double least = tolerance_ * cost;
     const bool enough = expected <= least || std::abs(step.cost_change) <= least;
     return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
+  /// Hardly anything was gained, although much was to be.
+  bool stuck() const { return promised_ > kGreatPromise && gained_ < kKept * promised_; }
+
  private:
   FitJournal& journal_;
   double tolerance_, offset_;
+  double promised_, gained_ = 0;  // shares of the cost
 };
 
 ceres::LossFunction* loss_of(const ErrorSpec& error) {
@@ -137,12 +149,14 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
     if (std::isfinite(upper)) solver.SetParameterUpperBound(y.data(), j, upper);
   }
 
-  Watch watch(journal, (squares ? 1e-2 : 10) * spec.tolerance, all_offsets);
+  const double least_step = 1e-2 * spec.tolerance;  // of |y|
+  const double lost = least_step * y.norm() * simulated.steepness();
+  Watch watch(journal, (squares ? 1e-2 : 10) * spec.tolerance, all_offsets, lost);
   ceres::Solver::Options settings;
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.max_num_iterations = spec.max_evaluations;
   settings.function_tolerance = 0;  // Watch knows better
-  settings.parameter_tolerance = 1e-2 * spec.tolerance;
+  settings.parameter_tolerance = least_step;
   settings.gradient_tolerance = 0;
   settings.logging_type = ceres::SILENT;
   settings.callbacks.push_back(&watch);
@@ -151,9 +165,18 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   simulated.on_derivatives = nullptr;
   if (summary.termination_type == ceres::USER_FAILURE) return journal.why_stopped();
   if (summary.termination_type == ceres::NO_CONVERGENCE) return FitStatus::kEvaluationLimit;
-  if (summary.termination_type != ceres::FAILURE) return FitStatus::kConverged;
-  message = summary.message;
-  return FitStatus::kFailed;
+  if (summary.termination_type == ceres::FAILURE) {
+    message = summary.message;
+    return FitStatus::kFailed;
+  }
+  if (watch.stuck()) {
+    message =
+        "least squares cannot leave its start: the simulation is so sensitive there that its "
+        "derivatives hold for no step; fit a beginning first (optimiser.growing_windows) or windows, "
+        "or use nelder_mead";
+    return FitStatus::kFailed;
+  }
+  return FitStatus::kConverged;
 }
 
 }  // namespace

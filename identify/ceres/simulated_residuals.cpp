@@ -51,7 +51,9 @@ void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x, const Evalu
     const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
     residuals_.jacobian.col(j) *= slope;
     joints_.jacobian.col(j) *= slope;
+    gradient[j] *= slope;
   }
+  steepness_ = error_ > 0 ? gradient.norm() / error_ : 0;
 }
 
 }  // namespace catena

@@ -28,6 +28,8 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
   /// In the case's measure, here and at the point before whose derivatives were asked for.
   double error() const { return error_; }
   double error_before() const { return error_before_; }
+  /// Norm of the error's gradient by y over the error.
+  double steepness() const { return steepness_; }
 
  private:
   void scale_derivatives(const Eigen::VectorXd& x, const Evaluation& evaluation);
@@ -39,7 +41,7 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
   bool ok_ = false, with_jacobian_ = false, jacobian_used_ = true;
   Residuals residuals_;
   Joints joints_;
-  double error_ = 0, error_before_ = 0, error_of_jacobian_ = 0;
+  double error_ = 0, error_before_ = 0, error_of_jacobian_ = 0, steepness_ = 0;
 };
 
 }  // namespace catena
