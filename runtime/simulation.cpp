@@ -137,7 +137,7 @@ SensitiveSimulation simulate_with_sensitivities(
 
 AdjointSimulation simulate_with_gradient(const Model& model, const Eigen::VectorXd& parameters,
                                          const State& initial, const std::vector<double>& times,
-                                         const Objective& objective,
+                                         const MotionObjective& objective,
                                          const SimulationOptions& options,
                                          const Signals& signals) {
   check_run(model, parameters, initial, times, options, signals);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "identify/diagnosis/compare.hpp"
-#include "identify/diagnosis/search.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 
@@ -70,8 +70,7 @@ FittedModel fit_baseline(Case study, Workshop& workshop) {
   // With more damping the motion is simpler, and what the fit descends on too.
   const std::vector<double> factors = {1, 5, 25};
   std::vector<FittedModel> fits(factors.size());
-  run_parallel(workshop.threads, static_cast<int>(factors.size()), [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
+  in_parallel(factors.size(), workshop.threads, [&](std::size_t k) {
     fits[k] = fit_model(problem, more_damped(*problem, factors[k]), workshop.least_squares,
                         workshop.stop);
   });

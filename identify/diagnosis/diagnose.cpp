@@ -11,6 +11,7 @@
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/verdict.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 
@@ -124,8 +125,7 @@ class Physician {
       effects.push_back(each.id);
       return effects;
     };
-    run_parallel(workshop_.threads, static_cast<int>(others.size()), [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
+    in_parallel(others.size(), workshop_.threads, [&](std::size_t k) {
       models[k] = refitted_with_links(others[k]->model, links, effects_with(*others[k]), workshop_);
     });
     workshop_.stop_if_asked();

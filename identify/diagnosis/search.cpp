@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
 #include "identify/diagnosis/variant.hpp"
+#include "runtime/parallel.hpp"
 
 namespace catena {
 
@@ -27,32 +26,6 @@ constexpr std::size_t kTriedElsewhere = 3;
 double angle_of_frequency(double frequency, double t) {
   return 2 * std::numbers::pi * frequency * t;
 }
-
-}  // namespace
-
-void run_parallel(int threads, int count, const std::function<void(int)>& f) {
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) {
-      try {
-        f(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  std::vector<std::thread> others;
-  for (int t = 1; t < std::min(threads, count); ++t) others.emplace_back(work);
-  work();
-  for (std::thread& thread : others) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
-
-namespace {
 
 struct Sampling {
   double duration = 0, rate = 0;  // s, 1/s
@@ -316,9 +289,9 @@ std::vector<Explanation> Search::score(bool own_models) {
         runs.push_back(std::move(run));
       }
   }
-  run_parallel(workshop_.threads, static_cast<int>(runs.size()), [&](int r) {
+  in_parallel(runs.size(), workshop_.threads, [&](std::size_t r) {
     if (workshop_.stopped()) return;
-    Run& run = runs[static_cast<std::size_t>(r)];
+    Run& run = runs[r];
     run.columns = columns(*run.problem, run.x, run.unknowns);
   });
 
@@ -525,8 +498,8 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
         explanation.log10_p < -2)
       chosen.push_back(&explanation);
   }
-  run_parallel(workshop_.threads, static_cast<int>(chosen.size()), [&](int i) {
-    Explanation& explanation = *chosen[static_cast<std::size_t>(i)];
+  in_parallel(chosen.size(), workshop_.threads, [&](std::size_t i) {
+    Explanation& explanation = *chosen[i];
     workshop_.say("refitting with " + explanation.id);
     refit(explanation, far);
   });
@@ -540,8 +513,8 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
     return sum_of_squares(a->model, floors_) < sum_of_squares(b->model, floors_);
   });
   chosen.resize(std::min<std::size_t>(chosen.size(), kTriedElsewhere));
-  run_parallel(workshop_.threads, static_cast<int>(chosen.size()),
-               [&](int i) { refit_from_elsewhere(*chosen[static_cast<std::size_t>(i)]); });
+  in_parallel(chosen.size(), workshop_.threads,
+              [&](std::size_t i) { refit_from_elsewhere(*chosen[i]); });
 }
 
 }  // namespace catena

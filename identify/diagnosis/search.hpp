@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -89,9 +88,6 @@ class Search {
   Eigen::VectorXd x_;                   // the base in it
   std::vector<double> frequencies_;     // Hz, where the residuals have lines
 };
-
-/// Runs f(0) .. f(count - 1) on so many threads.
-void run_parallel(int threads, int count, const std::function<void(int)>& f);
 
 /// Frequencies (Hz) of the strongest lines in the residuals of the fitted part, at most `count`,
 /// the strongest first, no two closer than what the length of the recording resolves.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/function_builder.hpp"
+
+#include <algorithm>
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+std::string differential_family(const std::string& family) { return "d_" + family; }
+
+}  // namespace
+
+FunctionBuilder::FunctionBuilder(const Description& description, int links, Layout layout,
+                                 Language language)
+    : description_(description),
+      links_(links),
+      layout_(layout),
+      language_(language),
+      chain_(description, links),
+      definitions_(chain_.definitions()),
+      tangent_(definitions_, differential_family),
+      at_(input_declarations(description, links, in_c() ? "at->" : "at.", "", language)),
+      at_and_along_(at_) {
+  at_and_along_.merge(
+      input_declarations(description, links, in_c() ? "along->" : "along.", "d_", language));
+  for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = "";
+}
+
+ModelFunctions FunctionBuilder::build() {
+  const ModelTable table = model_table(description_, links_);
+  ModelSummary& s = result_.summary;
+  s.name = model_name(description_, links_);
+  s.links = links_;
+  s.layout = layout_;
+  s.coordinates = static_cast<int>(table.coordinates.size());
+  s.states = static_cast<int>(table.states.size());
+  s.signals = static_cast<int>(table.signals.size());
+  s.parameters = static_cast<int>(table.parameters.size());
+  seed_tangent();
+  residual();
+  terms();
+  if (s.states > 0) state_rates();
+  mass_and_acceleration();
+  if (!in_c()) newton();
+  energy();
+  positions();
+  internal_forces();
+  if (chain_.sensor().given) sensor();
+  adjoint();
+  const std::vector<int> used = all_symbols();
+  result_.uses_time = s.signals > 0 || std::any_of(used.begin(), used.end(), [&](int number) {
+                        return definitions_[number].family == "time";
+                      });
+  result_.energies = chain_.energies();
+  for (const EmittedFunction& function : result_.functions) {
+    if (function.body.statements > 0) {
+      s.functions.push_back({function.name, function.body.operations, function.body.statements});
+    }
+  }
+  return std::move(result_);
+}
+
+// The differential of every input is an input of its own, "d_<family>".
+void FunctionBuilder::seed_tangent() {
+  for (int k = 0, count = definitions_.size(); k < count; ++k) {
+    const Symbol symbol = definitions_[k];
+    if (symbol.is_input && symbol.family != "pi") {
+      tangent_.set(symbol.symbol, definitions_.input("d_" + symbol.family, symbol.index));
+    } else if (symbol.family == "sine" || symbol.family == "cosine") {
+      const bool sine = symbol.family == "sine";
+      const ex angle = symbol.value.op(0);
+      const ex other = sine ? ex(definitions_.define("cosine", symbol.index, GiNaC::cos(angle)))
+                            : ex(definitions_.define("sine", symbol.index, GiNaC::sin(angle)));
+      const ex change = definitions_.input("d_theta", symbol.index) * other;
+      tangent_.set(symbol.symbol, sine ? change : ex(-change));
+    }
+  }
+}
+
+// The derivatives of outputs, each under its name with a "d" before it.
+std::vector<Output> FunctionBuilder::tangents_of(std::vector<Output> outputs) {
+  for (Output& output : outputs) {
+    output.before = "d" + output.before;
+    output.value = tangent_.of(output.value);
+  }
+  return outputs;
+}
+
+Substitution FunctionBuilder::without_acceleration(Chain& chain) {
+  Substitution substitution(chain.definitions(), "_bias");
+  for (const ex& a : chain.accelerations()) substitution.set(a, 0);
+  return substitution;
+}
+
+}  // namespace catena

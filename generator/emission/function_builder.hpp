@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Builds the functions of one model, each kind in a file of its own: the equations of motion
+// (equation_functions.cpp), matrices and what is solved with them (matrix_functions.cpp), what a
+// user reads off a state (output_functions.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/derivation/chain.hpp"
+#include "generator/emission/function_body.hpp"
+#include "generator/emission/model_functions.hpp"
+#include "generator/emission/parameter_table.hpp"
+
+namespace catena {
+
+class FunctionBuilder {
+ public:
+  FunctionBuilder(const Description& description, int links, Layout layout, Language language);
+
+  /// All of them; to be called once.
+  ModelFunctions build();
+
+ private:
+  // equation_functions.cpp
+  void residual();
+  void terms();
+  void state_rates();
+  void adjoint();
+  std::vector<int> all_symbols();
+
+  // matrix_functions.cpp
+  void mass_and_acceleration();
+  void newton();
+
+  // output_functions.cpp
+  void energy();
+  void positions();
+  void internal_forces();
+  void sensor();
+
+  // what they share
+  bool in_c() const { return language_ == Language::kC; }
+  void seed_tangent();
+  std::vector<Output> tangents_of(std::vector<Output> outputs);
+  Substitution without_acceleration(Chain& chain);
+  FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs) {
+    return function_body(definitions_, outputs, inputs, layout_, language_);
+  }
+
+  void add(const std::string& name, const std::string& comment, const std::string& signature,
+           FunctionBody text, const std::string& wrapper, const std::string& before = "",
+           const std::string& after = "") {
+    result_.functions.push_back(
+        {name, comment, signature, before, std::move(text), after, wrapper});
+  }
+
+  std::vector<GiNaC::ex> each(const std::vector<GiNaC::ex>& values, const auto& act) {
+    std::vector<GiNaC::ex> out;
+    for (const GiNaC::ex& value : values) out.push_back(act(value));
+    return out;
+  }
+
+  static std::vector<Output> from_one(const std::string& array,
+                                      const std::vector<GiNaC::ex>& values) {
+    std::vector<Output> outputs;
+    for (size_t i = 0; i < values.size(); ++i) {
+      outputs.push_back({array + "[", static_cast<int>(i) + 1, -1, "]", values[i]});
+    }
+    return outputs;
+  }
+
+  const Description& description_;
+  int links_;
+  Layout layout_;
+  Language language_;
+  Chain chain_;
+  Definitions& definitions_;
+  Differential tangent_;
+  InputDeclarations at_, at_and_along_;
+  ModelFunctions result_;
+};
+
+}  // namespace catena

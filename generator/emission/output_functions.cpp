@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/function_builder.hpp"
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+std::vector<Output> point_outputs(const Chain& chain, const std::string& side,
+                                  const std::string& down, const auto& act) {
+  std::vector<Output> outputs;
+  for (size_t k = 0; k < chain.side().size(); ++k) {
+    outputs.push_back({side + "[", static_cast<int>(k), 0, "]", act(chain.side()[k])});
+    outputs.push_back({down + "[", static_cast<int>(k), 0, "]", act(chain.down()[k])});
+  }
+  return outputs;
+}
+
+}  // namespace
+
+void FunctionBuilder::energy() {
+  std::vector<Output> outputs;
+  int item_index = 0;
+  for (const EnergyItem& item : chain_.energies()) {
+    const std::string kind = item.kind == EnergyItem::kStored ? "_energy" : "_power";
+    ex sum = 0;
+    int k = 0;
+    for (const ex& part : item.parts) {
+      const std::string family = item.name + kind;
+      ++k;
+      sum = definitions_.define(family + "_sum", k,
+                                sum + definitions_.named(part, family + "_part", k));
+    }
+    outputs.push_back({"e[" + std::to_string(item_index++), kNoIndex, 0, "]", sum});
+  }
+  add("energy", "Energies (J) and powers (W), in the order of the table.",
+      "void energy(const Point<T>& at, T* e)", body(outputs, at_),
+      "void c_energy(const catena_point* at, double* e) { energy(point(at), e); }\n");
+  add("energy_tangent", "Derivative of the energies and powers along `along`.",
+      "void energy_tangent(const Point<T>& at, const Point<T>& along, T* de)",
+      body(tangents_of(outputs), at_and_along_),
+      "void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {\n"
+      "  energy_tangent(point(at), point(along), de);\n}\n");
+}
+
+void FunctionBuilder::positions() {
+  const std::vector<Output> position =
+      point_outputs(chain_, "side", "down", [](const ex& e) { return e; });
+  add("positions", "Support (0), far end of each link (1..), load (last): side and down, m.",
+      "void positions(const Point<T>& at, T* side, T* down)", body(position, at_),
+      "void c_positions(const catena_point* at, double* side, double* down) {\n"
+      "  positions(point(at), side, down);\n}\n");
+  add("positions_tangent", "Derivative of the positions along `along`.",
+      "void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown)",
+      body(tangents_of(position), at_and_along_),
+      "void c_positions_tangent(const catena_point* at, const catena_point* along,\n"
+      "                         double* dside, double* ddown) {\n"
+      "  positions_tangent(point(at), point(along), dside, ddown);\n}\n");
+  const std::vector<Output> velocity =
+      point_outputs(chain_, "side_rate", "down_rate", [&](const ex& e) { return chain_.rate(e); });
+  add("velocities", "Velocities of the same points, m/s.",
+      "void velocities(const Point<T>& at, T* side_rate, T* down_rate)", body(velocity, at_),
+      "void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {\n"
+      "  velocities(point(at), side_rate, down_rate);\n}\n");
+  add("velocities_tangent", "Derivative of the velocities along `along`.",
+      "void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,\n"
+      "                        T* ddown_rate)",
+      body(tangents_of(velocity), at_and_along_),
+      "void c_velocities_tangent(const catena_point* at, const catena_point* along,\n"
+      "                          double* dside_rate, double* ddown_rate) {\n"
+      "  velocities_tangent(point(at), point(along), dside_rate, ddown_rate);\n}\n");
+}
+
+void FunctionBuilder::internal_forces() {
+  std::vector<Output> outputs = from_one("moment", chain_.moments());
+  for (const Output& output : from_one("tension", chain_.tensions())) outputs.push_back(output);
+  for (const Output& output : from_one("curvature", chain_.curvatures())) outputs.push_back(output);
+  add("internal_forces", "Joint moments (N m), link tensions (N), curvatures at joints (rad/m).",
+      "void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature)",
+      body(outputs, at_),
+      "void c_internal_forces(const catena_point* at, double* moment, double* tension,\n"
+      "                       double* curvature) {\n"
+      "  internal_forces(point(at), moment, tension, curvature);\n}\n");
+  add("internal_forces_tangent", "Derivative of moments, tensions and curvatures along `along`.",
+      "void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,\n"
+      "                             T* dtension, T* dcurvature)",
+      body(tangents_of(outputs), at_and_along_),
+      "void c_internal_forces_tangent(const catena_point* at, const catena_point* along,\n"
+      "                               double* dmoment, double* dtension, double* dcurvature) {\n"
+      "  internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);\n}\n");
+}
+
+void FunctionBuilder::sensor() {
+  result_.observes = true;
+  const Chain::Sensor& sensor = chain_.sensor();
+  InputDeclarations inputs = input_declarations(description_, links_, "", "", language_);
+  inputs.merge(input_declarations(description_, links_, "d", "d_", language_));
+  const std::string type = in_c() ? "const double " : "const T ";
+  inputs["time"] = type + "time = t;";
+  inputs["d_time"] = type + "d_time = " + (in_c() ? "0.0;" : "T(0);");
+  const char* const names[] = {"side", "down", "angle"};
+  for (int k = 0; k < 3; ++k) {
+    const std::string at = std::to_string(k);
+    inputs[names[k]] = type + names[k] + " = in[" + at + "];";
+    inputs[std::string("d_") + names[k]] = type + "d_" + names[k] + " = din[" + at + "];";
+  }
+  const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
+  add("observe", "What the sensor reports of side, down (m) and angle (rad).",
+      "void observe([[maybe_unused]] const T& t, [[maybe_unused]] const T* p, const T* in, T* "
+      "out)",
+      body(from_one("out", reported), inputs),
+      "void c_observe(double t, const double* p, const double in[3], double out[3]) {\n"
+      "  observe(t, p, in, out);\n}\n");
+  add("observe_tangent", "Its derivative along dp and din.",
+      "void observe_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
+      "                     [[maybe_unused]] const T* dp, [[maybe_unused]] const T* in,\n"
+      "                     const T* din, T* dout)",
+      body(from_one("dout", each(reported, [&](const ex& e) { return tangent_.of(e); })), inputs),
+      "void c_observe_tangent(double t, const double* p, const double* dp, const double in[3],\n"
+      "                       const double din[3], double dout[3]) {\n"
+      "  observe_tangent(t, p, dp, in, din, dout);\n}\n");
+  const std::string before = in_c() ? "  double out;\n" : "  T out;\n";
+  const std::string after = "  return out;\n";
+  add("clock", "Model time at which what was recorded at t happened, s.",
+      "T clock(const T& t, [[maybe_unused]] const T* p)",
+      body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
+      "double c_clock(double t, const double* p) { return clock(t, p); }\n", before, after);
+  add("clock_tangent", "Its derivative along dp.",
+      "T clock_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
+      "                [[maybe_unused]] const T* dp)",
+      body({{"out", kNoIndex, 0, "", tangent_.of(sensor.clock)}}, inputs),
+      "double c_clock_tangent(double t, const double* p, const double* dp) {\n"
+      "  return clock_tangent(t, p, dp);\n}\n",
+      before, after);
+}
+
+}  // namespace catena
