@@ -8,7 +8,12 @@ import {chromium} from 'playwright-core';
 
 const folder = resolve(process.argv[2]);
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-const browser = await chromium.launch({executablePath: process.env.CATENA_CHROMIUM, args: ['--no-sandbox']});
+const browser = await chromium.launch({
+  executablePath: process.env.CATENA_CHROMIUM,
+  // A container has no sandbox for it; the rest keeps Chromium from asking the network for its own sake.
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+    '--disable-component-update', '--disable-sync'],
+});
 let failures = 0;
 
 async function attempt(name, action) {
