@@ -67,7 +67,6 @@ class Definitions {
 
   std::vector<Symbol> symbols_;
   std::unordered_map<std::string, int> number_by_name_;
-  std::unordered_map<GiNaC::ex, int> number_by_symbol_;
   std::unordered_map<std::string, int> family_rank_;
   std::unordered_map<std::string, GiNaC::ex> by_value_;
 };
