@@ -63,6 +63,7 @@ class Measurement {
     behind_ = std::make_unique<ExactEvaluation>(chain_.definitions(),
                                                 exact_inputs(table_, point_, direction_, -step));
     residual();
+    adjoint();
     mass_and_acceleration();
     newton(generator);
     states();
@@ -121,6 +122,36 @@ class Measurement {
       const numeric change = slope(chain_.residual()[i]);
       note("residual_tangent", difference(tangent[i], change), size + std::abs(change.to_double()));
     }
+  }
+
+  // Along a direction the gradient is the slope of what it is the gradient of.
+  void adjoint() {
+    const catena_point here = point_.at();
+    RandomPoint along = direction_;
+    along.t = 0;
+    for (auto* list : {&along.a, &along.u}) std::fill(list->begin(), list->end(), 0.0);
+    const Values weights = direction_.a, rate_weights = direction_.z;
+    Values dq(along.q.size()), dv(along.v.size()), dz(along.z.size()), dp(along.p.size());
+    table_.residual_adjoint(&here, weights.data(), rate_weights.data(), dq.data(), dv.data(),
+                            dz.data(), dp.data());
+    ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, along, step_));
+    ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, along, -step_));
+    numeric error = 0;
+    double size = size_of_terms(here);
+    const auto subtract = [&](const Values& gradient, const Values& direction) {
+      for (std::size_t i = 0; i < gradient.size(); ++i) {
+        error = error - numeric(gradient[i]) * numeric(direction[i]);
+        size += std::abs(gradient[i] * direction[i]);
+      }
+    };
+    subtract(dq, along.q), subtract(dv, along.v), subtract(dz, along.z), subtract(dp, along.p);
+    const auto add = [&](const std::vector<ex>& values, const Values& factors) {
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        error = error + numeric(factors[i]) * (ahead.of(values[i]) - behind.of(values[i])) / (2 * step_);
+      }
+    };
+    add(chain_.residual(), weights), add(chain_.state_rates(), rate_weights);
+    note("residual_adjoint", error.to_double(), size);
   }
 
   void mass_and_acceleration() {
@@ -204,11 +235,19 @@ class Measurement {
       table_.residual_tangent(&here, &along_unit, column.data());
       size_of_matrix = std::max(size_of_matrix, largest(column));
     }
+    // y of N'y = left has y.(N x) = left.x.
+    const Values left = direction_.v;
+    Values y = left;
+    table_.newton_solve_transposed(work.data(), y.data());
+    numeric transposed = 0;
     for (int i = 0; i < n; ++i) {
       const ex& r = chain_.residual()[at(i)];
       const numeric product = (ahead.of(r) - behind.of(r)) / (2 * step_) * numeric(size_of_x);
       note("newton_solve", difference(right[at(i)], product), size_of_matrix * size_of_x);
+      transposed = transposed + numeric(y[at(i)]) * product - numeric(left[at(i)]) * numeric(x[at(i)]);
     }
+    note("newton_solve_transposed", transposed.to_double(),
+         size_of_matrix * size_of_x * largest(y));
   }
 
   void states() {

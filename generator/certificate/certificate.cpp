@@ -12,6 +12,7 @@
 #include "generator/certificate/compiled_model.hpp"
 #include "generator/certificate/exact_evaluation.hpp"
 #include "generator/certificate/operations.hpp"
+#include "generator/certificate/rest_frequencies.hpp"
 #include "generator/certificate/twin.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
@@ -30,6 +31,8 @@ constexpr unsigned kSeed = 1;
 constexpr double kTolerance = 30;
 // The eigenvalue solver loses the condition of M, about n^4 for the frequencies that matter least.
 constexpr double kFrequencyTolerance = 1e-9;
+constexpr const char* kFrequencyKinds[] = {"natural_frequencies",
+                                           "natural_frequencies_with_effects"};
 
 // L = T - V as the derivation holds it: each part and every definition it needs, in order.
 std::string lagrangian_text(Chain& chain) {
@@ -138,6 +141,17 @@ Json worst(const std::vector<FunctionAccuracy>& accuracies) {
   return result;
 }
 
+// With the effects at work; without effects there is nothing that natural_frequencies leaves out.
+Json frequencies_with_effects(const Description& description, int links,
+                              const catena_model& table) {
+  const RestFrequencies frequencies = rest_frequencies(description, links, table, kSeed);
+  if (!frequencies.why_not.empty()) return {{"not_compared", frequencies.why_not}};
+  return {{"lowest_rad_per_s", frequencies.lowest},
+          {"highest_rad_per_s", frequencies.highest},
+          {"largest_relative_difference", rounded(frequencies.largest_difference)},
+          {"tolerance", kFrequencyTolerance}};
+}
+
 Json numerical(const Description& description, int links, const catena_model& table) {
   Json result;
   result["points"] = kPoints;
@@ -147,6 +161,10 @@ Json numerical(const Description& description, int links, const catena_model& ta
       worst(measure_accuracy(description, links, table, kPoints, kSeed));
   if (description.effects.empty()) {
     result["worst_roundings_against_closed_form"] = worst(compare_with_twin(table, kPoints, kSeed));
+  }
+  if (!description.effects.empty()) {
+    result["natural_frequencies_with_effects"] =
+        frequencies_with_effects(description, links, table);
   }
   const Frequencies frequencies = natural_frequencies(table);
   Json& at_rest = result["natural_frequencies"];
@@ -163,15 +181,19 @@ Json numerical(const Description& description, int links, const catena_model& ta
 
 }  // namespace
 
-std::string certificate_name(const std::string& model) { return model + ".certificate.json"; }
+std::string certificate_name(const std::string& model, Language language) {
+  return model + (language == Language::kC ? ".c99" : "") + ".certificate.json";
+}
 
-Json make_certificate(const Description& description, int links, const EmittedFiles& files) {
+Json make_certificate(const Description& description, int links, const EmittedFiles& files,
+                      Language language) {
   const std::string model = model_name(description, links);
-  const Json summary = Json::parse(files.at(model + ".json"));
+  const Json summary = Json::parse(files.at(summary_name(model, language)));
   Json certificate;
   certificate["format"] = 1;
   certificate["kind"] = "certificate";
   certificate["model"] = model;
+  certificate["language"] = language == Language::kC ? "C99" : "C++20";
   Json& exact = certificate["exact"];
   exact["links"] = links;
   exact["description"] = sha256_hex(canonical_text(description));
@@ -182,7 +204,7 @@ Json make_certificate(const Description& description, int links, const EmittedFi
   Json not_provable = Json::array();
   exact["proofs"] = proofs(description, links, summary, not_provable);
   if (!not_provable.empty()) exact["not_provable"] = not_provable;
-  const CompiledModel compiled(files, model);
+  const CompiledModel compiled(files, model, language);
   certificate["numerical"] = numerical(description, links, compiled.table());
   return certificate;
 }
@@ -205,12 +227,14 @@ std::vector<std::string> failures(const Json& certificate) {
                        ", tolerated are " + numerical.at("tolerance_roundings").dump());
     }
   }
-  const Json& frequencies = numerical.at("natural_frequencies");
-  if (frequencies.contains("tolerance") &&
-      !(frequencies.at("largest_relative_difference") <= frequencies.at("tolerance"))) {
-    result.push_back("natural frequencies differ by " +
-                     frequencies.at("largest_relative_difference").dump() + ", tolerated are " +
-                     frequencies.at("tolerance").dump());
+  for (const char* kind : kFrequencyKinds) {
+    const Json frequencies = numerical.value(kind, Json::object());
+    if (frequencies.contains("tolerance") &&
+        !(frequencies.at("largest_relative_difference") <= frequencies.at("tolerance"))) {
+      result.push_back(std::string(kind) + " differ by " +
+                       frequencies.at("largest_relative_difference").dump() + ", tolerated are " +
+                       frequencies.at("tolerance").dump());
+    }
   }
   return result;
 }
@@ -229,20 +253,23 @@ std::vector<std::string> differences(const Json& on_file, const Json& now) {
       result.push_back(where + path + ": on file " + shown(a) + ", now " + shown(b));
     }
   };
+  compare("language", on_file.value("language", Json()), now.at("language"));
   compare("", on_file.value("exact", Json()), now.at("exact"));
   const Json stated = on_file.value("numerical", Json::object());
   for (const char* key : {"points", "seed", "tolerance_roundings"}) {
     compare(std::string("numerical.") + key, stated.value(key, Json()),
             now.at("numerical").at(key));
   }
-  const Json& frequencies = now.at("numerical").at("natural_frequencies");
-  for (const char* key : {"lowest_rad_per_s", "highest_rad_per_s"}) {
-    if (!frequencies.contains(key)) continue;
-    const double before = stated.value("natural_frequencies", Json::object()).value(key, 0.0);
-    const double value = frequencies.at(key);
-    if (std::abs(before / value - 1) <= frequencies.at("tolerance").get<double>()) continue;
-    result.push_back(std::string("numerical.natural_frequencies.") + key + ": on file " +
-                     Json(before).dump() + ", now " + Json(value).dump());
+  for (const char* kind : kFrequencyKinds) {
+    const Json frequencies = now.at("numerical").value(kind, Json::object());
+    for (const char* key : {"lowest_rad_per_s", "highest_rad_per_s"}) {
+      if (!frequencies.contains(key)) continue;
+      const double before = stated.value(kind, Json::object()).value(key, 0.0);
+      const double value = frequencies.at(key);
+      if (std::abs(before / value - 1) <= frequencies.at("tolerance").get<double>()) continue;
+      result.push_back(std::string("numerical.") + kind + "." + key + ": on file " +
+                       Json(before).dump() + ", now " + Json(value).dump());
+    }
   }
   return result;
 }

@@ -20,13 +20,13 @@
 
 namespace catena {
 
-/// "chain_12.certificate.json"
-std::string certificate_name(const std::string& model);
+/// "chain_12.certificate.json", of C99 "chain_12.c99.certificate.json"
+std::string certificate_name(const std::string& model, Language language);
 
-/// Derives the model, compiles `files` (as emit_files gives them, for this link count at least),
-/// runs it, and writes down what it found.
+/// Derives the model, compiles `files` (as emit_files gives them in this language, for this link
+/// count at least), runs it, and writes down what it found.
 nlohmann::ordered_json make_certificate(const Description& description, int links,
-                                        const EmittedFiles& files);
+                                        const EmittedFiles& files, Language language);
 
 /// What speaks against the model: proofs that failed, tolerances not kept. Empty: nothing.
 std::vector<std::string> failures(const nlohmann::ordered_json& certificate);

@@ -41,7 +41,9 @@ int run(const std::vector<std::string>& command, const std::filesystem::path& er
 
 }  // namespace
 
-CompiledModel::CompiledModel(const EmittedFiles& files, const std::string& name) {
+CompiledModel::CompiledModel(const EmittedFiles& files, const std::string& name,
+                             Language language) {
+  const bool c = language == Language::kC;
   std::string pattern = (std::filesystem::temp_directory_path() / "catena_XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {
     throw std::runtime_error("cannot make a folder in " +
@@ -50,23 +52,26 @@ CompiledModel::CompiledModel(const EmittedFiles& files, const std::string& name)
   folder_ = pattern;
   try {
     for (const auto& [file, text] : files) std::ofstream(folder_ / file, std::ios::binary) << text;
-    const char* wanted = std::getenv("CXX");
-    const std::string compiler = wanted != nullptr && *wanted != '\0' ? wanted : "c++";
+    const char* wanted = std::getenv(c ? "CC" : "CXX");
+    const std::string compiler = wanted != nullptr && *wanted != '\0' ? wanted : c ? "cc" : "c++";
     const auto library = folder_ / "model.so", errors = folder_ / "errors";
-    const int status = run({compiler, "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC",
-                            "-DCATENA_SHARED_LIBRARY", "-I" + folder_.string(),
-                            (folder_ / (name + ".cpp")).string(), "-o", library.string()},
-                           errors);
+    const int status =
+        run({compiler, c ? "-std=c99" : "-std=c++20", "-O2", "-ffp-contract=off", "-shared", "-fPIC",
+             "-DCATENA_SHARED_LIBRARY", "-I" + folder_.string(),
+             (folder_ / (name + (c ? ".c" : ".cpp"))).string(), "-o", library.string(), "-lm"},
+            errors);
     if (status == 127) {
       throw std::runtime_error(compiler +
-                               " cannot be run; a C++ compiler is needed (set CXX to it)");
+                               (c ? " cannot be run; a C compiler is needed (set CC to it)"
+                                  : " cannot be run; a C++ compiler is needed (set CXX to it)"));
     }
     if (status != 0)
       throw std::runtime_error(compiler + " failed on " + name + ":\n" + text_of(errors));
     library_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library_ == nullptr) throw std::runtime_error(std::string("cannot load it: ") + dlerror());
-    const auto entry = reinterpret_cast<catena_model_entry>(dlsym(library_, CATENA_MODEL_ENTRY));
-    if (entry == nullptr) throw std::runtime_error(name + " has no " CATENA_MODEL_ENTRY);
+    const std::string symbol = c ? name : CATENA_MODEL_ENTRY;
+    const auto entry = reinterpret_cast<catena_model_entry>(dlsym(library_, symbol.c_str()));
+    if (entry == nullptr) throw std::runtime_error(name + " has no " + symbol);
     table_ = entry();
   } catch (...) {
     if (library_ != nullptr) dlclose(library_);

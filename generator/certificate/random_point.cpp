@@ -19,12 +19,6 @@ double uniform(std::mt19937_64& generator, double low, double high) {
   return low + (high - low) * (static_cast<double>(generator() >> 11) * 0x1p-53);
 }
 
-double random_parameter(const catena_parameter& parameter, std::mt19937_64& generator) {
-  const double value = uniform(generator, 0.2, 1.2);
-  if (parameter.lower <= value && value <= parameter.upper) return value;
-  return parameter.lower + (parameter.upper - parameter.lower) * (value - 0.1) / 1.2;
-}
-
 std::vector<double> uniform_list(int count, double size, std::mt19937_64& generator) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(uniform(generator, -size, size));
@@ -54,6 +48,12 @@ numeric exact(double value) {
 }
 
 }  // namespace
+
+double random_parameter(const catena_parameter& parameter, std::mt19937_64& generator) {
+  const double value = uniform(generator, 0.2, 1.2);
+  if (parameter.lower <= value && value <= parameter.upper) return value;
+  return parameter.lower + (parameter.upper - parameter.lower) * (value - 0.1) / 1.2;
+}
 
 RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) {
   RandomPoint point;

@@ -79,7 +79,8 @@ std::vector<double> square_roots(const Eigen::MatrixXd& stiffness, const Eigen::
   return roots;
 }
 
-// Chapter 6's cable; every effect at its neutral value, shape parameters at their defaults.
+}  // namespace
+
 std::vector<double> cable_parameters(const catena_model& table) {
   const double length = 3.39 / table.links, mass = 0.1424 * length;
   const std::map<std::string_view, double> families = {
@@ -102,8 +103,6 @@ std::vector<double> cable_parameters(const catena_model& table) {
   }
   return p;
 }
-
-}  // namespace
 
 std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int points,
                                                 unsigned seed) {

@@ -16,8 +16,13 @@ namespace catena {
 std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int points,
                                                 unsigned seed);
 
-/// Undamped natural frequencies, rad/s, ascending, of the 3.39 m cable of chapter 6 (0.1424 kg/m,
-/// load 1.47 kg, k_i = 47.448 N m/rad) hanging at rest, effects at their neutral values.
+/// The parameters, in the order of the table, of the 3.39 m cable of chapter 6 (0.1424 kg/m, load
+/// 1.47 kg, k_i = 47.448 N m/rad) without damping or torque; every effect's at its neutral value, or
+/// its default where it has none.
+std::vector<double> cable_parameters(const catena_model& table);
+
+/// Undamped natural frequencies, rad/s, ascending, of cable_parameters' cable hanging at
+/// rest.
 struct Frequencies {
   bool applicable = false;
   std::string why_not;            ///< if not applicable

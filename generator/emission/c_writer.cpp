@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "generator/emission/emitted_files.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/table_text.hpp"
 
@@ -166,12 +165,12 @@ std::string header_text(const ModelSummary& s) {
 
 }  // namespace
 
-std::map<std::string, std::string> emit_c_model(const Description& description, int links) {
-  const ModelFunctions functions =
-      model_functions(description, links, layout_for(links), Language::kC);
+EmittedModel emit_c_model(const Description& description, int links, Layout layout) {
+  const ModelFunctions functions = model_functions(description, links, layout, Language::kC);
   const std::string name = functions.summary.name;
-  return {{name + ".c", source_text(description, functions)},
-          {name + ".h", header_text(functions.summary)}};
+  return {functions.summary,
+          {{name + ".c", source_text(description, functions)},
+           {name + ".h", header_text(functions.summary)}}};
 }
 
 }  // namespace catena

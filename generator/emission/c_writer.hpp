@@ -5,14 +5,12 @@
 // O(n) where the mass matrix has the structure for it.
 #pragma once
 
-#include <map>
-#include <string>
-
 #include "generator/description/description.hpp"
+#include "generator/emission/model_writer.hpp"
 
 namespace catena {
 
 /// <name>.c and <name>.h, name = model_name(description, links); they include catena_model.h.
-std::map<std::string, std::string> emit_c_model(const Description& description, int links);
+EmittedModel emit_c_model(const Description& description, int links, Layout layout);
 
 }  // namespace catena

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "generator/emission/c_writer.hpp"
 #include "generator/emission/support_text.hpp"
 
 namespace catena {
@@ -86,18 +87,25 @@ Layout layout_for(int links) {
   return links <= kLongestStraight ? Layout::kStraight : Layout::kLoops;
 }
 
+std::string summary_name(const std::string& model, Language language) {
+  return model + (language == Language::kC ? ".c99" : "") + ".json";
+}
+
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
-                        std::optional<Layout> layout) {
+                        std::optional<Layout> layout, Language language) {
+  const bool c = language == Language::kC;
   EmittedFiles files = support_text();
+  if (c) files = {{"catena_model.h", files.at("catena_model.h")}};
   std::vector<std::string> names;
   for (const int n : links) {
     const auto start = std::chrono::steady_clock::now();
-    EmittedModel model = emit_model(description, n, layout.value_or(layout_for(n)));
+    const Layout chosen = layout.value_or(layout_for(n));
+    EmittedModel model = c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen);
     const std::string name = model.summary.name;
     names.push_back(name);
     files.merge(model.files);
-    files[name + ".json"] = summary_text(description, model.summary);
+    files[summary_name(name, language)] = summary_text(description, model.summary);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     progress(model.summary, elapsed.count());
   }

@@ -44,7 +44,11 @@ ModelFunctions FunctionBuilder::build() {
   terms();
   if (s.states > 0) state_rates();
   mass_and_acceleration();
-  if (!in_c()) newton();
+  if (in_c()) {
+    s.why_not = "in C no Newton matrix is emitted";
+  } else {
+    newton();
+  }
   energy();
   positions();
   internal_forces();

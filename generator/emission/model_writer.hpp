@@ -34,11 +34,10 @@ struct ModelSummary {
 
 struct EmittedModel {
   ModelSummary summary;
-  std::map<std::string, std::string> files;  ///< name -> text: <name>.hpp, <name>.cpp, <name>.json
+  std::map<std::string, std::string> files;  ///< name -> text: <name>.hpp, <name>.cpp
 };
 
 EmittedModel emit_model(const Description& description, int links, Layout layout);
-
 
 /// "chain_12"
 std::string model_name(const Description& description, int links);

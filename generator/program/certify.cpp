@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   ModelOptions model;
   std::string folder = "generated";
+  std::string format = "c++";
   bool write = false;
   bool library = false;
 };
@@ -69,11 +70,12 @@ Json certificate_on_file(const std::filesystem::path& path) {
 }
 
 bool certify(const Options& options, const Description& description, int links) {
-  const EmittedFiles files =
-      emit_files(description, {links}, false, [](const ModelSummary&, double) {});
-  const Json now = make_certificate(description, links, files);
+  const Language language = language_of(options.format);
+  const EmittedFiles files = emit_files(
+      description, {links}, false, [](const ModelSummary&, double) {}, std::nullopt, language);
+  const Json now = make_certificate(description, links, files, language);
   const std::string model = now.at("model");
-  const std::filesystem::path folder = options.folder, path = folder / certificate_name(model);
+  const std::filesystem::path folder = options.folder, path = folder / certificate_name(model, language);
   std::vector<std::string> problems = failures(now);
   for (const std::string& changed : changed_files(now, files, folder)) problems.push_back(changed);
   if (!options.write) {
@@ -116,6 +118,7 @@ void add_certify_command(CLI::App& app, int& status) {
   add_model_options(*command, options->model);
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();
+  add_format_option(*command, options->format);
   command->add_flag("--library", options->library,
                     "compare the look-up of the models and the list for CMake too");
   command->add_flag("--write", options->write, "write the certificates instead of comparing");
@@ -124,6 +127,9 @@ void add_certify_command(CLI::App& app, int& status) {
       "tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
   command->callback([options, &status] {
     const Description description = description_of(options->model);
+    if (options->library && options->format == "c") {
+      throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
+    }
     for (const int n : description.links) {
       if (!certify(*options, description, n)) status = 1;
     }

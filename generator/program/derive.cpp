@@ -6,9 +6,7 @@
 
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
-#include "generator/emission/c_writer.hpp"
 #include "generator/emission/emitted_files.hpp"
-#include "generator/emission/support_text.hpp"
 #include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"
 #include "generator/program/model_options.hpp"
@@ -51,17 +49,16 @@ void derive(const Options& options) {
                 s.structured ? "O(n)   " : "general", seconds);
     std::fflush(stdout);
   };
-  EmittedFiles files;
-  if (options.format == "c") {
-    for (const int n : description.links) files.merge(emit_c_model(description, n));
-    files["catena_model.h"] = support_text().at("catena_model.h");
-  } else {
-    std::optional<Layout> layout;
-    if (!options.layout.empty()) {
-      layout = options.layout == "straight" ? Layout::kStraight : Layout::kLoops;
-    }
-    files = emit_files(description, description.links, options.library, progress, layout);
+  const Language language = language_of(options.format);
+  if (options.library && language == Language::kC) {
+    throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
   }
+  std::optional<Layout> layout;
+  if (!options.layout.empty()) {
+    layout = options.layout == "straight" ? Layout::kStraight : Layout::kLoops;
+  }
+  const EmittedFiles files =
+      emit_files(description, description.links, options.library, progress, layout, language);
   std::filesystem::create_directories(options.output);
   for (const auto& [name, text] : files) {
     write_whole_file(std::filesystem::path(options.output) / name, text);
@@ -79,10 +76,7 @@ void add_derive_command(CLI::App& app, int& status) {
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   command->add_flag("--library", options->library,
                     "write the look-up of the models and the list for CMake too");
-  command
-      ->add_option("--format", options->format, "c++, or c: plain C99 for embedding")
-      ->check(CLI::IsMember({"c++", "c"}))
-      ->capture_default_str();
+  add_format_option(*command, options->format);
   command
       ->add_option("--layout", options->layout,
                    "straight lines or loops; without it the faster for the number of links")

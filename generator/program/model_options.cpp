@@ -19,6 +19,16 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
                      "effect to add: a built-in id or a TOML file; may be repeated");
 }
 
+void add_format_option(CLI::App& command, std::string& format) {
+  command.add_option("--format", format, "c++, or c: plain C99 for embedding")
+      ->check(CLI::IsMember({"c++", "c"}))
+      ->capture_default_str();
+}
+
+Language language_of(const std::string& format) {
+  return format == "c" ? Language::kC : Language::kCpp;
+}
+
 Description description_of(const ModelOptions& options) {
   Description description =
       options.description.empty() ? plain_chain() : read_description(options.description);

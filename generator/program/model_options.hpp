@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/description/description.hpp"
+#include "generator/emission/polynomial_text.hpp"
 
 namespace catena {
 
@@ -17,6 +18,10 @@ struct ModelOptions {
 };
 
 void add_model_options(CLI::App& command, ModelOptions& options);
+
+/// --format, and the language it stands for.
+void add_format_option(CLI::App& command, std::string& format);
+Language language_of(const std::string& format);
 
 /// The description they give, its link counts not empty. Throws InputError.
 Description description_of(const ModelOptions& options);

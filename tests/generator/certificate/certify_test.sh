@@ -84,4 +84,29 @@ for file in models.hpp models.cpp CMakeLists.txt; do printf ' ' >>library/$file;
 for file in models.hpp models.cpp CMakeLists.txt; do
   grep -q "^$file is not what is derived" said || fail "$file: not noticed"
 done
+
+# C99, beside the C++: its own certificate, and the same changes noticed
+"$derive" derive --links 3 --effect steady_wind --format c --output model >/dev/null
+c99() { "$derive" certify --links 3 --effect steady_wind --format c --folder model "$@" >said 2>&1; }
+c99 --write || fail "C99: not certified"
+c99 || fail "C99: not as certified"
+name=chain_steady_wind_3
+grep -q '"language": "C99"' model/$name.c99.certificate.json || fail "C99: another language"
+cp -r model certified_c
+for file in $name.c $name.h catena_model.h $name.c99.json; do
+  printf ' ' >>model/$file
+  c99 && fail "C99: changed, and certified"
+  grep -q "^  $file is not what is derived" said || fail "C99: $file: not noticed"
+  cp certified_c/$file model/
+done
+
+# small motions in the wind: not those in still air
+value() { sed -n "/\"$1\"/,/}/s/.*\"lowest_rad_per_s\": \([0-9.]*\).*/\1/p" model/$name.c99.certificate.json; }
+[[ -n $(value natural_frequencies_with_effects) ]] || fail "no frequencies with effects"
+[[ $(value natural_frequencies) != "$(value natural_frequencies_with_effects)" ]] ||
+  fail "the wind does nothing"
+sed -i '/natural_frequencies_with_effects/,/}/s/"lowest_rad_per_s": /"lowest_rad_per_s": 1/' \
+  model/$name.c99.certificate.json
+c99 && fail "another frequency, and certified"
+grep -q "natural_frequencies_with_effects.lowest_rad_per_s: on file" said || fail "not said which"
 echo "every change was noticed"

@@ -13,11 +13,12 @@ namespace {
 // What the certificates allow; measured are up to 6.
 constexpr double kRoundings = 30;
 
-void check(const Description& description, int links, int points) {
+void check(const Description& description, int links, int points, Language language) {
   CAPTURE(links);
-  const EmittedFiles files =
-      emit_files(description, {links}, false, [](const ModelSummary&, double) {});
-  const CompiledModel model(files, model_name(description, links));
+  CAPTURE(static_cast<int>(language));
+  const EmittedFiles files = emit_files(
+      description, {links}, false, [](const ModelSummary&, double) {}, std::nullopt, language);
+  const CompiledModel model(files, model_name(description, links), language);
   for (const FunctionAccuracy& accuracy :
        measure_accuracy(description, links, model.table(), points, 1)) {
     CAPTURE(accuracy.function);
@@ -32,7 +33,7 @@ TEST_CASE("each effect as emitted computes what was derived") {
     CAPTURE(id);
     Description description = plain_chain();
     description.effects.push_back(built_in_effect(id));
-    check(description, 5, 2);
+    check(description, 5, 2, Language::kCpp);
   }
 }
 
@@ -41,5 +42,6 @@ TEST_CASE("all effects at once as emitted compute what was derived") {
   for (const std::string& id : built_in_effect_ids()) {
     description.effects.push_back(built_in_effect(id));
   }
-  check(description, 3, 2);
+  check(description, 3, 2, Language::kCpp);
+  check(description, 3, 2, Language::kC);
 }
