@@ -349,8 +349,8 @@ std::vector<Formula> formulas(const Effect& effect) {
   for (const ExtraState& state : effect.states) {
     all.add(std::string("State") + place_words(state.at), state.name, state.rate, 1);
   }
-  all.add("Motion of the support", subscripted("r", "s"), effect.support.side);
-  all.add("Motion of the support", subscripted("r", "d"), effect.support.down);
+  all.add("Motion of the support to the side", subscripted("r", "s"), effect.support.side);
+  all.add("Motion of the support downwards", subscripted("r", "d"), effect.support.down);
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);

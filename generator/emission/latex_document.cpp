@@ -16,6 +16,16 @@ using GiNaC::ex;
 namespace {
 
 constexpr std::size_t kLineWidth = 80;  // letters that fit into a line of mathematics, about
+constexpr std::size_t kNarrower = 6;    // by what the name of an effect takes on the left
+
+// What formulas (description/formula.hpp) write for what effects are made of
+const char* const kLettersOfEffects =
+    "In the formulas of effects, $\\varphi$ is the angle of a joint, the difference of those of its\n"
+    "links; $r$, $v$, $f$ and $F$ are position, velocity, force per length and force of the point\n"
+    "named, with index $s$ towards side, $d$ downwards, $n$ across and $t$ along the link; $\\tau$ is a\n"
+    "torque, $V$ a potential, $D$ a dissipation function, $T$ a kinetic energy, $s$ the length of\n"
+    "cable from the support, $\\Delta$ the length a joint stands for, $r_g$ the depth along\n"
+    "gravity, $t$ the time. All else carries its effect's own name.\n";
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -56,11 +66,12 @@ std::string escaped(const std::string& text) {
 }
 
 // "left ={}& a + b \\ & + c": as many terms on a line as fit
-std::string equation(const std::string& left, const std::vector<std::string>& terms) {
+std::string equation(const std::string& left, const std::vector<std::string>& terms,
+                     std::size_t width = kLineWidth) {
   std::string text = left + " ={}& ";
   std::string line;
   for (const std::string& term : terms) {
-    if (!line.empty() && latex_width(line) + latex_width(term) > kLineWidth) {
+    if (!line.empty() && latex_width(line) + latex_width(term) > width) {
       text += line + " \\\\\n  & ";
       line.clear();
     }
@@ -98,8 +109,7 @@ class Document {
       const auto name = [&](const std::string& own, const std::string& ending) {
         const bool once = ending == "_dot" || ending == "_rate";
         names_[effect.id + "_" + own + ending] =
-            ending.empty() ? shown(effect, own)
-                           : (once ? "\\dot{" : "\\ddot{") + shown(effect, own) + "}";
+            shown(effect, own, ending.empty() ? "" : once ? "\\dot" : "\\ddot");
       };
       for (const EffectParameter& parameter : effect.parameters) name(parameter.name, "");
       for (const ExtraState& state : effect.states) name(state.name, "");
@@ -125,9 +135,9 @@ class Document {
   }
 
  private:
-  // An operator has a space to what stands beside it, as a name of several letters needs. The effect
+  // \mathinner has a space to what stands beside it, as a name of several letters needs. The effect
   // is named where two have a quantity of this name.
-  std::string shown(const Effect& effect, const std::string& own) const {
+  std::string shown(const Effect& effect, const std::string& own, const std::string& dot) const {
     const auto has_it = [&](const Effect& other) {
       const auto named = [&](const auto& list) {
         return std::any_of(list.begin(), list.end(),
@@ -138,7 +148,9 @@ class Document {
     };
     const auto count =
         std::count_if(description_.effects.begin(), description_.effects.end(), has_it);
-    return "\\operatorname{" + escaped(count > 1 ? effect.id + "." + own : own) + "}";
+    const std::string name = escaped(count > 1 ? effect.id + "." + own : own);
+    const std::string upright = "\\mathrm{" + name + "}";
+    return "\\mathinner{" + (dot.empty() ? upright : dot + "{" + upright + "}") + "}";
   }
 
   std::string coordinate(std::size_t i, const std::string& dot = "") const {
@@ -147,7 +159,7 @@ class Document {
     std::size_t k = i - n;
     for (const Effect& effect : description_.effects) {
       for (const Coordinate& own : effect.coordinates) {
-        if (k < n) return dot + "{" + shown(effect, own.name) + "}_{" + number(k) + "}";
+        if (k < n) return shown(effect, own.name, dot) + "_{" + number(k) + "}";
         k -= n;
       }
     }
@@ -161,7 +173,7 @@ class Document {
   // The energies of the chain itself; those of effects follow with them.
   std::string lagrangian() {
     Chain chain(description_, links_);
-    const LatexPolynomial latex(chain.definitions(), names_);
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     std::vector<std::string> terms;
     const auto add = [&](const ex& energy) {
       for (const std::string& term : latex.terms(energy)) terms.push_back(term);
@@ -178,7 +190,9 @@ class Document {
     add(kinetic);
     terms.insert(terms.end(), elastic.begin(), elastic.end());
     add(-gravity);
-    return "The Lagrangian is\n" + display({equation("L", terms)}) + "\n";
+    std::string text = "The Lagrangian is\n" + display({equation("L", terms)});
+    text += with();
+    return text + "\n";
   }
 
   // - 1/2 k_i (theta_i - theta_{i-1})^2: the square stays one
@@ -202,7 +216,7 @@ class Document {
 
   std::string euler_lagrange() {
     Chain friction(description_, links_, "friction");
-    const LatexPolynomial latex(friction.definitions(), names_);
+    const LatexPolynomial latex(friction.definitions(), names_, abbreviations_);
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < friction.coordinates().size(); ++i) {
       const std::string q = coordinate(i), own = torque(i);
@@ -247,9 +261,11 @@ class Document {
       if (has_generalised_force(effect))
         text += " + \\vec{Q}^{\\mathrm{" + escaped(effect.id) + "}}";
     }
-    text += ",\n\\]\nwith the symmetric inertia matrix\n";
+    rest_moments();
+    if (!rest_.empty()) text += " + \\vec{E}";
+    text += ",\n\\]\n" + coordinates_in_words() + "with the symmetric inertia matrix\n";
     Chain chain(description_, links_, "kinetic");
-    const LatexPolynomial latex(chain.definitions(), names_);
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const std::size_t n = chain.coordinates().size();
     text += matrix("I", n, n, [](std::size_t i, std::size_t j) {
       return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
@@ -275,8 +291,30 @@ class Document {
     text += display(equations);
     LatexStyle lengths_first;
     lengths_first.order = LatexStyle::kLengthsFirst;
+    text += with();
     coriolis_ = column(chain, moving_, latex, "f", lengths_first);
+    coriolis_ += with();
     return text + "\n";
+  }
+
+  // "x_{1}, \dots, x_{n}"
+  std::string numbered(const std::string& name) const {
+    const std::string last = name + "_{" + std::to_string(links_) + "}";
+    if (links_ == 1) return last;
+    return name + "_{1}, " + (links_ == 2 ? "" : "\\dots, ") + last;
+  }
+
+  // Where the coordinates are not the angles alone
+  std::string coordinates_in_words() const {
+    std::string own;
+    for (const Effect& effect : description_.effects) {
+      for (const Coordinate& coordinate : effect.coordinates) {
+        const std::string name = shown(effect, coordinate.name, "");
+        own += ", " + numbered(name);
+      }
+    }
+    if (own.empty()) return "";
+    return "where $\\vec{\\theta}$ stands for all coordinates, $" + numbered("\\theta") + own + "$,\n";
   }
 
   static GiNaC::exmap no_accelerations(const Chain& chain) {
@@ -298,7 +336,7 @@ class Document {
   std::string joint_matrices() {
     const auto read = [&](const char* letter, const char* term) {
       Chain chain(description_, links_, term);
-      const LatexPolynomial latex(chain.definitions(), names_);
+      const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
       const auto& variables = term == std::string("elastic") ? chain.coordinates() : chain.rates();
       return matrix(letter, variables.size(), variables.size(), [&](std::size_t i, std::size_t j) {
         return latex.of(latex.written_out(chain.residual()[i]).coeff(variables[j]));
@@ -308,12 +346,34 @@ class Document {
            read("K", "elastic") + "\n";
   }
 
+  // K theta less the elastic moments: what the angles at rest add
+  void rest_moments() {
+    Chain chain(description_, links_, "elastic");
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
+    std::vector<ex> rows;
+    for (const ex& row : chain.residual()) {
+      GiNaC::exmap straight;
+      for (const ex& q : chain.coordinates()) straight[q] = 0;
+      rows.push_back(-latex.written_out(row).subs(straight, GiNaC::subs_options::no_pattern));
+    }
+    const bool any = std::any_of(rows.begin(), rows.end(), [](const ex& e) { return !e.is_zero(); });
+    if (any) rest_ = column(chain, rows, latex, "e", {}), rest_ += with();
+  }
+
   std::string vectors() {
     Chain chain(description_, links_, "gravity");
-    const LatexPolynomial latex(chain.definitions(), names_);
-    std::string text = "The components of the Coriolis and centrifugal vector are\n" + coriolis_ +
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
+    const bool support = std::any_of(
+        description_.effects.begin(), description_.effects.end(), [](const Effect& effect) {
+          return effect.support.side.given() || effect.support.down.given();
+        });
+    std::string text = "The components of the Coriolis and centrifugal vector" +
+                       std::string(support ? ", with the inertia forces of the support's motion," : "") +
+                       " are\n" + coriolis_ +
                        "\nthose of the vector of gravity\n" +
                        column(chain, chain.residual(), latex, "g", {});
+    text += with();
+    if (!rest_.empty()) text += "\nthose of the moments of the joints' rest angles\n" + rest_;
     const std::size_t n = chain.coordinates().size();
     return text + "\nand the external torques\n" +
            matrix("\\vec{T}", n, 1,
@@ -329,26 +389,35 @@ class Document {
     }
     if (!has_generalised_force(effect)) return text + "\n";
     Chain chain(description_, links_, effect.id);
-    const LatexPolynomial latex(chain.definitions(), names_);
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < chain.residual().size(); ++i) {
       equations.push_back(
-          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i])));
+          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i]),
+                   kLineWidth - kNarrower));
     }
     text += "Its generalised forces are\n" + display(equations);
-    std::vector<std::string> abbreviations;
-    for (const auto& [left, terms] : latex.abbreviations()) {
-      abbreviations.push_back(equation(left, terms));
-    }
-    if (!abbreviations.empty()) text += "with\n" + display(abbreviations);
+    text += with();
     return text + "\n";
+  }
+
+  // What has been abbreviated since the last time
+  std::string with() {
+    std::vector<std::string> equations;
+    for (; explained_ < abbreviations_.entries.size(); ++explained_) {
+      const LatexAbbreviations::Entry& entry = abbreviations_.entries[explained_];
+      equations.push_back(equation(entry.left, entry.terms));
+    }
+    return equations.empty() ? "" : "with\n" + display(equations);
   }
 
   const Description& description_;
   int links_;
   LatexNames names_;
+  LatexAbbreviations abbreviations_;
+  std::size_t explained_ = 0;  // of them
   std::vector<ex> moving_;
-  std::string coriolis_;
+  std::string coriolis_, rest_;
 };
 
 }  // namespace
@@ -374,7 +443,9 @@ std::string latex_document(const Description& description, const std::vector<int
       "length, mass and rotational inertia about its own centre; $k_i$, $c_i$ stiffness and "
       "damping\n"
       "of joint $i$; $T_{\\theta_i}$ the external torque on $\\theta_i$; $m_c$ the load; $g$ "
-      "gravity.\n\n";
+      "gravity.\n";
+  if (!description.effects.empty()) text += kLettersOfEffects;
+  text += "\n";
   for (const int n : links) text += Document(description, n).text();
   return text + "\\end{document}\n";
 }

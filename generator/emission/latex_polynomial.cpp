@@ -294,8 +294,11 @@ class LatexTerms {
   MonomialSum sum_;
 };
 
-LatexPolynomial::LatexPolynomial(const Definitions& definitions, LatexNames effect_names)
-    : definitions_(definitions), effect_names_(std::move(effect_names)) {}
+LatexPolynomial::LatexPolynomial(const Definitions& definitions, LatexNames effect_names,
+                                 LatexAbbreviations& abbreviations)
+    : definitions_(definitions),
+      effect_names_(std::move(effect_names)),
+      abbreviations_(abbreviations) {}
 
 // Definitions written out, but for functions, roots and what stands below the line.
 ex LatexPolynomial::written_out(const ex& expression) const {
@@ -325,41 +328,35 @@ std::string LatexPolynomial::symbol(int number, int power) const {
                                                           : "\\mathrm{" + symbol.family + "}";
     return symbol.index == kNoIndex ? with_power(name, power) : indexed(name, symbol.index, power);
   }
-  const auto known = std::find(abbreviated_.begin(), abbreviated_.end(), number);
-  if (known != abbreviated_.end()) return with_power(abbreviation(number), power);
+  const auto known = abbreviated_.find(number);
+  if (known != abbreviated_.end()) return with_power(known->second, power);
   const ex& value = symbol.value;
   const bool function = GiNaC::is_a<GiNaC::function>(value);
   const bool root = GiNaC::is_a<GiNaC::power>(value) && value.op(1).is_equal(numeric(1, 2));
   const std::string inside = of(function || root ? value.op(0) : value);
   if (latex_width(inside) > kLongestInside) {
-    abbreviated_.push_back(number);
-    return with_power(abbreviation(number), power);
+    abbreviated_[number] = abbreviation(value);
+    return with_power(abbreviated_[number], power);
   }
   if (function) return with_power(function_name(value), power) + in_parentheses(inside);
   return with_power(root ? "\\sqrt{" + inside + "}" : in_parentheses(inside), power);
 }
 
-std::string LatexPolynomial::abbreviation(int number) const {
-  const auto at = std::find(abbreviated_.begin(), abbreviated_.end(), number);
-  return "R_{" + std::to_string(at - abbreviated_.begin() + 1) + "}";
-}
-
-std::vector<std::pair<std::string, std::vector<std::string>>> LatexPolynomial::abbreviations()
-    const {
-  std::vector<std::pair<std::string, std::vector<std::string>>> result;
-  for (std::size_t k = 0; k < abbreviated_.size(); ++k) {  // grows while its terms are written
-    const int number = abbreviated_[k];
-    const ex& value = definitions_[number].value;
-    const std::string name = abbreviation(number);
-    if (GiNaC::is_a<GiNaC::function>(value)) {
-      result.push_back({name, {"+ " + function_name(value) + in_parentheses(of(value.op(0)))}});
-    } else if (GiNaC::is_a<GiNaC::power>(value)) {
-      result.push_back({name + "^{2}", terms(value.op(0))});
-    } else {
-      result.push_back({name, terms(value)});
+std::string LatexPolynomial::abbreviation(const ex& value) const {
+  const bool root = GiNaC::is_a<GiNaC::power>(value);
+  const std::vector<std::string> all =
+      GiNaC::is_a<GiNaC::function>(value)
+          ? std::vector{"+ " + function_name(value) + in_parentheses(of(value.op(0)))}
+          : terms(root ? value.op(0) : value);
+  const std::string ending = root ? "^{2}" : "";
+  for (const LatexAbbreviations::Entry& entry : abbreviations_.entries) {
+    if (entry.terms == all && entry.left.ends_with("^{2}") == root) {
+      return entry.left.substr(0, entry.left.size() - ending.size());
     }
   }
-  return result;
+  const std::string name = "R_{" + std::to_string(abbreviations_.entries.size() + 1) + "}";
+  abbreviations_.entries.push_back({name + ending, all});
+  return name;
 }
 
 std::vector<std::string> LatexPolynomial::terms(const ex& expression,

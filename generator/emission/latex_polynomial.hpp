@@ -8,7 +8,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "generator/derivation/definitions.hpp"
@@ -27,17 +26,26 @@ struct LatexStyle {
 /// Names of the symbols of effects: family -> LaTeX ("\mathrm{coefficient}").
 using LatexNames = std::map<std::string, std::string>;
 
+/// R_1, R_2, ...: what is too long to stand in a term. One list for all expressions of a text, so
+/// that equal ones have one name.
+struct LatexAbbreviations {
+  struct Entry {
+    std::string left;  ///< "R_{1}", or "R_{1}^{2}" of a root
+    std::vector<std::string> terms;
+  };
+  std::vector<Entry> entries;
+};
+
 class LatexPolynomial {
  public:
-  LatexPolynomial(const Definitions& definitions, LatexNames effect_names);
+  /// `abbreviations` gets those of its terms.
+  LatexPolynomial(const Definitions& definitions, LatexNames effect_names,
+                  LatexAbbreviations& abbreviations);
 
   /// The terms of an expression, each with its sign: "- (m_1/2 + m_c) g l_1 \sin\theta_1". Empty
   /// for zero. All definitions are written out but functions, roots and divisors, which are shown
   /// with their arguments written out.
   std::vector<std::string> terms(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
-
-  /// What R_1, R_2, ... of the terms so far stand for: pairs of left side ("R_{1}^{2}") and terms.
-  std::vector<std::pair<std::string, std::vector<std::string>>> abbreviations() const;
 
   /// The terms one after the other, without a leading plus; "0" if there are none.
   std::string of(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
@@ -47,13 +55,14 @@ class LatexPolynomial {
 
  private:
   std::string symbol(int number, int power) const;
-  std::string abbreviation(int number) const;
+  std::string abbreviation(const GiNaC::ex& value) const;
 
   friend class LatexTerms;
   const Definitions& definitions_;
   LatexNames effect_names_;
   mutable std::map<int, GiNaC::ex> known_;
-  mutable std::vector<int> abbreviated_;  // numbers of R_1, R_2, ...
+  LatexAbbreviations& abbreviations_;
+  mutable std::map<int, std::string> abbreviated_;  // number of a definition -> "R_{1}"
 };
 
 /// Terms with signs, joined: no leading plus.

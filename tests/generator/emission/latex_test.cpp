@@ -97,9 +97,9 @@ TEST_CASE("an effect stands with its formula and its generalised forces") {
   description.effects.push_back(built_in_effect("pivot_stiffness"));
   const std::string text = plain(latex_document(description, {2}));
   CHECK(text.find(plain(R"(V = \frac{\mathrm{change} \, \varphi^2}{2})")) != std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 \operatorname{change})")) ==
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 \mathinner{\mathrm{change}})")) ==
         std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \operatorname{change} \theta_1)")) !=
+  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \mathinner{\mathrm{change}} \theta_1)")) !=
         std::string::npos);
   CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) != std::string::npos);
 }
@@ -149,7 +149,39 @@ TEST_CASE("names that two effects share are told apart, others stand alone") {
     description.effects.push_back(built_in_effect(id));
   }
   const std::string text = latex_document(description, {2});
-  CHECK(text.find("\\operatorname{load\\_drag.coefficient}") != std::string::npos);
-  CHECK(text.find("\\operatorname{link\\_damping.coefficient}") != std::string::npos);
-  CHECK(text.find("\\operatorname{change}") != std::string::npos);
+  CHECK(text.find("\\mathinner{\\mathrm{load\\_drag.coefficient}}") != std::string::npos);
+  CHECK(text.find("\\mathinner{\\mathrm{link\\_damping.coefficient}}") != std::string::npos);
+  CHECK(text.find("\\mathinner{\\mathrm{change}}") != std::string::npos);
+}
+
+TEST_CASE("every abbreviation is explained, once") {
+  for (const std::vector<std::string>& ids :
+       {std::vector<std::string>{"support_motion"}, {"steady_wind", "support_motion"}}) {
+    Description description = plain_chain();
+    for (const std::string& id : ids) description.effects.push_back(built_in_effect(id));
+    const std::string text = latex_document(description, {3});
+    const auto count = [&](const std::string& what) {
+      int found = 0;
+      for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+      return found;
+    };
+    int k = 1;
+    for (; count("R_{" + std::to_string(k) + "}") > 0; ++k) {
+      const std::string name = "R_{" + std::to_string(k) + "}";
+      CAPTURE(name);
+      CHECK(count("  " + name + " ={}& ") + count("  " + name + "^{2} ={}& ") == 1);
+      CHECK(count(name) > 1);
+    }
+    CHECK(k > 4);  // sine and cosine of the phases of both directions
+  }
+}
+
+TEST_CASE("rest angles stand in the equations") {
+  Description description = plain_chain();
+  description.effects.push_back(built_in_effect("pivot_rest_angle"));
+  const std::string text = latex_document(description, {2});
+  CHECK(text.find("= \\vec{T} + \\vec{E}") != std::string::npos);
+  CHECK(text.find("e_{1} ={}& k_{1} \\mathinner{\\mathrm{rest}}") != std::string::npos);
+  CHECK(text.find("e_{2} ={}& 0") != std::string::npos);
+  CHECK(latex_document(plain_chain(), {2}).find("\\vec{E}") == std::string::npos);
 }
