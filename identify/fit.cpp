@@ -122,6 +122,9 @@ bool finished(const FitResult& result) {
   return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
 }
 
+/// A beginning only gives the next a start: its minimum need not be found more closely.
+constexpr double kBeginningTolerance = 1e-2;
+
 /// What came before counts too; errors of shorter windows are no errors of the whole.
 void add_effort(FitResult& total, const FitResult& before) {
   total.evaluations += before.evaluations;
@@ -163,7 +166,9 @@ FitResult fit(const Problem& problem, const FitOptions& options, const LeastSqua
   next.record = nullptr;
   FitResult before;
   for (const double seconds : spec.growing_windows) {
-    FitResult shorter = fit_once(problem.shortened(seconds), next, least_squares);
+    const Problem beginning =
+        problem.shortened(seconds).with_tolerance(std::max(kBeginningTolerance, spec.tolerance));
+    FitResult shorter = fit_once(beginning, next, least_squares);
     add_effort(shorter, before);
     if (!finished(shorter)) return shorter;
     next.start = shorter.x;

@@ -12,9 +12,6 @@
 namespace catena {
 namespace {
 
-// A beginning only gives the next a start: its minimum need not be found more closely.
-constexpr double kStartTolerance = 1e-3;
-
 double cable_length(const Case& study) {
   if (study.cable.link_lengths.empty()) return study.cable.length;
   double length = 0;
@@ -344,7 +341,6 @@ Case Problem::with(const Eigen::VectorXd& x) const {
 
 Problem Problem::shortened(double seconds) const {
   Problem shorter = *this;
-  shorter.study_.optimiser.tolerance = std::max(kStartTolerance, study_.optimiser.tolerance);
   for (Experiment& experiment : shorter.experiments_) {
     const std::vector<double>& time = experiment.recording.time;
     const double end = experiment.spec.start + seconds + 1e-9;
@@ -353,6 +349,12 @@ Problem Problem::shortened(double seconds) const {
         std::min<Eigen::Index>(experiment.recording.fit_frames, std::max<Eigen::Index>(seen, 2));
   }
   return shorter;
+}
+
+Problem Problem::with_tolerance(double tolerance) const {
+  Problem other = *this;
+  other.study_.optimiser.tolerance = tolerance;
+  return other;
 }
 
 Problem Problem::fixed(int unknown, double value) const {

@@ -104,8 +104,10 @@ class Problem {
   double joint_weight() const { return joint_weight_; }
   Problem with_joint_weight(double weight) const;
 
-  /// The same, only the first `seconds` of each experiment, to a start for the next (tolerance 1e-3).
+  /// The same, only the first `seconds` of each experiment.
   Problem shortened(double seconds) const;
+  /// The same, the optimiser's tolerance another.
+  Problem with_tolerance(double tolerance) const;
   /// The same problem with one unknown of the physics at a value, no longer free.
   Problem fixed(int unknown, double value) const;
   /// The same problem with other measurements: one matrix (channels x frames) per experiment.

@@ -24,6 +24,8 @@ constexpr double kFarGap = 4;        // times the noise: the linear score may ra
 constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
+constexpr std::size_t kTriedWithMoreLinks = 3;
+constexpr int kRounds = 2, kMostSwaps = 3;
 
 class Physician {
  public:
@@ -36,8 +38,11 @@ class Physician {
     hold_out(study, workshop_, result_.notes);
     workshop_.say("fitting the baseline");
     enter(fit_baseline(for_the_search(study), workshop_), {}, "");
-    look_for_effects();
-    if (!result_.effects.empty()) look_back();
+    // What looking back changed may make room for more, or need more links.
+    for (int round = 0; round < kRounds; ++round) {
+      look_for_effects();
+      if (result_.effects.empty() || !look_back() || !gap_left(stage())) break;
+    }
     conclude(result_, study, workshop_);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -94,6 +99,7 @@ class Physician {
       if (!gap || static_cast<int>(stage().effects.size()) >= options_.max_effects) break;
       stage().explanations = look(stage().model, stage().effects);
       const Explanation* best = choose(stage().explanations);
+      if (!best && add_with_more_links()) continue;
       if (!best) break;
       std::vector<std::string> effects = stage().effects;
       if (best->candidate >= 0) effects.push_back(best->id);
@@ -111,36 +117,72 @@ class Physician {
   void try_others_on_finer_chain() {
     const Stage& looked = result_.stages[result_.stages.size() - 2];
     const int links = std::min(2 * stage().links, options_.max_links);
-    if (looked.explanations.empty() || links <= stage().links) return;
-    std::vector<const Explanation*> others;
-    for (const Explanation& each : looked.explanations)
-      if (each.refitted && each.candidate >= 0 && each.id != stage().added) others.push_back(&each);
-    std::stable_sort(others.begin(), others.end(), [&](const auto* a, const auto* b) {
-      return sum_of_squares(a->model, result_.floors) < sum_of_squares(b->model, result_.floors);
+    if (links <= stage().links) return;
+    std::vector<Explanation> others =
+        best_with_links(looked.explanations, looked.effects, links, stage().added);
+    const Explanation* best = nullptr;
+    for (const Explanation& each : others)
+      if (!best || squares(each.model) < squares(best->model)) best = &each;
+    if (best && squares(best->model) < squares(stage().model) &&
+        decide(best->model, stage().model, result_.floors).decided)
+      enter(best->model, with(looked.effects, best->id), best->id, stage().added);
+  }
+
+  /// Neither an effect nor more links may be worth anything alone: a damped pivot holds a whole
+  /// link. Enters both if they are.
+  bool add_with_more_links() {
+    const Stage& looked = stage();
+    const int links = std::min(2 * looked.links, options_.max_links);
+    if (links <= looked.links) return false;
+    std::vector<Explanation> explanations =
+        best_with_links(looked.explanations, looked.effects, links, "");
+    if (explanations.empty()) return false;
+    FittedModel finer = refitted_with_links(looked.model, links, looked.effects, workshop_);
+    workshop_.stop_if_asked();
+    if (!finer.ok) return false;
+    enter(std::move(finer), looked.effects, kTooFewLinks);
+    for (Explanation& each : explanations) {
+      each.comparison = compare(stage().model, each.model, result_.floors);
+      each.fit = fit_gap(each.model, result_.floors);
+      each.held_out = held_out_gap(each.model, result_.floors);
+    }
+    stage().explanations = std::move(explanations);
+    const Explanation* best = choose(stage().explanations);
+    if (!best) {
+      result_.stages.pop_back();
+      return false;
+    }
+    enter(trimmed(best->model), with(stage().effects, best->id), best->id);
+    return true;
+  }
+
+  /// The few effects that left least, but `except`, each added to `effects` and refitted with so
+  /// many links; without those whose refit failed.
+  std::vector<Explanation> best_with_links(const std::vector<Explanation>& explanations,
+                                           const std::vector<std::string>& effects, int links,
+                                           const std::string& except) {
+    std::vector<Explanation> best;
+    for (const Explanation& each : explanations)
+      if (each.refitted && each.candidate >= 0 && each.id != except) best.push_back(each);
+    std::stable_sort(best.begin(), best.end(), [&](const auto& a, const auto& b) {
+      return squares(a.model) < squares(b.model);
     });
-    others.resize(std::min<std::size_t>(others.size(), 3));
-    std::vector<FittedModel> models(others.size());
-    const auto effects_with = [&](const Explanation& each) {
-      std::vector<std::string> effects = looked.effects;
-      effects.push_back(each.id);
-      return effects;
-    };
-    in_parallel(others.size(), workshop_.threads, [&](std::size_t k) {
-      models[k] = refitted_with_links(others[k]->model, links, effects_with(*others[k]), workshop_);
+    best.resize(std::min<std::size_t>(best.size(), kTriedWithMoreLinks));
+    in_parallel(best.size(), workshop_.threads, [&](std::size_t k) {
+      best[k].model =
+          refitted_with_links(best[k].model, links, with(effects, best[k].id), workshop_);
     });
     workshop_.stop_if_asked();
-    std::size_t best = models.size();
-    for (std::size_t k = 0; k < models.size(); ++k)
-      if (models[k].ok &&
-          (best == models.size() || sum_of_squares(models[k], result_.floors) <
-                                        sum_of_squares(models[best], result_.floors)))
-        best = k;
-    if (best < models.size() &&
-        sum_of_squares(models[best], result_.floors) <
-            sum_of_squares(stage().model, result_.floors) &&
-        decide(models[best], stage().model, result_.floors).decided)
-      enter(std::move(models[best]), effects_with(*others[best]), others[best]->id, stage().added);
+    std::erase_if(best, [](const Explanation& each) { return !each.model.ok; });
+    return best;
   }
+
+  static std::vector<std::string> with(std::vector<std::string> effects, const std::string& id) {
+    effects.push_back(id);
+    return effects;
+  }
+
+  double squares(const FittedModel& model) { return sum_of_squares(model, result_.floors); }
 
   /// More links may have taken what an effect explains better: with the effects in place, the
   /// number of links is the smaller one if that leaves less.
@@ -150,24 +192,31 @@ class Physician {
       if (links >= stage().links) continue;
       FittedModel model = refitted_with_links(stage().model, links, stage().effects, workshop_);
       if (!model.ok ||
-          sum_of_squares(model, result_.floors) >= sum_of_squares(stage().model, result_.floors))
+          squares(model) >= squares(stage().model))
         break;
       enter(std::move(model), stage().effects, "", kTooFewLinks);
     }
   }
 
-  std::vector<Explanation> look(const FittedModel& model, const std::vector<std::string>& effects) {
+  /// `all`: every admissible effect is refitted, not the most promising ones alone.
+  std::vector<Explanation> look(const FittedModel& model, const std::vector<std::string>& effects,
+                                bool all = false) {
     workshop_.say("scoring what may be missing");
     Search search(workshop_, model, effects, result_.floors);
     const int refits = far() ? options_.refits + 2 : options_.refits;
     std::vector<Explanation> explanations = search.score(false);
     search.refit_best(explanations, refits, far());
     workshop_.stop_if_asked();
+    const auto closed = [&] {
+      return std::any_of(explanations.begin(), explanations.end(), [](const auto& each) {
+        return each.refitted && each.fit.ratio() < kClosed;
+      });
+    };
+    // Far from the truth the score ranks wrongly: the others may be what is missing.
+    if (all || (far() && !closed())) search.refit_rest(explanations);
+    workshop_.stop_if_asked();
     // Effects that need a model of their own cost more: only if the others leave a gap.
-    const bool closed = std::any_of(explanations.begin(), explanations.end(), [](const auto& each) {
-      return each.refitted && each.fit.ratio() < kClosed;
-    });
-    if (!closed) {
+    if (!closed()) {
       std::vector<Explanation> more = search.score(true);
       search.refit_best(more, 2, far());
       explanations.insert(explanations.end(), more.begin(), more.end());
@@ -237,7 +286,11 @@ class Physician {
   FittedModel trimmed(const FittedModel& model) { return trim(model, result_.floors, workshop_); }
 
   /// With all effects in place: is each still needed, and could another stand in its place?
-  void look_back() {
+  /// Whether anything was changed.
+  bool look_back() {
+    forget_alternatives();
+    bool changed = false;
+    int swaps = 0;
     for (std::size_t i = 0; i < result_.effects.size();) {
       workshop_.stop_if_asked();
       const std::string id = result_.effects[i];
@@ -250,29 +303,34 @@ class Physician {
         fresh = stage_without(id, others);
         looked = &fresh;
       }
-      if (!fresh.model.problem && !looked->model.problem) {
+      if (!looked->model.problem) {
         ++i;
         continue;
       }
       if (needless(*looked)) {
         enter(looked->model, others, "", id);
-        result_.effects = others;
-        i = 0;
-        continue;
+      } else {
+        const std::string better = weigh_alternatives(id, *looked);
+        if (better.empty()) {
+          ++i;
+          continue;
+        }
+        others.push_back(better);
+        ++swaps;
       }
-      const std::string better = weigh_alternatives(id, *looked);
-      if (better.empty()) {
-        ++i;
-        continue;
-      }
-      others.push_back(better);
+      changed = true;
       result_.effects = others;
-      result_.alternatives.clear();
-      result_.forms.clear();
-      result_.runners_up.clear();
+      forget_alternatives();
+      if (swaps > kMostSwaps) break;
       i = 0;
-      if (++swaps_ > 3) break;
     }
+    return changed;
+  }
+
+  void forget_alternatives() {
+    result_.alternatives.clear();
+    result_.forms.clear();
+    result_.runners_up.clear();
   }
 
   /// A stage at which `id` was added to exactly `others`, with the present number of links.
@@ -297,7 +355,9 @@ class Physician {
     without.links = study.links;
     without.fit = fit_gap(without.model, result_.floors);
     without.held_out = held_out_gap(without.model, result_.floors);
-    if (!needless(without)) without.explanations = look(without.model, others);
+    // Something that nearly fits may stand in the place of the right one.
+    const bool nearly = gap_left(stage()) && stage().fit.ratio() <= kClosed;
+    if (!needless(without)) without.explanations = look(without.model, others, nearly);
     return without;
   }
 
@@ -351,7 +411,6 @@ class Physician {
   Workshop& workshop_;
   const DiagnosisOptions& options_;
   Diagnosis result_;
-  int swaps_ = 0;
 };
 
 }  // namespace

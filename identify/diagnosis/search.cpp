@@ -498,6 +498,17 @@ void Search::refit_best(std::vector<Explanation>& explanations, int count, bool 
         explanation.log10_p < -2)
       chosen.push_back(&explanation);
   }
+  refit_all(std::move(chosen), far);
+}
+
+void Search::refit_rest(std::vector<Explanation>& explanations) const {
+  std::vector<Explanation*> chosen;
+  for (Explanation& explanation : explanations)
+    if (explanation.score.admissible && !explanation.refitted) chosen.push_back(&explanation);
+  refit_all(std::move(chosen), false);
+}
+
+void Search::refit_all(std::vector<Explanation*> chosen, bool far) const {
   in_parallel(chosen.size(), workshop_.threads, [&](std::size_t i) {
     Explanation& explanation = *chosen[i];
     workshop_.say("refitting with " + explanation.id);

@@ -55,6 +55,8 @@ class Search {
 
   /// The `count` most promising admissible ones, on several threads.
   void refit_best(std::vector<Explanation>& explanations, int count, bool far) const;
+  /// All admissible ones that were not.
+  void refit_rest(std::vector<Explanation>& explanations) const;
 
   const FittedModel& base() const { return base_; }
 
@@ -68,6 +70,8 @@ class Search {
   double significance(const ScoreTest& test, const std::vector<int>& columns,
                       const Score& score) const;
 
+  /// Refits on several threads; tries the best of those that leave a gap from elsewhere.
+  void refit_all(std::vector<Explanation*> chosen, bool far) const;
   /// Fits from a start; the explanation keeps the result if it is the best so far.
   void fit_from(Explanation& explanation, const std::shared_ptr<const Problem>& problem,
                 const Eigen::VectorXd& start) const;

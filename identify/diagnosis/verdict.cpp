@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/verdict.hpp"
 
+#include <cmath>
+
 #include "identify/diagnosis/final_model.hpp"
 
 namespace catena {
@@ -9,6 +11,8 @@ namespace {
 constexpr double kTrace = 0.15;           // of the noise
 constexpr double kTraceSignificance = 4;  // deviations
 constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothing is called missing
+constexpr double kVisible = 1.07;         // residual over noise above which what is left counts
+constexpr double kImitated = 0.02;        // of the squared misfit before the first effect
 
 std::string listed_ids(const std::vector<std::string>& ids) {
   std::string text;
@@ -27,6 +31,20 @@ bool trace_left(const Stage& stage) {
   return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
 }
 
+namespace {
+
+/// Effects that only imitate what is missing leave a visible part of the gap that they were added
+/// for; the right ones leave a trace of it, from what their laws get slightly wrong.
+bool imitated(const Diagnosis& d) {
+  double before = 0;
+  for (const Stage& stage : d.stages)
+    if (stage.effects.empty()) before = stage.fit.misfit;
+  return !d.effects.empty() && d.final_fit.ratio() > kVisible &&
+         std::pow(d.final_fit.misfit, 2) > kImitated * std::pow(before, 2);
+}
+
+}  // namespace
+
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
   const Stage& last = d.stages.back();
   d.final = last.model;
@@ -35,7 +53,7 @@ void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
   d.final_held_out = held_out_gap(d.final, d.floors);
   d.parameters = final_parameters(d);
 
-  const bool closed = d.final_fit.ratio() <= kClosed &&
+  const bool closed = d.final_fit.ratio() <= kClosed && !imitated(d) &&
                       (d.final_held_out.count == 0 || d.final_held_out.ratio() <= kClosedHeldOut);
   const std::string links = last.links != d.stages.front().links
                                 ? " with " + std::to_string(last.links) + " links (" +
@@ -56,7 +74,7 @@ void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
     d.sentence = d.effects.empty()
                      ? "There is a gap, and nothing in the library explains it."
                      : "There is a gap; " + listed_ids(d.effects) +
-                           " would explain part of it, but what is left is far above the noise.";
+                           " would explain part of it, but what is left is above the noise.";
     return;
   }
   std::erase_if(d.alternatives, [&](const Alternative& alternative) {
