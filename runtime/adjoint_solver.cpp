@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <stdexcept>
 
 #include "runtime/number_text.hpp"
@@ -41,16 +40,7 @@ AdjointSolver::AdjointSolver(Integrator& forward, const Model& model,
       time_(kUnknown) {
   std::fill_n(elements(lambda_.get()), dynamics_.size(), 0.0);
   std::fill_n(elements(integral_.get()), dp_.size(), 0.0);
-  handle_.reset(SUNNonlinSolNewEmpty(forward.context()));
-  if (!handle_) throw std::bad_alloc();
-  handle_->content = this;
-  handle_->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_FIXEDPOINT; };
-  handle_->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return 0; };
-  handle_->ops->solve = &AdjointSolver::solve;
-  handle_->ops->free = [](SUNNonlinearSolver solver) {
-    SUNNonlinSolFreeEmpty(solver);
-    return 0;
-  };
+  handle_ = own_nonlinear_solver(forward.context(), this, &AdjointSolver::solve);
 }
 
 void AdjointSolver::begin(double t, const Trajectory& slope) {

@@ -2,7 +2,6 @@
 #include "runtime/sensitivity_solver.hpp"
 
 #include <cmath>
-#include <new>
 
 #include "runtime/state_vector.hpp"
 
@@ -22,16 +21,7 @@ SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
   dz_.assign(states, 0.0);
   change_.assign(n + states, 0.0);
 
-  handle_.reset(SUNNonlinSolNewEmpty(context));
-  if (!handle_) throw std::bad_alloc();
-  handle_->content = this;
-  handle_->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_FIXEDPOINT; };
-  handle_->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return 0; };
-  handle_->ops->solve = &SensitivitySolver::solve;
-  handle_->ops->free = [](SUNNonlinearSolver solver) {
-    SUNNonlinSolFreeEmpty(solver);
-    return 0;
-  };
+  handle_ = own_nonlinear_solver(context, this, &SensitivitySolver::solve);
 }
 
 int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Vector correction,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include "runtime/state_vector.hpp"
 
@@ -26,16 +25,7 @@ StepSolver::StepSolver(Dynamics& dynamics, NewtonMatrix& matrix, SUNContext cont
   for (std::vector<double>* values : {&z_, &zdot_}) values->assign(states, 0.0);
   change_.assign(n + states, 0.0);
 
-  handle_.reset(SUNNonlinSolNewEmpty(context));
-  if (!handle_) throw std::bad_alloc();
-  handle_->content = this;
-  handle_->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_FIXEDPOINT; };
-  handle_->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return 0; };
-  handle_->ops->solve = &StepSolver::solve;
-  handle_->ops->free = [](SUNNonlinearSolver solver) {
-    SUNNonlinSolFreeEmpty(solver);
-    return 0;
-  };
+  handle_ = own_nonlinear_solver(context, this, &StepSolver::solve);
   handle_->ops->getnumiters = [](SUNNonlinearSolver solver, long* count) {
     *count = static_cast<StepSolver*>(solver->content)->iterations_;
     return 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cvodes/cvodes.h>
-#include <sundials/sundials_nonlinearsolver.h>
 
 #include <limits>
 #include <memory>
@@ -10,15 +9,10 @@
 
 #include "runtime/dynamics.hpp"
 #include "runtime/newton_matrix.hpp"
+#include "runtime/own_nonlinear_solver.hpp"
 #include "runtime/status.hpp"
 
 namespace catena {
-
-struct SunNonlinearSolverDeleter {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-using SunNonlinearSolverHandle =
-    std::unique_ptr<_generic_SUNNonlinearSolver, SunNonlinearSolverDeleter>;
 
 /// Solves the equations of one step of CVODES for a second-order system, in place of its general
 /// nonlinear and linear solvers.

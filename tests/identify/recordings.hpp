@@ -15,6 +15,33 @@ inline Case sections(const std::string& text) {
   return parse_case("format = 1\nkind = \"case\"\n" + text, "case.toml", "");
 }
 
+/// Two links: stiffness and damping unknown, started at half and two fifths of what the tests hide.
+inline const char* const kTwoLinks = R"(
+[model]
+links = 2
+[cable]
+length = 1.0
+density = 0.3
+load_mass = 0.2
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 0.05
+free = true
+lower = 0.001
+upper = 1.0
+[[parameter]]
+name = "c"
+sets = "damping"
+value = 0.002
+free = true
+lower = 0.0001
+upper = 1.0
+[initial]
+shape = "straight"
+angle = 0.6
+)";
+
 /// Markers at the given arc lengths (m), `frames` of them `step` s apart from time 0; not measured yet.
 inline Recording empty_markers(const std::vector<double>& arc_lengths, int frames, double step) {
   Recording recording;

@@ -8,34 +8,8 @@ using namespace catena;
 
 namespace {
 
-const char* const kTwoLinks = R"(
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.05
-free = true
-lower = 0.001
-upper = 1.0
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.002
-free = true
-lower = 0.0001
-upper = 1.0
-[initial]
-shape = "straight"
-angle = 0.6
-)";
-
 Problem problem_with(Measure measure, const Eigen::MatrixXd& offsets) {
-  Case study = testing::sections(kTwoLinks);
+  Case study = testing::sections(testing::kTwoLinks);
   study.error.measure = measure;
   testing::add_experiment(study, "run");
   const Model model = Model::built_in(2);

@@ -12,35 +12,9 @@ using namespace catena;
 
 namespace {
 
-const char* const kTwoLinks = R"(
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.05
-free = true
-lower = 0.001
-upper = 1.0
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.002
-free = true
-lower = 0.0001
-upper = 1.0
-[initial]
-shape = "straight"
-angle = 0.6
-)";
-
 Problem twin(FitMethod method, Measure measure, double k, double c, double noise = 0,
              unsigned seed = 1) {
-  Case study = testing::sections(kTwoLinks);
+  Case study = testing::sections(testing::kTwoLinks);
   testing::add_experiment(study, "run");
   Case truth = study;
   truth.parameters[0].value = k;
@@ -210,7 +184,7 @@ TEST_CASE("failures are counted, reported and never the best") {
 }
 
 TEST_CASE("what cannot be fitted is refused") {
-  Case study = testing::sections(kTwoLinks);
+  Case study = testing::sections(testing::kTwoLinks);
   const Model model = Model::built_in(2);
   CHECK_THROWS_AS(fit(Problem(study, model), {}, {}), InputError);  // free, but no data
   const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005);
