@@ -32,7 +32,8 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::size_t fewest = std::max<std::size_t>(1, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edits(word, candidate);
-    if (distance < fewest) {
+    const bool something_in_common = distance < std::max(word.size(), candidate.size());
+    if (distance < fewest && something_in_common) {
       fewest = distance;
       nearest = candidate;
     }

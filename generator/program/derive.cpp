@@ -44,12 +44,13 @@ void derive(const Options& options) {
     write_latex(options, description);
     return;
   }
-  const auto progress = [](const ModelSummary& s, double seconds) {
+  const Language language = language_of(options.format);
+  const auto progress = [&](const ModelSummary& s, double seconds) {
+    const bool linear = language == Language::kC ? s.mass_structured : s.structured;
     std::printf("%-24s %4d links  %s  %7.2f s\n", s.name.c_str(), s.links,
-                s.structured ? "O(n)   " : "general", seconds);
+                linear ? "O(n)   " : "general", seconds);
     std::fflush(stdout);
   };
-  const Language language = language_of(options.format);
   if (options.library && language == Language::kC) {
     throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
   }
@@ -74,15 +75,20 @@ void add_derive_command(CLI::App& app, int& status) {
       "derive", "Derive the equations of motion of a model and write them as C++");
   add_model_options(*command, options->model);
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
-  command->add_flag("--library", options->library,
-                    "write the look-up of the models and the list for CMake too");
-  add_format_option(*command, options->format);
+  CLI::Option* library = command->add_flag(
+      "--library", options->library, "write the look-up of the models and the list for CMake too");
+  CLI::Option* format = add_format_option(*command, options->format);
+  CLI::Option* layout =
+      command
+          ->add_option("--layout", options->layout,
+                       "straight lines or loops; without it the faster for the number of links")
+          ->check(CLI::IsMember({"straight", "loops"}));
   command
-      ->add_option("--layout", options->layout,
-                   "straight lines or loops; without it the faster for the number of links")
-      ->check(CLI::IsMember({"straight", "loops"}));
-  command->add_flag("--latex", options->latex,
-                    "write the equations as a LaTeX document instead, for reading");
+      ->add_flag("--latex", options->latex,
+                 "write the equations as a LaTeX document instead, for reading")
+      ->excludes(library)
+      ->excludes(format)
+      ->excludes(layout);
   command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");
   command->callback([options, &status] {
     derive(*options);

@@ -19,8 +19,8 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
                      "effect to add: a built-in id or a TOML file; may be repeated");
 }
 
-void add_format_option(CLI::App& command, std::string& format) {
-  command.add_option("--format", format, "c++, or c: plain C99 for embedding")
+CLI::Option* add_format_option(CLI::App& command, std::string& format) {
+  return command.add_option("--format", format, "c++, or c: plain C99 for embedding")
       ->check(CLI::IsMember({"c++", "c"}))
       ->capture_default_str();
 }

@@ -20,7 +20,7 @@ struct ModelOptions {
 void add_model_options(CLI::App& command, ModelOptions& options);
 
 /// --format, and the language it stands for.
-void add_format_option(CLI::App& command, std::string& format);
+CLI::Option* add_format_option(CLI::App& command, std::string& format);
 Language language_of(const std::string& format);
 
 /// The description they give, its link counts not empty. Throws InputError.

@@ -100,6 +100,9 @@ for file in $name.c $name.h catena_model.h $name.c99.json; do
   cp certified_c/$file model/
 done
 
+"$derive" derive --links 3 --format c --library --output c_library 2>said && fail "a look-up in C"
+[[ $(<said) == *"the look-up of the models is C++"* && ! -e c_library ]] || fail "a look-up in C"
+
 # small motions in the wind: not those in still air
 value() { sed -n "/\"$1\"/,/}/s/.*\"lowest_rad_per_s\": \([0-9.]*\).*/\1/p" model/$name.c99.certificate.json; }
 [[ -n $(value natural_frequencies_with_effects) ]] || fail "no frequencies with effects"

@@ -26,6 +26,7 @@ TEST_CASE("the nearest name is the one meant, or none") {
 TEST_CASE("a suggestion names the nearest, or all that there are") {
   CHECK(catena::suggestion("lenght", {"mass", "length"}) == "; did you mean \"length\"?");
   CHECK(catena::suggestion("zzzzz", {"mass", "length"}) == "; known are length and mass");
+  CHECK(catena::suggestion("q", {"N", "m"}) == "; known are N and m");
   CHECK(catena::suggestion("zzzzz", {}) == "; none is known here");
   CHECK(catena::listed({"a", "b", "c"}) == "a, b and c");
 }

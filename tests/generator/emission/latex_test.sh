@@ -22,6 +22,8 @@ done
 "$derive" derive --links 21 --latex --output many 2>message && status=0 || status=$?
 [[ $status == 2 && ! -e many ]] || { echo "21 links: status $status"; exit 1; }
 grep -q "nobody reads more than 20" message
+"$derive" derive --links 2 --latex --format c --output many 2>message && status=0 || status=$?
+[[ $status == 2 && ! -e many ]] || { echo "LaTeX and C at once: status $status"; exit 1; }
 
 if ! command -v pdflatex >/dev/null; then
   echo "no pdflatex here: not compiled (scripts/setup latex installs it)"
