@@ -62,7 +62,8 @@ class WorkFolder {
   fs::path path_;
 };
 
-void run(const std::vector<std::string>& command, const std::string& purpose, const std::string& hint) {
+std::string run(const std::vector<std::string>& command, const std::string& purpose,
+                const std::string& hint) {
   ProcessResult result;
   try {
     result = run_process(command, true);
@@ -73,6 +74,16 @@ void run(const std::vector<std::string>& command, const std::string& purpose, co
   if (result.exit_status != 0)
     throw ModelError(purpose + ": " + command.front() + " ended with status " +
                      std::to_string(result.exit_status) + hint + "\n" + result.output);
+  return result.output;
+}
+
+std::vector<std::string> derivation(const fs::path& derive, const fs::path& description, int links) {
+  std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
+  if (!description.empty()) {
+    command.push_back("--description");
+    command.push_back(fs::absolute(description).string());
+  }
+  return command;
 }
 
 fs::path source_in(const fs::path& folder) {
@@ -100,6 +111,16 @@ fs::path find_derive_program() {
   if (const fs::path found = find_in_path(name); !found.empty()) return found;
   throw ModelError("catena-derive was not found beside this program, in ../libexec/catena or in PATH; it "
                    "derives models that are not built in");
+}
+
+std::string derived_equations(const fs::path& description, int links) {
+  try {
+    std::vector<std::string> command = derivation(find_derive_program(), description, links);
+    command.push_back("--equations");
+    return run(command, "deriving the equations", "");
+  } catch (const ModelError&) {
+    return {};
+  }
 }
 
 Model provide_model(const fs::path& description_file, int links, const ProviderOptions& options) {
@@ -134,14 +155,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   }
   const WorkFolder work(cache);
   const fs::path sources = work.path() / "model";
-  std::vector<std::string> command = {derive.string(), "derive"};
-  if (!description_file.empty()) {
-    command.push_back("--description");
-    command.push_back(fs::absolute(description_file).string());
-  }
-  for (const std::string& argument :
-       {std::string("--links"), std::to_string(links), std::string("--output"), sources.string()})
-    command.push_back(argument);
+  std::vector<std::string> command = derivation(derive, description_file, links);
+  command.insert(command.end(), {"--output", sources.string()});
   run(command, "deriving the model", "");
 
   command = {compiler};

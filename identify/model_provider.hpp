@@ -30,6 +30,10 @@ struct ProviderOptions {
 Model provide_model(const std::filesystem::path& description, int links,
                     const ProviderOptions& options = {});
 
+/// The equations that the derivation finds for the model with so many links, at most 3, as
+/// `catena-derive derive --equations` prints them (JSON). Empty where catena-derive is not to be had.
+std::string derived_equations(const std::filesystem::path& description, int links);
+
 /// catena-derive: beside this program, in ../libexec/catena, or in PATH. Throws ModelError.
 std::filesystem::path find_derive_program();
 

@@ -10,6 +10,7 @@
 #include "generator/description/description.hpp"
 #include "generator/description/formula.hpp"
 #include "identify/case_words.hpp"
+#include "identify/model_provider.hpp"
 
 namespace catena {
 namespace {
@@ -57,6 +58,8 @@ Json head(const Problem& problem, const char* command) {
   model["links"] = problem.model().links();
   model["description_hash"] = problem.model().table().description_hash;
   model["load_mass"] = study.cable.load_mass;
+  const std::string derived = derived_equations(study.description, problem.model().links());
+  if (!derived.empty()) model["derived"] = Json::parse(derived);
   model["effects"] = Json::array();
   if (!study.description.empty()) {
     model["description"] = text_of(study.description);

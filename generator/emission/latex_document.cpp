@@ -91,13 +91,23 @@ std::string display(const std::vector<std::string>& equations) {
 
 std::string matrix(const std::string& left, std::size_t rows, std::size_t columns,
                    const std::function<std::string(std::size_t, std::size_t)>& entry) {
-  std::string text = "\\[\n  " + left + " = \\begin{bmatrix}\n";
+  std::string text = left + " = \\begin{bmatrix}\n";
   for (std::size_t i = 0; i < rows; ++i) {
     text += "    ";
     for (std::size_t j = 0; j < columns; ++j) text += (j > 0 ? " & " : "") + entry(i, j);
     text += i + 1 < rows ? " \\\\\n" : "\n";
   }
-  return text + "  \\end{bmatrix}\n\\]\n";
+  return text + "  \\end{bmatrix}\n";
+}
+
+std::string in_document(const LatexEquations& equations) {
+  const bool whole = equations.latex.starts_with("\\begin{align*}");
+  return escaped(equations.words) + "\n" +
+         (whole ? equations.latex : "\\[\n  " + equations.latex + "\\]\n") + "\n";
+}
+
+void append(std::vector<LatexEquations>& to, const std::vector<LatexEquations>& more) {
+  to.insert(to.end(), more.begin(), more.end());
 }
 
 std::string number(std::size_t i) { return std::to_string(i + 1); }
@@ -122,14 +132,38 @@ class Document {
     }
   }
 
+  /// In this order only: what is abbreviated is explained where it first stands.
+  std::vector<LatexEquations> chain() {
+    std::vector<LatexEquations> found;
+    lagrangian(found);
+    found.push_back({"and its equations of motion are", euler_lagrange()});
+    matrix_equation(found);
+    inertia(found);
+    joint_matrices(found);
+    vectors(found);
+    return found;
+  }
+
+  std::vector<LatexEquations> generalised_forces(const Effect& effect) {
+    if (!has_generalised_force(effect)) return {};
+    Chain chain(description_, links_, effect.id);
+    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
+    std::vector<std::string> equations;
+    for (std::size_t i = 0; i < chain.residual().size(); ++i) {
+      equations.push_back(
+          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i]),
+                   kLineWidth - kNarrower));
+    }
+    std::vector<LatexEquations> found = {
+        {"The generalised forces of " + effect.id + " are", display(equations)}};
+    append(found, with());
+    return found;
+  }
+
   std::string text() {
     std::string text =
         "\\section{" + std::to_string(links_) + (links_ == 1 ? " link" : " links") + "}\n\n";
-    text += lagrangian();
-    text += euler_lagrange();
-    text += inertia();
-    text += joint_matrices();
-    text += vectors();
+    for (const LatexEquations& equations : chain()) text += in_document(equations);
     for (const Effect& effect : description_.effects) text += effect_text(effect);
     return text;
   }
@@ -171,7 +205,7 @@ class Document {
   }
 
   // The energies of the chain itself; those of effects follow with them.
-  std::string lagrangian() {
+  void lagrangian(std::vector<LatexEquations>& found) {
     Chain chain(description_, links_);
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     std::vector<std::string> terms;
@@ -190,9 +224,8 @@ class Document {
     add(kinetic);
     terms.insert(terms.end(), elastic.begin(), elastic.end());
     add(-gravity);
-    std::string text = "The Lagrangian is\n" + display({equation("L", terms)});
-    text += with();
-    return text + "\n";
+    found.push_back({"The Lagrangian is", display({equation("L", terms)})});
+    append(found, with());
   }
 
   // - 1/2 k_i (theta_i - theta_{i-1})^2: the square stays one
@@ -241,7 +274,7 @@ class Document {
       }
       equations.push_back(text);
     }
-    return "and its equations of motion are\n" + display(equations) + "\n";
+    return display(equations);
   }
 
   std::string torque(std::size_t i) const {
@@ -252,9 +285,9 @@ class Document {
     return "Q^{\\mathrm{" + escaped(effect.id) + "}}_{" + number(i) + "}";
   }
 
-  std::string inertia() {
+  void matrix_equation(std::vector<LatexEquations>& found) {
     std::string text =
-        "Worked out, they read\n\\[\n  I(\\vec{\\theta}) \\ddot{\\vec{\\theta}} + C "
+        "I(\\vec{\\theta}) \\ddot{\\vec{\\theta}} + C "
         "\\dot{\\vec{\\theta}} + K \\vec{\\theta} + \\vec{F}(\\vec{\\theta}, "
         "\\dot{\\vec{\\theta}}) + \\vec{G}(\\vec{\\theta}) = \\vec{T}";
     for (const Effect& effect : description_.effects) {
@@ -263,13 +296,19 @@ class Document {
     }
     rest_moments();
     if (!rest_.empty()) text += " + \\vec{E}";
-    text += ",\n\\]\n" + coordinates_in_words() + "with the symmetric inertia matrix\n";
+    found.push_back({"Worked out, they read", text + "\n"});
+    const std::string all = coordinates_in_order();
+    if (!all.empty()) found.push_back({"where the coordinates are", all});
+  }
+
+  void inertia(std::vector<LatexEquations>& found) {
     Chain chain(description_, links_, "kinetic");
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const std::size_t n = chain.coordinates().size();
-    text += matrix("I", n, n, [](std::size_t i, std::size_t j) {
-      return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
-    });
+    found.push_back({"with the symmetric inertia matrix",
+                     matrix("I", n, n, [](std::size_t i, std::size_t j) {
+                       return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
+                     })});
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < n; ++i) {
       const ex row = latex.written_out(chain.residual()[i]);
@@ -288,13 +327,12 @@ class Document {
       }
       moving_.push_back(row.subs(no_accelerations(chain), GiNaC::subs_options::no_pattern));
     }
-    text += display(equations);
+    found.push_back({"whose entries are", display(equations)});
+    append(found, with());
     LatexStyle lengths_first;
     lengths_first.order = LatexStyle::kLengthsFirst;
-    text += with();
-    coriolis_ = column(chain, moving_, latex, "f", lengths_first);
-    coriolis_ += with();
-    return text + "\n";
+    coriolis_ = {{"", column(chain, moving_, latex, "f", lengths_first)}};
+    append(coriolis_, with());
   }
 
   // "x_{1}, \dots, x_{n}"
@@ -305,7 +343,7 @@ class Document {
   }
 
   // Where the coordinates are not the angles alone
-  std::string coordinates_in_words() const {
+  std::string coordinates_in_order() const {
     std::string own;
     for (const Effect& effect : description_.effects) {
       for (const Coordinate& coordinate : effect.coordinates) {
@@ -314,7 +352,7 @@ class Document {
       }
     }
     if (own.empty()) return "";
-    return "where $\\vec{\\theta}$ stands for all coordinates, $" + numbered("\\theta") + own + "$,\n";
+    return "\\vec{\\theta} = (" + numbered("\\theta") + own + ")\n";
   }
 
   static GiNaC::exmap no_accelerations(const Chain& chain) {
@@ -333,7 +371,7 @@ class Document {
   }
 
   // C and K, read off the friction and elastic terms
-  std::string joint_matrices() {
+  void joint_matrices(std::vector<LatexEquations>& found) {
     const auto read = [&](const char* letter, const char* term) {
       Chain chain(description_, links_, term);
       const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
@@ -342,8 +380,8 @@ class Document {
         return latex.of(latex.written_out(chain.residual()[i]).coeff(variables[j]));
       });
     };
-    return "The damping and stiffness matrices are\n" + read("C", "friction") +
-           read("K", "elastic") + "\n";
+    found.push_back({"The damping matrix is", read("C", "friction")});
+    found.push_back({"and the stiffness matrix", read("K", "elastic")});
   }
 
   // K theta less the elastic moments: what the angles at rest add
@@ -357,28 +395,31 @@ class Document {
       rows.push_back(-latex.written_out(row).subs(straight, GiNaC::subs_options::no_pattern));
     }
     const bool any = std::any_of(rows.begin(), rows.end(), [](const ex& e) { return !e.is_zero(); });
-    if (any) rest_ = column(chain, rows, latex, "e", {}), rest_ += with();
+    if (!any) return;
+    rest_ = {{"those of the moments of the joints' rest angles", column(chain, rows, latex, "e", {})}};
+    append(rest_, with());
   }
 
-  std::string vectors() {
+  void vectors(std::vector<LatexEquations>& found) {
     Chain chain(description_, links_, "gravity");
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const bool support = std::any_of(
         description_.effects.begin(), description_.effects.end(), [](const Effect& effect) {
           return effect.support.side.given() || effect.support.down.given();
         });
-    std::string text = "The components of the Coriolis and centrifugal vector" +
-                       std::string(support ? ", with the inertia forces of the support's motion," : "") +
-                       " are\n" + coriolis_ +
-                       "\nthose of the vector of gravity\n" +
-                       column(chain, chain.residual(), latex, "g", {});
-    text += with();
-    if (!rest_.empty()) text += "\nthose of the moments of the joints' rest angles\n" + rest_;
-    const std::size_t n = chain.coordinates().size();
-    return text + "\nand the external torques\n" +
-           matrix("\\vec{T}", n, 1,
-                  [&](std::size_t i, std::size_t) { return torque(i).empty() ? "0" : torque(i); }) +
-           "\n";
+    coriolis_.front().words =
+        "The components of the Coriolis and centrifugal vector" +
+        std::string(support ? ", with the inertia forces of the support's motion," : "") + " are";
+    append(found, coriolis_);
+    found.push_back(
+        {"those of the vector of gravity", column(chain, chain.residual(), latex, "g", {})});
+    append(found, with());
+    append(found, rest_);
+    found.push_back({"and the external torques",
+                     matrix("\\vec{T}", chain.coordinates().size(), 1,
+                            [&](std::size_t i, std::size_t) {
+                              return torque(i).empty() ? "0" : torque(i);
+                            })});
   }
 
   std::string effect_text(const Effect& effect) {
@@ -387,28 +428,19 @@ class Document {
     for (const Formula& formula : formulas(effect)) {
       text += "\\noindent " + formula.what + ":\n\\[\n  " + formula.latex + "\n\\]\n";
     }
-    if (!has_generalised_force(effect)) return text + "\n";
-    Chain chain(description_, links_, effect.id);
-    const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
-    std::vector<std::string> equations;
-    for (std::size_t i = 0; i < chain.residual().size(); ++i) {
-      equations.push_back(
-          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i]),
-                   kLineWidth - kNarrower));
-    }
-    text += "Its generalised forces are\n" + display(equations);
-    text += with();
+    for (const LatexEquations& forces : generalised_forces(effect)) text += in_document(forces);
     return text + "\n";
   }
 
   // What has been abbreviated since the last time
-  std::string with() {
+  std::vector<LatexEquations> with() {
     std::vector<std::string> equations;
     for (; explained_ < abbreviations_.entries.size(); ++explained_) {
       const LatexAbbreviations::Entry& entry = abbreviations_.entries[explained_];
       equations.push_back(equation(entry.left, entry.terms));
     }
-    return equations.empty() ? "" : "with\n" + display(equations);
+    if (equations.empty()) return {};
+    return {{"with", display(equations)}};
   }
 
   const Description& description_;
@@ -417,10 +449,19 @@ class Document {
   LatexAbbreviations abbreviations_;
   std::size_t explained_ = 0;  // of them
   std::vector<ex> moving_;
-  std::string coriolis_, rest_;
+  std::vector<LatexEquations> coriolis_, rest_;
 };
 
 }  // namespace
+
+std::vector<LatexEquations> derived_equations(const Description& description, int links) {
+  Document document(description, links);
+  std::vector<LatexEquations> found = document.chain();
+  for (const Effect& effect : description.effects) {
+    append(found, document.generalised_forces(effect));
+  }
+  return found;
+}
 
 std::string latex_document(const Description& description, const std::vector<int>& links) {
   std::string text =

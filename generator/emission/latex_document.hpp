@@ -11,9 +11,18 @@ namespace catena {
 /// The most links whose equations are written out; beyond it nobody reads them.
 inline constexpr int kMostLatexLinks = 20;
 
-/// A whole LaTeX document (article, amsmath): for each link count the Lagrangian, the equations of
-/// Euler and Lagrange and the matrices of (3.4), derived, in the order and notation of chapter 3;
-/// then what each effect adds. The same text on every run.
+/// What the derivation found, as one reads it.
+struct LatexEquations {
+  std::string words;  ///< LaTeX that leads to them: "The Lagrangian is"
+  std::string latex;  ///< an environment of displayed mathematics, amsmath
+};
+
+/// For so many links the Lagrangian, the equations of Euler and Lagrange and the matrices of (3.4),
+/// derived, in the order and notation of chapter 3; then the generalised forces of each effect.
+std::vector<LatexEquations> derived_equations(const Description& description, int links);
+
+/// A whole LaTeX document (article, amsmath): for each link count all that derived_equations()
+/// gives, and the formulas of each effect. The same text on every run.
 std::string latex_document(const Description& description, const std::vector<int>& links);
 
 }  // namespace catena

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "generator/description/input_error.hpp"
@@ -20,6 +22,7 @@ struct Options {
   std::string output = "generated";
   bool library = false;
   bool latex = false;
+  bool equations = false;
   std::string format = "c++";
   std::string layout;  // empty: by the number of links
 };
@@ -38,8 +41,22 @@ void write_latex(const Options& options, const Description& description) {
   std::printf("written to %s\n", path.c_str());
 }
 
+/// What reports show: many links fill pages, and the equations repeat themselves.
+void print_equations(const Description& description) {
+  nlohmann::ordered_json list = nlohmann::json::array();
+  const int links = std::min(description.links.front(), 3);
+  for (const LatexEquations& one : derived_equations(description, links)) {
+    list.push_back({{"title", one.words}, {"latex", one.latex}});
+  }
+  std::printf("%s\n", nlohmann::ordered_json{{"links", links}, {"equations", list}}.dump().c_str());
+}
+
 void derive(const Options& options) {
   const Description description = description_of(options.model);
+  if (options.equations) {
+    print_equations(description);
+    return;
+  }
   if (options.latex) {
     write_latex(options, description);
     return;
@@ -86,6 +103,12 @@ void add_derive_command(CLI::App& app, int& status) {
   command
       ->add_flag("--latex", options->latex,
                  "write the equations as a LaTeX document instead, for reading")
+      ->excludes(library)
+      ->excludes(format)
+      ->excludes(layout);
+  command
+      ->add_flag("--equations", options->equations,
+                 "print the equations of at most 3 links as JSON, as reports show them")
       ->excludes(library)
       ->excludes(format)
       ->excludes(layout);

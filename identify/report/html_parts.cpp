@@ -35,18 +35,6 @@ std::string length(double value, const std::string& unit) {
   return unit == "1" || unit.empty() ? for_people(value) : for_people(value) + " " + escaped(unit);
 }
 
-/// "kg/m²" of "kg/m^2".
-std::string readable_unit(const std::string& unit) {
-  std::string text = escaped(unit);
-  for (const auto& [plain, raised] :
-       {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("^4", "⁴")}) {
-    for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain)) {
-      text.replace(at, 2, raised);
-    }
-  }
-  return text;
-}
-
 std::string percent(double share) {
   return std::isnan(share) ? "–" : for_people(100 * share, 3) + " %";
 }
@@ -159,7 +147,8 @@ std::string equation_html(const Equation& equation) {
     html +=
         fmt::format("<div class=\"formula scrolls\" tabindex=\"0\">{}</div>\n", equation.mathml);
   } else if (!equation.latex.empty()) {
-    html += fmt::format("<pre><code>{}</code></pre>\n", escaped(equation.latex));
+    html += fmt::format("<div class=\"latex scrolls\" tabindex=\"0\">{}</div>\n",
+                        escaped(equation.latex));
   }
   return html;
 }
@@ -369,7 +358,7 @@ std::string parameters_html(const Result& result) {
   for (const Parameter& p : result.parameters) {
     const std::string value = for_people(p.value, 5);
     if (!p.free) {
-      fixed.push_back({escaped(p.name), value, readable_unit(p.unit), escaped(p.sets)});
+      fixed.push_back({escaped(p.name), value, escaped(plot::readable_unit(p.unit)), escaped(p.sets)});
       continue;
     }
     std::string verdict = p.verdict.empty() ? "–" : escaped(spaced(p.verdict));
@@ -379,7 +368,7 @@ std::string parameters_html(const Result& result) {
         bounded ? fmt::format("{}\u00a0…\u00a0{}", std::isnan(p.lower) ? "−∞" : for_people(p.lower),
                               std::isnan(p.upper) ? "∞" : for_people(p.upper))
                 : "–";
-    free.push_back({escaped(p.name), value, readable_unit(p.unit), for_people(p.standard_error, 3),
+    free.push_back({escaped(p.name), value, escaped(plot::readable_unit(p.unit)), for_people(p.standard_error, 3),
                     interval(p), verdict, for_people(p.start, 5), bounds, escaped(p.sets)});
   }
   std::string html;
@@ -393,8 +382,9 @@ std::string parameters_html(const Result& result) {
 
 std::string fit_html(const Result& result) {
   Named facts;
-  for (const auto& [name, value] : result.optimiser)
-    facts.emplace_back(name, escaped(spaced(value)));
+  for (const auto& [name, value] : result.optimiser) {
+    if (!value.empty()) facts.emplace_back(name, escaped(spaced(value)));
+  }
   std::string html = definitions(facts);
   if (!result.links_study.empty()) {
     std::vector<Cells> rows = {{"Links", "Error", "Gap", "Time"}};
@@ -456,18 +446,20 @@ std::string diagnosis_html(const Diagnosis& diagnosis) {
 }
 
 std::string equations_html(const Result& result) {
-  std::string html = "<h3>The chain</h3>\n";
-  if (result.equations.empty()) {
-    html += fmt::format(
-        "<div class=\"scrolls\" tabindex=\"0\" role=\"region\" aria-label=\"Equations of the "
-        "chain\">\n{}"
-        "</div>\n",
-        asset_chain_equations());
-  } else {
-    for (const Equation& equation : result.equations) html += equation_html(equation);
-  }
+  std::string html = fmt::format(
+      "<h3>The chain, in sums</h3>\n"
+      "<div class=\"scrolls\" tabindex=\"0\" role=\"region\" aria-label=\"Equations of the "
+      "chain\">\n{}"
+      "</div>\n",
+      asset_chain_equations());
   for (const EffectEntry& effect : result.effects) html += group_html(formulas_of(effect));
-  return html;
+  if (result.derived.empty()) return html;
+  std::string derived;
+  for (const Equation& equation : result.derived) derived += equation_html(equation);
+  return html + disclosed(fmt::format("As derived from the Lagrangian{}, with {} link{}",
+                                      result.effects.empty() ? "" : " and the effects",
+                                      result.derived_links, result.derived_links == 1 ? "" : "s"),
+                          derived, true);
 }
 
 std::string provenance_html(const Result& result) {

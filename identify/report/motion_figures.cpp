@@ -19,7 +19,7 @@ using plot::Figure;
 using plot::Mark;
 using plot::Series;
 
-constexpr int kFramesInRow = 7;
+constexpr int kMostFramesInRow = 7;
 
 void mark_held_out(const Experiment& experiment, const Row& time, Figure& figure) {
   if (!std::isnan(experiment.fit_until) && !time.empty() && experiment.fit_until < time.back()) {
@@ -157,9 +157,11 @@ void add_frames(const Experiment& experiment, std::vector<ReportFigure>& figures
   }
   const double spacing = 1.1 * std::max(right - left, 1e-3);
   const int count = static_cast<int>(std::floor(span / step + 1e-9));
-  for (int first = 0; first <= count; first += kFramesInRow) {
+  const int rows = count / kMostFramesInRow + 1;
+  const int in_row = (count + rows) / rows;
+  for (int first = 0; first <= count; first += in_row) {
     Figure figure;
-    const int last = std::min(count, first + kFramesInRow - 1);
+    const int last = std::min(count, first + in_row - 1);
     figure.title = fmt::format("Frames from {} s to {} s",
                                plot::for_people(motion.time.front() + first * step, 4),
                                plot::for_people(motion.time.front() + last * step, 4));
@@ -179,7 +181,7 @@ void add_frames(const Experiment& experiment, std::vector<ReportFigure>& figures
           shape(*measured, nearest(measured->time, at), shift, Mark::kPoints, 0));
       if (k == first) figure.series.back().name = "measured";
     }
-    for (int k = last + 1; count >= kFramesInRow && k < first + kFramesInRow; ++k) {
+    for (int k = last + 1; k < first + in_row; ++k) {
       figure.x.ticks.push_back({(k - first) * spacing, ""});  // rows to one scale
     }
     figures.push_back({std::move(figure), "motion", "frames", experiment.name, "", ""});

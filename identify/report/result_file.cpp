@@ -309,8 +309,11 @@ Result read_result(const Node& node) {
     result.description = model["description"].text();
     result.links = model["links"].count();
     result.load_mass = model["load_mass"].number();
-    for (const Node& equation : model["equations"].list()) {
-      result.equations.push_back(read_equation(equation));
+    if (model.has("derived")) {
+      result.derived_links = model["derived"]["links"].count();
+      for (const Node& equation : model["derived"]["equations"].list()) {
+        result.derived.push_back(read_equation(equation));
+      }
     }
     for (const Node& effect : model["effects"].list()) {
       result.effects.push_back({effect["id"].text(), effect["title"].text(), effect["text"].text(),
@@ -362,7 +365,7 @@ json parse(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) {
     throw InputError(fmt::format(
-        "{}: cannot be opened; give a result.json or diagnosis.json, or the folder it is in",
+        "{}: cannot be opened; give a result.json, diagnosis.json or links_study.json, or its folder",
         file.string()));
   }
   try {
@@ -486,8 +489,10 @@ void use_estimates(const std::vector<Parameter>& estimates, std::vector<Paramete
 Document read_document(const std::filesystem::path& path) {
   std::filesystem::path file = path;
   if (std::filesystem::is_directory(path)) {
-    const auto diagnosis = path / "diagnosis.json";
-    file = std::filesystem::exists(diagnosis) ? diagnosis : path / "result.json";
+    file = path / "result.json";
+    for (const char* name : {"links_study.json", "result.json", "diagnosis.json"}) {
+      if (std::filesystem::exists(path / name)) file = path / name;
+    }
   }
   const json value = parse(file);
   const Node root(value, fmt::format("{}: result", file.string()));

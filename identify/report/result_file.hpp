@@ -107,7 +107,8 @@ struct Result {
   std::string model_id, description_hash, description;
   int links = 0;
   double load_mass = kAbsent;  ///< kg
-  std::vector<Equation> equations;
+  int derived_links = 0;          ///< of the chain whose derived equations are written out
+  std::vector<Equation> derived;  ///< in LaTeX alone
   std::vector<EffectEntry> effects;
   std::vector<Experiment> experiments;
   std::string measure, measure_unit;

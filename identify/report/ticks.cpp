@@ -109,6 +109,16 @@ std::string for_people(double value, int digits) {
   return with_minus_sign(mantissa + "×" + power);
 }
 
+std::string readable_unit(std::string unit) {
+  for (const auto& [plain, raised] :
+       {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("^4", "⁴")}) {
+    for (auto at = unit.find(plain); at != std::string::npos; at = unit.find(plain)) {
+      unit.replace(at, 2, raised);
+    }
+  }
+  return unit;
+}
+
 std::string exact(double value) {
   if (std::isnan(value)) return "";
   std::array<char, 32> text{};

@@ -20,6 +20,9 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int about);
 /// decimals would be long; an en dash where it is not a number.
 std::string for_people(double value, int digits = 4);
 
+/// "kg/m²" of "kg/m^2".
+std::string readable_unit(std::string unit);
+
 /// A number to be read again: the shortest text that gives the same double; empty for NaN.
 std::string exact(double value);
 

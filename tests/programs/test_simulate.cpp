@@ -31,6 +31,7 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() == 0.6);
   const ProcessResult json = run_catena({"simulate", study, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
+  CHECK(json.output.find("The Lagrangian is") != std::string::npos);
 }
 
 TEST_CASE("a simulation that fails says which state and when, exits with 1 and writes nothing") {

@@ -90,6 +90,17 @@ json head(const std::string& command, const std::string& title, int links) {
         {"links", links},
         {"load_mass", 1.381},
         {"description_hash", "0f1e2d3c4b5a69788796a5b4c3d2e1f00f1e2d3c4b5a69788796a5b4c3d2e1f0"},
+        {"derived",
+         {{"links", 2},
+          {"equations",
+           json::array({{{"title", "The Lagrangian is"},
+                         {"latex",
+                          "\\begin{align*}\n  L ={}& \\frac{1}{2} \\left(\\frac{m_{1}}{4} + m_c\\right) "
+                          "l_{1}^{2} \\dot{\\theta}_{1}^{2} \\\\\n  & - k_{1} \\theta_{1}^{2} < 0\n"
+                          "\\end{align*}\n"}},
+                        {{"title", "The damping matrix is"},
+                         {"latex",
+                          "C = \\begin{bmatrix}\n c_{1} & 0 \\\\\n 0 & c_{2}\n\\end{bmatrix}\n"}}})}}},
         {"effects",
          json::array({{{"id", "air_drag_quadratic"}, {"title", "Quadratic air drag"}}})}}}};
 }

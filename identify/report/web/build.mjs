@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// npm run build: bundles source/ and uPlot into dist/, with uPlot's licence on top.
+// npm run build: bundles source/, uPlot and Temml into dist/, with their licences on top.
 import {build} from 'esbuild';
 import {readFileSync} from 'node:fs';
 
-const licence = readFileSync('node_modules/uplot/LICENSE', 'utf8').trim();
+const contains = (name, folder) =>
+    `Contains ${name}:\n\n${readFileSync(`node_modules/${folder}/LICENSE`, 'utf8').trim()}\n`;
 const banner = `/* SPDX-License-Identifier: BSD-3-Clause AND MIT\n\n` +
-    `Built from identify/report/web; do not edit. Contains uPlot:\n\n${licence}\n*/`;
+    `Built from identify/report/web; do not edit. ${contains('uPlot', 'uplot')}\n${contains('Temml', 'temml')}*/`;
 
 await build({
   entryPoints: {report: 'source/main.js'},
   outdir: 'dist',
   bundle: true,
   minify: true,
-  charset: 'utf8',
   format: 'iife',
   target: ['chrome100', 'firefox100', 'safari15'],
   legalComments: 'none',

@@ -104,6 +104,22 @@ TEST_CASE("an effect stands with its formula and its generalised forces") {
   CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) != std::string::npos);
 }
 
+TEST_CASE("the derived equations one by one, those of the effects last") {
+  Description description = plain_chain();
+  description.effects.push_back(built_in_effect("pivot_stiffness"));
+  const std::vector<LatexEquations> found = derived_equations(description, 2);
+  REQUIRE(found.size() == 11);
+  CHECK(found.front().words == "The Lagrangian is");
+  CHECK(found.back().words == "The generalised forces of pivot_stiffness are");
+  CHECK(plain(found.back().latex).find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) !=
+        std::string::npos);
+  const std::string document = latex_document(description, {2});
+  for (const LatexEquations& one : found) {
+    CAPTURE(one.words);
+    CHECK(document.find(one.latex) != std::string::npos);
+  }
+}
+
 TEST_CASE("sines and cosines are put together without changing the value") {
   const auto c = [](int i) { return Factor{Role::kCosine, i, 0}; };
   const auto s = [](int i) { return Factor{Role::kSine, i, 0}; };

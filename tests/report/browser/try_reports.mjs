@@ -101,6 +101,17 @@ for (const report of reports) {
       assert((await drawing.locator('path.c1').count()) > 0, 'a drawing without a line');
     }
   });
+  await attempt(`${report}: the derived equations are typeset`, async () => {
+    const derived = JSON.parse(readFileSync(join(folder, `${report}.json`), 'utf8'));
+    const [host, mathematics] = [page.locator('.latex'), page.locator('.latex > math')];
+    if (await host.count() > 0) await mathematics.first().waitFor({timeout: 5000});
+    assert.equal(await mathematics.count(), await host.count());
+    assert.equal(await host.count() > 0, JSON.stringify(derived).includes('"derived"'), 'equations left out');
+    assert.equal(await page.locator('.latex mtable mi', {hasText: 'θ'}).count() > 0, await host.count() > 0);
+    for (const box of await mathematics.evaluateAll((all) => all.map((one) => one.getBoundingClientRect().height))) {
+      assert(box > 25, `${box} px high: not in lines`);
+    }
+  });
   await attempt(`${report}: themes`, async () => {
     await page.screenshot({path: join(folder, `${report}-light.png`), fullPage: true});
     const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);

@@ -8,6 +8,8 @@ import {renderingPixelRatio} from './pixel_ratio.js';
 
 const font = '12px system-ui, "Liberation Sans", Arial, sans-serif';
 
+const kMostSideBySide = 5;  // names under an axis; more stand aslant
+
 export const isOverTime = (figure) => figure.x.label === 'time' && figure.x.unit === 's';
 
 /**
@@ -64,7 +66,8 @@ export class Chart {
     const {figure} = this;
     const rows = figure.map ? figure.map.rows : null;
     const categories = rows ?? figure.y.categories;
-    this.height = figure.map ? Math.max(160, Math.min(420, 18 * rows.length + 70)) : 280;
+    const crowded = (figure.x.categories?.length ?? 0) > kMostSideBySide;
+    this.height = figure.map ? Math.max(280, Math.min(420, 18 * rows.length + 70)) : 280;
     return {
       width: Math.max(240, this.host.clientWidth),
       height: this.height,
@@ -82,7 +85,7 @@ export class Chart {
             : {distr: figure.y.logarithmic ? 3 : 1, range: (plot, low, high) => this.yRange(low, high)},
       },
       axes: [
-        {...this.axis(figure.x, figure.x.categories, 80), size: figure.x.categories ? 42 : 28},
+        {...this.axis(figure.x, figure.x.categories, 80), size: crowded ? 84 : figure.x.categories ? 42 : 28, rotate: crowded ? -35 : 0},
         {...this.axis(rows ? {label: '', unit: ''} : figure.y, categories, 45), size: widthOfLabels},
       ],
       series: [{}, ...(figure.map ? [{show: true, paths: () => null, points: {show: false}}]
@@ -113,7 +116,8 @@ export class Chart {
         splits: () => thinned(categories, this.height).map((k) => k + 1),
         // A line for each word: names under an axis stand side by side.
         values: (plot, splits) => splits.map((at) =>
-          axis === this.figure.x ? categories[at - 1].replace(' ', '\n') : categories[at - 1]),
+          axis === this.figure.x && categories.length <= kMostSideBySide ? categories[at - 1].replace(' ', '\n')
+                                                                         : categories[at - 1]),
       } : {splits, values: labels, filter: (plot, at) => at}),
     };
   }
@@ -183,6 +187,7 @@ export class Chart {
   paintRule(plot, context, rule, ratio) {
     const {left, top, width, height} = plot.bbox;
     const at = plot.valToPos(rule.at, rule.vertical ? 'x' : 'y', true);
+    context.save();
     context.beginPath();
     if (rule.vertical) {
       context.moveTo(at, top);
@@ -195,7 +200,12 @@ export class Chart {
     context.textAlign = rule.vertical ? 'left' : 'right';
     context.textBaseline = 'alphabetic';
     const [x, y] = rule.vertical ? [at + 4 * ratio, top + 12 * ratio] : [left + width - 4 * ratio, at - 4 * ratio];
+    context.setLineDash([]);  // paper around the words, whatever they stand on
+    context.strokeStyle = cssColour('paper');
+    context.lineWidth = 4 * ratio;
+    context.strokeText(rule.label, x, y);
     context.fillText(rule.label, x, y);
+    context.restore();
   }
 
   /** A column of the picture for each column of pixels: the nearest x. */

@@ -4,6 +4,7 @@ import 'uplot/dist/uPlot.min.css';
 import './report.css';
 import {Card} from './card.js';
 import {element, select} from './element.js';
+import {typeset} from './equations.js';
 import {Player} from './player.js';
 import {State} from './state.js';
 
@@ -68,6 +69,8 @@ function start() {
 
   const host = document.getElementById('player');
   if (host && data.motions.length > 0) new Player(host, data.motions, data.columns, state);
+
+  setTimeout(typeset);  // charts and player first
 
   const resize = () => cards.forEach((card) => card.resize());
   addEventListener('resize', resize);
