@@ -85,7 +85,7 @@ export class Chart {
             : {distr: figure.y.logarithmic ? 3 : 1, range: (plot, low, high) => this.yRange(low, high)},
       },
       axes: [
-        {...this.axis(figure.x, figure.x.categories, 80), size: crowded ? 84 : figure.x.categories ? 42 : 28, rotate: crowded ? -35 : 0},
+        {...this.axis(figure.x, figure.x.categories, 80), size: crowded ? 84 : figure.x.categories ? 42 : 28, rotate: crowded ? 35 : 0},
         {...this.axis(rows ? {label: '', unit: ''} : figure.y, categories, 45), size: widthOfLabels},
       ],
       series: [{}, ...(figure.map ? [{show: true, paths: () => null, points: {show: false}}]

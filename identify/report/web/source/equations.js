@@ -4,6 +4,8 @@ import temml from 'temml';
 
 export function typeset() {
   for (const host of document.querySelectorAll('.latex')) {
-    temml.render(host.textContent, host, {displayMode: true, throwOnError: true});
+    // Functions stand off what they multiply; MathML leaves that to us.
+    const latex = host.textContent.replace(/(?<=[}\w]) (?=\\(sin|cos))/g, ' \\, ');
+    temml.render(latex, host, {displayMode: true, throwOnError: true});
   }
 }
