@@ -114,17 +114,17 @@ void add_certify_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "certify",
-      "Derive, prove and measure emitted models again and compare with their certificates");
+      "Hold emitted models against their certificates");
   add_model_options(*command, options->model);
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();
   add_format_option(*command, options->format);
   command->add_flag("--library", options->library,
-                    "compare the look-up of the models and the list for CMake too");
+                    "compare the models' look-up and CMake's list too");
   command->add_flag("--write", options->write, "write the certificates instead of comparing");
   command->footer(
-      "Exit status 1 if a byte of the emitted code differs, a proof fails or a number is out of its "
-      "tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
+      "Exit status 1 if a byte of the emitted code differs, a proof fails or a number\n"
+      "is out of its tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
   command->callback([options, &status] {
     const Description description = description_of(options->model);
     if (options->library && options->format == "c") {

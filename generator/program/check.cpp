@@ -54,13 +54,13 @@ int check(const CheckOptions& options) {
 void add_check_command(CLI::App& app, int& status) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
-      "check", "Check a hand derivation of the chain's equations, or scalar identities, exactly");
+      "check", "Check a hand derivation, or scalar identities");
   command->add_option("DERIVATION", options->file, "text file, see docs/checking.md")->required();
   command->add_option("--links", options->links, "number of links, instead of the file's");
   command->add_option("--seed", options->seed, "selects the numeric states shown")
       ->capture_default_str();
   command->footer(
-      "Exit status: 0 all proved equal, 1 something different or undecided, 2 wrong input.\n"
+      "Exit status: 0 all proved equal, 1 something different or undecided, 2 wrong\ninput.\n"
       "Example: catena check examples/derivations/chapter_3_two_links.txt");
   command->callback([options, &status] { status = check(*options); });
 }

@@ -89,26 +89,26 @@ void derive(const Options& options) {
 void add_derive_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "derive", "Derive the equations of motion of a model and write them as C++");
+      "derive", "Derive a model's equations and write them as C++");
   add_model_options(*command, options->model);
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   CLI::Option* library = command->add_flag(
-      "--library", options->library, "write the look-up of the models and the list for CMake too");
+      "--library", options->library, "write the models' look-up and CMake's list too");
   CLI::Option* format = add_format_option(*command, options->format);
   CLI::Option* layout =
       command
           ->add_option("--layout", options->layout,
-                       "straight lines or loops; without it the faster for the number of links")
+                       "straight lines or loops; default: the faster")
           ->check(CLI::IsMember({"straight", "loops"}));
   command
       ->add_flag("--latex", options->latex,
-                 "write the equations as a LaTeX document instead, for reading")
+                 "write the equations as LaTeX instead, for reading")
       ->excludes(library)
       ->excludes(format)
       ->excludes(layout);
   command
       ->add_flag("--equations", options->equations,
-                 "print the equations of at most 3 links as JSON, as reports show them")
+                 "print those of at most 3 links, as reports show them")
       ->excludes(library)
       ->excludes(format)
       ->excludes(layout);

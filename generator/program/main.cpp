@@ -12,6 +12,7 @@
 int main(int argc, char** argv) {
   CLI::App app("Derives the equations of motion of hanging chains", "catena-derive");
   app.require_subcommand(1);
+  app.get_formatter()->column_width(26);
   int status = 0;
   catena::add_derive_command(app, status);
   catena::add_certify_command(app, status);

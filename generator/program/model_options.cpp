@@ -13,10 +13,10 @@ constexpr std::size_t kLongestId = 100;  // characters; file names have 255 at m
 
 void add_model_options(CLI::App& command, ModelOptions& options) {
   command.add_option("--description", options.description,
-                     "model description (TOML); the plain chain if absent");
+                     "description (TOML); without it the plain chain");
   command.add_option("--links", options.links, "link counts, instead of the description's");
   command.add_option("--effect", options.effects,
-                     "effect to add: a built-in id or a TOML file; may be repeated");
+                     "effect to add: built-in id or TOML file; repeatable");
 }
 
 CLI::Option* add_format_option(CLI::App& command, std::string& format) {

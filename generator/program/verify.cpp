@@ -13,7 +13,7 @@ namespace catena {
 void add_verify_command(CLI::App& app, int& status) {
   auto links = std::make_shared<std::vector<int>>(std::vector<int>{2, 3, 4, 12, 60});
   CLI::App* command = app.add_subcommand(
-      "verify", "Derive the plain chain and compare with the closed forms, exactly");
+      "verify", "Derive the plain chain, compare with closed forms");
   command->add_option("--links", *links, "link counts")->capture_default_str();
   command->footer("Example: catena-derive verify --links 2 3 4 12 60");
   command->callback([links, &status] {

@@ -21,7 +21,7 @@ void on_interruption(int) { g_interrupted = true; }
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("CASE", options.case_file, "case file (TOML, kind = \"case\")")->required();
   command.add_option("-o,--output", options.output,
-                     "folder for the results; default: the case's name and _result, here");
+                     "folder for the results; default: CASE_result, here");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.add_flag("--json", options.json, "print the result as JSON instead of tables");
 }

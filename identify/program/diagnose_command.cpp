@@ -54,14 +54,12 @@ int diagnose_case(const DiagnoseOptions& options) {
 void add_diagnose_command(CLI::App& program, int& exit_status) {
   static DiagnoseOptions options;
   CLI::App* command = program.add_subcommand(
-      "diagnose", "find the effect that a model lacks, add it, show the gap shrink");
+      "diagnose", "find what a model lacks, add it, show the gap shrink");
   command->footer(
       "Example:\n  catena diagnose cable.toml --output found\n"
-      "prints the verdict first: none, named, ambiguous or unexplained (exit status 0 for all "
-      "four), and\n"
-      "writes found/diagnosis.json, diagnosed.toml (the case with the effect), model.toml and the "
-      "emitted\n"
-      "code in found/model.");
+      "prints the verdict first: none, named, ambiguous or unexplained (exit status 0\n"
+      "for all four), and writes found/diagnosis.json, diagnosed.toml (the case with\n"
+      "the effect), model.toml and the emitted code in found/model.");
   add_common_options(*command, options);
   command
       ->add_option("--effect", options.effects,

@@ -196,8 +196,9 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   CLI::App* command =
       program.add_subcommand("identify", "fit the free parameters of a case file to its data");
   command->footer("Example:\n  catena identify cable.toml --output fit\n"
-                  "writes fit/result.json, fitted.toml (the case with what was found), history.csv,\n"
-                  "residuals.csv, positions.csv, angles.csv, energy.csv and run.log. Ctrl-C ends with the best so far.");
+                  "writes fit/result.json, fitted.toml (the case with what was found),\n"
+                  "history.csv, residuals.csv, positions.csv, angles.csv, energy.csv and run.log.\n"
+                  "Ctrl-C ends with the best so far.");
   add_common_options(*command, options);
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
@@ -207,7 +208,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
   command->add_option("--error-budget", options.error_budget,
-                      "of the study: so much above the least error is near enough; 0.05")
+                      "so much above its least error will do; 0.05")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--resume", options.resume, "go on where a run that was killed stopped");
   command->add_option("--time-limit", options.time_limit, "stop after so many seconds, with the best so far")

@@ -28,13 +28,14 @@ int run(int argc, char** argv) {
   CLI::App program("Models of a hanging cable: derived, simulated, identified, diagnosed.", "catena");
   program.set_version_flag("--version", std::string(CATENA_VERSION));
   program.require_subcommand(1);
+  program.get_formatter()->column_width(26);
   add_simulate_command(program, exit_status);
   add_identify_command(program, exit_status);
   add_report_command(program, exit_status);
   add_diagnose_command(program, exit_status);
-  program.add_subcommand("derive", "derive models and emit their C++ (by catena-derive)");
-  program.add_subcommand("check", "check a derivation made by hand (by catena-derive)");
-  program.add_subcommand("certify", "check emitted models against their certificates (by catena-derive)");
+  program.add_subcommand("derive", "derive models and emit their C++");
+  program.add_subcommand("check", "check a derivation made by hand");
+  program.add_subcommand("certify", "hold emitted models against their certificates");
   add_manual_command(program);
   program.footer("catena COMMAND --help tells more. Example:\n  catena identify cable.toml");
   try {

@@ -51,18 +51,18 @@ void add_report_command(CLI::App& program, int& exit_status) {
   CLI::App* command = program.add_subcommand("report", "write an HTML report of a result");
   command
       ->add_option("RESULT", options.result,
-                   "result.json, diagnosis.json or the folder they are in")
+                   "result.json, diagnosis.json or their folder")
       ->required();
   command->add_option("-o,--output", options.files.html,
-                      "the HTML file (default: report.html beside the result)");
+                      "HTML file; default: report.html beside the result");
   command->add_option("--csv", options.files.csv,
                       "write the numbers of every figure into this folder");
   command->add_option("--svg", options.files.svg, "write every figure as SVG into this folder");
   command->add_flag("--json", options.json, "print the data of all figures as JSON");
   command->add_flag("-q,--quiet", options.quiet, "print nothing");
   command->footer(
-      "The HTML file needs nothing else: no network, no other file. With --csv, --svg or --json\n"
-      "it is written only where --output is given.\nExample:\n  catena report swing\n"
+      "The HTML file needs nothing else: no network, no other file. With --csv, --svg\n"
+      "or --json it is written only where --output is given.\nExample:\n  catena report swing\n"
       "writes swing/report.html.");
   command->callback([&exit_status] { exit_status = write(options); });
 }

@@ -101,8 +101,8 @@ void add_simulate_command(CLI::App& program, int& exit_status) {
   static CommonOptions options;
   CLI::App* command = program.add_subcommand("simulate", "simulate the cable of a case file");
   command->footer("Example:\n  catena simulate cable.toml --output swing\n"
-                  "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data in "
-                  "the case\nalso residuals.csv.");
+                  "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data\n"
+                  "in the case also residuals.csv.");
   add_common_options(*command, options);
   command->callback([&exit_status] { exit_status = simulate_case(options); });
 }
