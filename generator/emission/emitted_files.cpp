@@ -13,7 +13,7 @@ namespace catena {
 namespace {
 
 // Measured on n = 2..60 (docs/scale.md): up to here both are of one size and speed, and straight lines
-// are easier to read; beyond it loops are several times smaller for about a tenth of speed.
+// are easier to read; beyond it loops are several times smaller for about a fifth of the residual's speed.
 constexpr int kLongestStraight = 4;
 
 std::string summary_text(const Description& description, const ModelSummary& s) {
