@@ -140,12 +140,14 @@ class Physician {
     FittedModel finer = refitted_with_links(looked.model, links, looked.effects, workshop_);
     workshop_.stop_if_asked();
     if (!finer.ok) return false;
-    enter(std::move(finer), looked.effects, kTooFewLinks);
+    // The finer chain's own fit may be the worse one, where it ends in another minimum.
+    const FittedModel& base = squares(finer) < squares(looked.model) ? finer : looked.model;
     for (Explanation& each : explanations) {
-      each.comparison = compare(stage().model, each.model, result_.floors);
+      each.comparison = compare(base, each.model, result_.floors);
       each.fit = fit_gap(each.model, result_.floors);
       each.held_out = held_out_gap(each.model, result_.floors);
     }
+    enter(std::move(finer), looked.effects, kTooFewLinks);
     stage().explanations = std::move(explanations);
     const Explanation* best = choose(stage().explanations);
     if (!best) {
@@ -234,7 +236,7 @@ class Physician {
 
   /// Beside a large effect, what its law gets slightly wrong leaves a trace that others fit a
   /// little.
-  bool no_detail(const Comparison& comparison) {
+  bool more_than_a_detail(const Comparison& comparison) {
     double before = 0;
     for (const Stage& each : result_.stages)
       if (each.effects.empty()) before = each.fit.misfit;
@@ -248,7 +250,7 @@ class Physician {
     const bool generalises =
         explanation.held_out.count == 0 || explanation.held_out.rms <= 1.05 * stage().held_out.rms;
     return log10_p < kCertain && comparison.criterion < 0 &&
-           comparison.misfit_share > kWorthwhile && generalises && no_detail(comparison);
+           comparison.misfit_share > kWorthwhile && generalises && more_than_a_detail(comparison);
   }
 
   /// The explanation to add: the one that leaves least, unless the data do not decide against
@@ -366,7 +368,7 @@ class Physician {
     if (!without.fit.present) return true;
     const Comparison gain = compare(without.model, stage().model, result_.floors);
     return gain.log10_p + std::log10(std::max(1, result_.tried)) > kCertain ||
-           gain.misfit_share < kWorthwhile;
+           gain.misfit_share < kWorthwhile || !more_than_a_detail(gain);
   }
 
   /// Sorts the explanations that could stand in the place of `id` into undecided ones and

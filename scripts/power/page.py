@@ -135,7 +135,7 @@ def not_run(rows):
     counts = {}
     for r in rows:
         if r["verdict"] in ("not reached", "not filmed"):
-            what = (r["hidden"], str(r["strength"]), r["noise_m"], r["verdict"])
+            what = (r["hidden"], str(r["strength"]), str(r["noise_m"]), r["verdict"])
             counts[what] = counts.get(what, 0) + 1
     if not counts:
         return ""
