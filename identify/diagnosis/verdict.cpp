@@ -31,19 +31,12 @@ bool trace_left(const Stage& stage) {
   return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
 }
 
-namespace {
-
-/// Effects that only imitate what is missing leave a visible part of the gap that they were added
-/// for; the right ones leave a trace of it, from what their laws get slightly wrong.
-bool imitated(const Diagnosis& d) {
+bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
   double before = 0;
-  for (const Stage& stage : d.stages)
+  for (const Stage& stage : stages)
     if (stage.effects.empty()) before = stage.fit.misfit;
-  return !d.effects.empty() && d.final_fit.ratio() > kVisible &&
-         std::pow(d.final_fit.misfit, 2) > kImitated * std::pow(before, 2);
+  return last.ratio() > kVisible && std::pow(last.misfit, 2) > kImitated * std::pow(before, 2);
 }
-
-}  // namespace
 
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
   const Stage& last = d.stages.back();
@@ -53,7 +46,8 @@ void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
   d.final_held_out = held_out_gap(d.final, d.floors);
   d.parameters = final_parameters(d);
 
-  const bool closed = d.final_fit.ratio() <= kClosed && !imitated(d) &&
+  const bool closed = d.final_fit.ratio() <= kClosed &&
+                      (d.effects.empty() || !only_imitated(d.stages, d.final_fit)) &&
                       (d.final_held_out.count == 0 || d.final_held_out.ratio() <= kClosedHeldOut);
   const std::string links = last.links != d.stages.front().links
                                 ? " with " + std::to_string(last.links) + " links (" +

@@ -13,6 +13,11 @@ bool gap_left(const Stage& stage);
 /// Too little for an effect to be sought, but not there by chance.
 bool trace_left(const Stage& stage);
 
+/// Effects that only imitate what is missing leave a visible part of the gap that they were added
+/// for (7 % above the noise, 2 % of the squared misfit before the first of them); the right ones
+/// leave a trace of it, from what their laws get slightly wrong. `last`: with them, fitted again.
+bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
+
 /// Fits the final model as `asked` says and tells what the stages amount to.
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop);
 
