@@ -24,6 +24,7 @@ constexpr double kFarGap = 4;        // times the noise: the linear score may ra
 constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
+constexpr double kNotWorse = 1.05;   // held-out error of a better model, over that of the present one
 constexpr std::size_t kTriedWithMoreLinks = 3;
 constexpr int kRounds = 2, kMostSwaps = 3;
 
@@ -243,14 +244,19 @@ class Physician {
     return comparison.misfit_removed > kDetail * before * before;
   }
 
+  /// Predicts what no fit has seen at least as well as the present model does.
+  bool generalises(const Explanation& explanation) {
+    return explanation.held_out.count == 0 ||
+           explanation.held_out.rms <= kNotWorse * stage().held_out.rms;
+  }
+
   bool acceptable(const Explanation& explanation) {
     if (!explanation.refitted) return false;
     const Comparison& comparison = explanation.comparison;
     const double log10_p = comparison.log10_p + std::log10(std::max(1, result_.tried));
-    const bool generalises =
-        explanation.held_out.count == 0 || explanation.held_out.rms <= 1.05 * stage().held_out.rms;
     return log10_p < kCertain && comparison.criterion < 0 &&
-           comparison.misfit_share > kWorthwhile && generalises && more_than_a_detail(comparison);
+           comparison.misfit_share > kWorthwhile && generalises(explanation) &&
+           more_than_a_detail(comparison);
   }
 
   /// The explanation to add: the one that leaves least, unless the data do not decide against
@@ -387,7 +393,7 @@ class Physician {
       const Decision decision = decide(first, second, result_.floors);
       const Candidate* effect =
           explanation.candidate < 0 ? nullptr : workshop_.find(explanation.id);
-      if (effect && better && decision.decided &&
+      if (effect && better && decision.decided && generalises(explanation) &&
           (!successor || its_squares < sum_of_squares(successor->model, result_.floors)))
         successor = &explanation;
       // Of two that explain the same, one inside the other, the smaller has the name; of two laws
