@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python module: diagnosis of a case."""
 import json
+import os
 import pathlib
 import signal
 import subprocess
@@ -156,6 +157,25 @@ class Diagnoses(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=120)
         self.assertIn("KeyboardInterrupt", errors)
+
+
+class FindsWhatIsMissing(unittest.TestCase):
+    def test_drag_hidden_in_36_links_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(
+                [os.environ["CATENA_BINARIES"] + "/test_programs/make_recording", "--output", folder]
+                + "--links 36 --case-links 12 --duration 3 --rate 60 --length 1.2".split()
+                + "--bending-stiffness 0.1 --bending-damping 0.01 --load 0.2 --held 0.6 0.9".split()
+                + ["--effect", "air_drag_quadratic.normal=0.05"],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            found = catena.diagnose(pathlib.Path(folder, "case.toml"))
+        self.assertEqual(found.verdict, "named")
+        self.assertEqual(found.effects, ["air_drag_quadratic"])
+        self.assertLess(found.gap.held_out, 1.2 * found.gap.floor)
+        drag = next(p for p in found.parameters if p.name == "air_drag_quadratic.normal")
+        self.assertAlmostEqual(drag.value, 0.05, delta=3 * drag.standard_error)
 
 
 if __name__ == "__main__":
