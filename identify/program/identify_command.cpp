@@ -180,7 +180,7 @@ int identify_case(const IdentifyOptions& options) {
       std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
     std::cout << fmt::format("error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.2f} s of a core; {}\n",
                              kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
-                             measured_error(problem, found.fit.start_error),
+                             measured_error(problem, found.starts.front().start_error),  // the case's own
                              measured_error(problem, found.fit.error), found.fit.evaluations,
                              found.fit.failures, found.fit.seconds,
                              found.fit.cpu_seconds, name_of(found.fit.status))
