@@ -6,6 +6,10 @@ export function typeset() {
   for (const host of document.querySelectorAll('.latex')) {
     // Functions stand off what they multiply; MathML leaves that to us.
     const latex = host.textContent.replace(/(?<=[}\w]) (?=\\(sin|cos))/g, ' \\, ');
-    temml.render(latex, host, {displayMode: true, throwOnError: true});
+    try {
+      host.innerHTML = temml.renderToString(latex, {displayMode: true, throwOnError: true});
+    } catch (error) {  // it stays as LaTeX, and the others are typeset none the less
+      if (!(error instanceof temml.ParseError)) throw error;
+    }
   }
 }
