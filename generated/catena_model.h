@@ -37,6 +37,7 @@ extern "C" {
 #endif
 
 #define CATENA_MODEL_ABI 1
+#define CATENA_DIRECTIONS 4
 
 typedef struct catena_parameter {
   const char* name;        /* "length_3", "load_mass", "air_drag_quadratic.normal" */
@@ -148,6 +149,13 @@ typedef struct catena_model {
                            double* dq, double* dv, double* dz, double* dp);
   /* as newton_solve, with the transpose of N; null unless structured */
   void (*newton_solve_transposed)(const double* work, double* x);
+  /* residual_tangent, state_rate_tangent and newton_solve for CATENA_DIRECTIONS directions or
+     right-hand sides at once: every array of `along`, dr, dzdot and x hold that many numbers for each
+     entry, one a direction, and are aligned to as many doubles; along->t is that of all. To the bit what
+     one at a time gives. Null in models emitted as C. */
+  void (*residual_tangents)(const catena_point* at, const catena_point* along, double* dr);
+  void (*state_rate_tangents)(const catena_point* at, const catena_point* along, double* dzdot);
+  void (*newton_solves)(const double* work, double* x);
 } catena_model;
 
 /* What a shared library holding one model exports. */

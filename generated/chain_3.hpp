@@ -2,7 +2,8 @@
 // Written by catena-derive. Do not edit: change the model description and derive again.
 //
 // Equations of motion of a hanging chain of 3 rigid links with elastic, damped joints and a load.
-// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp.
+// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp;
+// D, of differentials, is T or one that holds several directions, see directions.hpp.
 //
 // Structure found:
 //   M: semiseparable of rank 2, symmetric (proved for every pair of links)
@@ -121,8 +122,8 @@ void residual(const Point<T>& at, T* r) {
 
 /// Derivative of r along `along`.
 /// 138 additions, 192 multiplications, 0 divisions, 0 functions
-template <class T>
-void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
+template <class T, class D>
+void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const FromOne<T> inertia(at.p + 6);
@@ -135,17 +136,17 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta_ddot(at.a);
   T sine[4], cosine[4];
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 3);
-  const FromOne<T> d_inertia(along.p + 6);
-  const FromOne<T> d_stiffness(along.p + 9);
-  const FromOne<T> d_damping(along.p + 12);
-  const FromOne<T> d_torque(along.p + 15);
-  const T d_load_mass = along.p[18];
-  const T d_gravity = along.p[19];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 3);
+  const FromOne<D> d_inertia(along.p + 6);
+  const FromOne<D> d_stiffness(along.p + 9);
+  const FromOne<D> d_damping(along.p + 12);
+  const FromOne<D> d_torque(along.p + 15);
+  const D d_load_mass = along.p[18];
+  const D d_gravity = along.p[19];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]);
   const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
@@ -198,80 +199,80 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
-  const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+  const D d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+  const D d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
       * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
       + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
       + theta_ddot[1] * sine[1]);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+  const D d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
       * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
       + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
       + theta_ddot[2] * sine[2]);
-  const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+  const D d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
+  const D d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
       * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
       + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
       + theta_ddot[3] * sine[3]);
-  const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
-  const T d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
+  const D d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
+  const D d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
       + load_mass * (d_joint_down_acceleration_3 - d_gravity);
-  const T d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
+  const D d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
       + d_joint_down_acceleration_2;
-  const T d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
+  const D d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
       + mass[3] * (d_centre_down_acceleration_3 - d_gravity);
-  const T d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
-  const T d_centre_down_acceleration_2 = d_span_down_acceleration_1
+  const D d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
+  const D d_centre_down_acceleration_2 = d_span_down_acceleration_1
       + ratio<T>(1, 2) * d_span_down_acceleration_2;
-  const T d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
+  const D d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
       + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
-  const T d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
-  const T d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
-  const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
+  const D d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
+  const D d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
+  const D d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
-  const T d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+  const D d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
+  const D d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
       - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
       + theta_dot[1] * cosine[1] * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+  const D d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
       - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
       - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
       + theta_dot[2] * cosine[2] * d_theta[2]));
-  const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+  const D d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
+  const D d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
       - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
       - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
       + theta_dot[3] * cosine[3] * d_theta[3]));
-  const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
-  const T d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
+  const D d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
+  const D d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
       + joint_side_acceleration_3 * d_load_mass;
-  const T d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
+  const D d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
       + d_joint_side_acceleration_2;
-  const T d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
+  const D d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
       + centre_side_acceleration_3 * d_mass[3];
-  const T d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
-  const T d_centre_side_acceleration_2 = d_span_side_acceleration_1
+  const D d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
+  const D d_centre_side_acceleration_2 = d_span_side_acceleration_1
       + ratio<T>(1, 2) * d_span_side_acceleration_2;
-  const T d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
+  const D d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
       + centre_side_acceleration_2 * d_mass[2];
-  const T d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
-  const T d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
-  const T d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
+  const D d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
+  const D d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
+  const D d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
       + centre_side_acceleration_1 * d_mass[1];
-  const T d_span_side_force_1 = d_cut_force_side_2 + ratio<T>(1, 2) * d_centre_side_force_1;
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
+  const D d_span_side_force_1 = d_cut_force_side_2 + ratio<T>(1, 2) * d_centre_side_force_1;
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
       + joint_angle_3 * d_stiffness[3] + joint_rate_3 * d_damping[3];
-  const T d_span_down_force_2 = d_cut_force_down_3 + ratio<T>(1, 2) * d_centre_down_force_2;
-  const T d_span_side_force_2 = d_cut_force_side_3 + ratio<T>(1, 2) * d_centre_side_force_2;
-  const T d_span_down_force_3 = d_cut_force_down_4 + ratio<T>(1, 2) * d_centre_down_force_3;
-  const T d_span_side_force_3 = d_cut_force_side_4 + ratio<T>(1, 2) * d_centre_side_force_3;
+  const D d_span_down_force_2 = d_cut_force_down_3 + ratio<T>(1, 2) * d_centre_down_force_2;
+  const D d_span_side_force_2 = d_cut_force_side_3 + ratio<T>(1, 2) * d_centre_side_force_2;
+  const D d_span_down_force_3 = d_cut_force_down_4 + ratio<T>(1, 2) * d_centre_down_force_3;
+  const D d_span_side_force_3 = d_cut_force_side_4 + ratio<T>(1, 2) * d_centre_side_force_3;
   dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
       + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine[1] * span_side_force_1
       - sine[1] * span_down_force_1) + length[1] * (cosine[1] * (d_span_side_force_1
@@ -983,8 +984,8 @@ void energy(const Point<T>& at, T* e) {
 
 /// Derivative of the energies and powers along `along`.
 /// 118 additions, 177 multiplications, 0 divisions, 0 functions
-template <class T>
-void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
+template <class T, class D>
+void energy_tangent(const Point<T>& at, const Point<D>& along, D* de) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const FromOne<T> inertia(at.p + 6);
@@ -997,16 +998,16 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const FromOne<T> theta_dot(at.v);
   T sine[4], cosine[4];
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 3);
-  const FromOne<T> d_inertia(along.p + 6);
-  const FromOne<T> d_stiffness(along.p + 9);
-  const FromOne<T> d_damping(along.p + 12);
-  const FromOne<T> d_torque(along.p + 15);
-  const T d_load_mass = along.p[18];
-  const T d_gravity = along.p[19];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 3);
+  const FromOne<D> d_inertia(along.p + 6);
+  const FromOne<D> d_stiffness(along.p + 9);
+  const FromOne<D> d_damping(along.p + 12);
+  const FromOne<D> d_torque(along.p + 15);
+  const D d_load_mass = along.p[18];
+  const D d_gravity = along.p[19];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
   const T joint_down_0 = T(0);
   const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
   const T span_down_1 = length[1] * cosine[1];
@@ -1043,103 +1044,103 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const T joint_down_velocity_3 = span_down_velocity_3 + joint_down_velocity_2;
   const T joint_angle_3 = theta[3] - theta[2];
   const T joint_rate_3 = theta_dot[3] - theta_dot[2];
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
       + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
       + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const D d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
       + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
-  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
-  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+  const D d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
       + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
       + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const D d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
       + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
-  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
-  const T d_centre_side_velocity_3 = ratio<T>(1, 2) * d_span_side_velocity_3
+  const D d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  const D d_centre_side_velocity_3 = ratio<T>(1, 2) * d_span_side_velocity_3
       + d_joint_side_velocity_2;
-  const T d_centre_down_velocity_3 = ratio<T>(1, 2) * d_span_down_velocity_3
+  const D d_centre_down_velocity_3 = ratio<T>(1, 2) * d_span_down_velocity_3
       + d_joint_down_velocity_2;
-  const T d_centre_side_velocity_2 = d_span_side_velocity_1
+  const D d_centre_side_velocity_2 = d_span_side_velocity_1
       + ratio<T>(1, 2) * d_span_side_velocity_2;
-  const T d_centre_down_velocity_2 = d_span_down_velocity_1
+  const D d_centre_down_velocity_2 = d_span_down_velocity_1
       + ratio<T>(1, 2) * d_span_down_velocity_2;
-  const T d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
-  const T d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
-  const T d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
+  const D d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
+  const D d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
+  const D d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
       * centre_side_velocity_1 + centre_down_velocity_1 * centre_down_velocity_1)
       + theta_dot[1] * (inertia[1] * d_theta_dot[1]
       + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
       + mass[1] * (centre_side_velocity_1 * d_centre_side_velocity_1
       + centre_down_velocity_1 * d_centre_down_velocity_1);
-  const T d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
+  const D d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
       + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity_2 * centre_side_velocity_2
       + centre_down_velocity_2 * centre_down_velocity_2)
       + theta_dot[2] * (inertia[2] * d_theta_dot[2]
       + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
       + mass[2] * (centre_side_velocity_2 * d_centre_side_velocity_2
       + centre_down_velocity_2 * d_centre_down_velocity_2);
-  const T d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
+  const D d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
       + ratio<T>(1, 2) * d_mass[3] * (centre_side_velocity_3 * centre_side_velocity_3
       + centre_down_velocity_3 * centre_down_velocity_3)
       + theta_dot[3] * (inertia[3] * d_theta_dot[3]
       + ratio<T>(1, 2) * theta_dot[3] * d_inertia[3])
       + mass[3] * (centre_side_velocity_3 * d_centre_side_velocity_3
       + centre_down_velocity_3 * d_centre_down_velocity_3);
-  const T d_kinetic_energy_sum_4 = d_kinetic_energy_sum_3
+  const D d_kinetic_energy_sum_4 = d_kinetic_energy_sum_3
       + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity_3 * joint_side_velocity_3
       + joint_down_velocity_3 * joint_down_velocity_3)
       + load_mass * (joint_side_velocity_3 * d_joint_side_velocity_3
       + joint_down_velocity_3 * d_joint_down_velocity_3);
-  const T d_arc_2 = d_length[1] + d_length[2];
-  const T d_arc_3 = d_length[3] + d_arc_2;
-  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
-  const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
-  const T d_centre_down_3 = ratio<T>(1, 2) * d_span_down_3 + d_joint_down_2;
-  const T d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
-  const T d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
-  const T d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
+  const D d_arc_2 = d_length[1] + d_length[2];
+  const D d_arc_3 = d_length[3] + d_arc_2;
+  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
+  const D d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
+  const D d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const D d_centre_down_3 = ratio<T>(1, 2) * d_span_down_3 + d_joint_down_2;
+  const D d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
+  const D d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
+  const D d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
       - centre_down_1) + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down_1)
       + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down_1));
-  const T d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
+  const D d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
       + ratio<T>(1, 2) * length[2] - centre_down_2) + mass[2] * (d_gravity * (length[1]
       + ratio<T>(1, 2) * length[2] - centre_down_2) + gravity * (d_length[1]
       + ratio<T>(1, 2) * d_length[2] - d_centre_down_2));
-  const T d_gravity_energy_sum_3 = d_gravity_energy_sum_2
+  const D d_gravity_energy_sum_3 = d_gravity_energy_sum_2
       + gravity * d_mass[3] * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
       + mass[3] * (d_gravity * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
       + gravity * (ratio<T>(1, 2) * d_length[3] + d_arc_2 - d_centre_down_3));
-  const T d_gravity_energy_sum_4 = d_gravity_energy_sum_3 + gravity * d_load_mass * (arc_3
+  const D d_gravity_energy_sum_4 = d_gravity_energy_sum_3 + gravity * d_load_mass * (arc_3
       - joint_down_3) + load_mass * (d_gravity * (arc_3 - joint_down_3) + gravity * (d_arc_3
       - d_joint_down_3));
-  const T d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
+  const D d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
       + ratio<T>(1, 2) * joint_angle_1 * d_stiffness[1]);
-  const T d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
+  const D d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
       + joint_angle_2 * (stiffness[2] * d_joint_angle_2
       + ratio<T>(1, 2) * joint_angle_2 * d_stiffness[2]);
-  const T d_joint_elastic_energy_sum_3 = d_joint_elastic_energy_sum_2
+  const D d_joint_elastic_energy_sum_3 = d_joint_elastic_energy_sum_2
       + joint_angle_3 * (stiffness[3] * d_joint_angle_3
       + ratio<T>(1, 2) * joint_angle_3 * d_stiffness[3]);
-  const T d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
+  const D d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
       + joint_rate_1 * d_damping[1]);
-  const T d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
+  const D d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
       + joint_rate_2 * (T(2) * damping[2] * d_joint_rate_2 + joint_rate_2 * d_damping[2]);
-  const T d_joint_damping_power_sum_3 = d_joint_damping_power_sum_2
+  const D d_joint_damping_power_sum_3 = d_joint_damping_power_sum_2
       + joint_rate_3 * (T(2) * damping[3] * d_joint_rate_3 + joint_rate_3 * d_damping[3]);
-  const T d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
-  const T d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
+  const D d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
+  const D d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
       + d_torque_power_sum_1;
-  const T d_torque_power_sum_3 = torque[3] * d_theta_dot[3] + theta_dot[3] * d_torque[3]
+  const D d_torque_power_sum_3 = torque[3] * d_theta_dot[3] + theta_dot[3] * d_torque[3]
       + d_torque_power_sum_2;
   de[0] = d_kinetic_energy_sum_4;
   de[1] = d_gravity_energy_sum_4;
@@ -1183,25 +1184,25 @@ void positions(const Point<T>& at, T* side, T* down) {
 
 /// Derivative of the positions along `along`.
 /// 10 additions, 18 multiplications, 0 divisions, 0 functions
-template <class T>
-void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
+template <class T, class D>
+void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* ddown) {
   const FromOne<T> length(at.p);
   T sine[4], cosine[4];
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
-  const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
-  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
-  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
-  const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
-  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
-  const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
-  dside[0] = T(0);
-  ddown[0] = T(0);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
+  const D d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
+  const D d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const D d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const D d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
+  const D d_joint_side_2 = d_span_side_1 + d_span_side_2;
+  const D d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
+  const D d_joint_side_3 = d_span_side_3 + d_joint_side_2;
+  dside[0] = D(T(0));
+  ddown[0] = D(T(0));
   dside[1] = d_span_side_1;
   ddown[1] = d_span_down_1;
   dside[2] = d_joint_side_2;
@@ -1246,34 +1247,34 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 
 /// Derivative of the velocities along `along`.
 /// 16 additions, 36 multiplications, 0 divisions, 0 functions
-template <class T>
-void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,
-                        T* ddown_rate) {
+template <class T, class D>
+void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,
+                        D* ddown_rate) {
   const FromOne<T> length(at.p);
   const FromOne<T> theta_dot(at.v);
   T sine[4], cosine[4];
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
       + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
       + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const D d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
       + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
-  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
-  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+  const D d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
       + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
       + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const D d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
       + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
-  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
-  dside_rate[0] = T(0);
-  ddown_rate[0] = T(0);
+  const D d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  dside_rate[0] = D(T(0));
+  ddown_rate[0] = D(T(0));
   dside_rate[1] = d_span_side_velocity_1;
   ddown_rate[1] = d_span_down_velocity_1;
   dside_rate[2] = d_joint_side_velocity_2;
@@ -1365,9 +1366,9 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
 
 /// Derivative of moments, tensions and curvatures along `along`.
 /// 121 additions, 168 multiplications, 6 divisions, 0 functions
-template <class T>
-void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
-                             T* dtension, T* dcurvature) {
+template <class T, class D>
+void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,
+                             D* dtension, D* dcurvature) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 3);
   const FromOne<T> stiffness(at.p + 9);
@@ -1379,15 +1380,15 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const FromOne<T> theta_ddot(at.a);
   T sine[4], cosine[4];
   sines_and_cosines<3>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 3);
-  const FromOne<T> d_stiffness(along.p + 9);
-  const FromOne<T> d_damping(along.p + 12);
-  const T d_load_mass = along.p[18];
-  const T d_gravity = along.p[19];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 3);
+  const FromOne<D> d_stiffness(along.p + 9);
+  const FromOne<D> d_damping(along.p + 12);
+  const D d_load_mass = along.p[18];
+  const D d_gravity = along.p[19];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]);
   const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
@@ -1438,78 +1439,78 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const T cut_force_down_1 = cut_force_down_2 + centre_down_force_1;
   const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
   const T curvature_divisor_3 = length[2] + length[3];
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
-  const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+  const D d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+  const D d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
       * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
       + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
       + theta_ddot[1] * sine[1]);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+  const D d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
       * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
       + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
       + theta_ddot[2] * sine[2]);
-  const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+  const D d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
+  const D d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
       * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
       + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
       + theta_ddot[3] * sine[3]);
-  const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
-  const T d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
+  const D d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
+  const D d_cut_force_down_4 = d_load_mass * (joint_down_acceleration_3 - gravity)
       + load_mass * (d_joint_down_acceleration_3 - d_gravity);
-  const T d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
+  const D d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
       + d_joint_down_acceleration_2;
-  const T d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
+  const D d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
       + mass[3] * (d_centre_down_acceleration_3 - d_gravity);
-  const T d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
-  const T d_centre_down_acceleration_2 = d_span_down_acceleration_1
+  const D d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
+  const D d_centre_down_acceleration_2 = d_span_down_acceleration_1
       + ratio<T>(1, 2) * d_span_down_acceleration_2;
-  const T d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
+  const D d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
       + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
-  const T d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
-  const T d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
-  const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
+  const D d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
+  const D d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
+  const D d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+  const D d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
       - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
       + theta_dot[1] * cosine[1] * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+  const D d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
       - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
       - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
       + theta_dot[2] * cosine[2] * d_theta[2]));
-  const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+  const D d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
+  const D d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
       - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
       - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
       + theta_dot[3] * cosine[3] * d_theta[3]));
-  const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
-  const T d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
+  const D d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
+  const D d_cut_force_side_4 = load_mass * d_joint_side_acceleration_3
       + joint_side_acceleration_3 * d_load_mass;
-  const T d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
+  const D d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
       + d_joint_side_acceleration_2;
-  const T d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
+  const D d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
       + centre_side_acceleration_3 * d_mass[3];
-  const T d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
-  const T d_centre_side_acceleration_2 = d_span_side_acceleration_1
+  const D d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
+  const D d_centre_side_acceleration_2 = d_span_side_acceleration_1
       + ratio<T>(1, 2) * d_span_side_acceleration_2;
-  const T d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
+  const D d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
       + centre_side_acceleration_2 * d_mass[2];
-  const T d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
-  const T d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
-  const T d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
+  const D d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
+  const D d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
+  const D d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
       + centre_side_acceleration_1 * d_mass[1];
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
       + joint_angle_3 * d_stiffness[3] + joint_rate_3 * d_damping[3];
-  const T d_arc_2 = d_length[1] + d_length[2];
-  const T d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
-  const T d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
-  const T d_curvature_divisor_3 = d_length[2] + d_length[3];
+  const D d_arc_2 = d_length[1] + d_length[2];
+  const D d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
+  const D d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
+  const D d_curvature_divisor_3 = d_length[2] + d_length[3];
   dmoment[0] = -d_joint_moment_1;
   dmoment[1] = -d_joint_moment_2;
   dmoment[2] = -d_joint_moment_3;

@@ -3,6 +3,7 @@
 #include "chain_4.hpp"
 
 #include "catena_model.h"
+#include "directions.hpp"
 
 namespace catena::chain_4 {
 
@@ -85,6 +86,10 @@ CATENA_EACH_PROCESSOR void c_residual(const catena_point* at, double* r) { resid
 CATENA_EACH_PROCESSOR void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
   residual_tangent(point(at), point(along), dr);
 }
+CATENA_EACH_PROCESSOR void c_residual_tangents(const catena_point* at,
+                                               const catena_point* along, double* dr) {
+  residual_tangent(point(at), directions(along), directions(dr));
+}
 CATENA_EACH_PROCESSOR void c_residual_term(const catena_point* at, int32_t term, double* r) {
   residual_term(point(at), term, r);
 }
@@ -103,6 +108,9 @@ CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca,
 }
 CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
   reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
+}
+CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {
+  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(directions(x));
 }
 CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {
   reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);
@@ -187,6 +195,9 @@ const ::catena_model& table() {
       c_internal_forces_tangent,
       c_residual_adjoint,
       c_newton_solve_transposed,
+      c_residual_tangents,
+      nullptr,
+      c_newton_solves,
   };
   return model;
 }

@@ -2,7 +2,8 @@
 // Written by catena-derive. Do not edit: change the model description and derive again.
 //
 // Equations of motion of a hanging chain of 4 rigid links with elastic, damped joints and a load.
-// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp.
+// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp;
+// D, of differentials, is T or one that holds several directions, see directions.hpp.
 //
 // Structure found:
 //   M: semiseparable of rank 2, symmetric (proved for every pair of links)
@@ -142,8 +143,8 @@ void residual(const Point<T>& at, T* r) {
 
 /// Derivative of r along `along`.
 /// 188 additions, 254 multiplications, 0 divisions, 0 functions
-template <class T>
-void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
+template <class T, class D>
+void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const FromOne<T> inertia(at.p + 8);
@@ -156,17 +157,17 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta_ddot(at.a);
   T sine[5], cosine[5];
   sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 4);
-  const FromOne<T> d_inertia(along.p + 8);
-  const FromOne<T> d_stiffness(along.p + 12);
-  const FromOne<T> d_damping(along.p + 16);
-  const FromOne<T> d_torque(along.p + 20);
-  const T d_load_mass = along.p[24];
-  const T d_gravity = along.p[25];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 4);
+  const FromOne<D> d_inertia(along.p + 8);
+  const FromOne<D> d_stiffness(along.p + 12);
+  const FromOne<D> d_damping(along.p + 16);
+  const FromOne<D> d_torque(along.p + 20);
+  const D d_load_mass = along.p[24];
+  const D d_gravity = along.p[25];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]);
   const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
@@ -237,106 +238,106 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
   const T span_down_force_1 = cut_force_down_2 + ratio<T>(1, 2) * centre_down_force_1;
   const T span_side_force_1 = cut_force_side_2 + ratio<T>(1, 2) * centre_side_force_1;
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
-  const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+  const D d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+  const D d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
       * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
       + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
       + theta_ddot[1] * sine[1]);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+  const D d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
       * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
       + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
       + theta_ddot[2] * sine[2]);
-  const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+  const D d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
+  const D d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
       * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
       + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
       + theta_ddot[3] * sine[3]);
-  const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
-  const T d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine[4]
+  const D d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
+  const D d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine[4]
       * d_theta[4] - T(2) * cosine[4] * d_theta_dot[4]) - (theta_ddot[4] * cosine[4] * d_theta[4]
       + sine[4] * d_theta_ddot[4])) - d_length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
       + theta_ddot[4] * sine[4]);
-  const T d_joint_down_acceleration_4 = d_span_down_acceleration_4 + d_joint_down_acceleration_3;
-  const T d_cut_force_down_5 = d_load_mass * (joint_down_acceleration_4 - gravity)
+  const D d_joint_down_acceleration_4 = d_span_down_acceleration_4 + d_joint_down_acceleration_3;
+  const D d_cut_force_down_5 = d_load_mass * (joint_down_acceleration_4 - gravity)
       + load_mass * (d_joint_down_acceleration_4 - d_gravity);
-  const T d_centre_down_acceleration_4 = ratio<T>(1, 2) * d_span_down_acceleration_4
+  const D d_centre_down_acceleration_4 = ratio<T>(1, 2) * d_span_down_acceleration_4
       + d_joint_down_acceleration_3;
-  const T d_centre_down_force_4 = d_mass[4] * (centre_down_acceleration_4 - gravity)
+  const D d_centre_down_force_4 = d_mass[4] * (centre_down_acceleration_4 - gravity)
       + mass[4] * (d_centre_down_acceleration_4 - d_gravity);
-  const T d_cut_force_down_4 = d_cut_force_down_5 + d_centre_down_force_4;
-  const T d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
+  const D d_cut_force_down_4 = d_cut_force_down_5 + d_centre_down_force_4;
+  const D d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
       + d_joint_down_acceleration_2;
-  const T d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
+  const D d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
       + mass[3] * (d_centre_down_acceleration_3 - d_gravity);
-  const T d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
-  const T d_centre_down_acceleration_2 = d_span_down_acceleration_1
+  const D d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
+  const D d_centre_down_acceleration_2 = d_span_down_acceleration_1
       + ratio<T>(1, 2) * d_span_down_acceleration_2;
-  const T d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
+  const D d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
       + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
-  const T d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
-  const T d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
-  const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
+  const D d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
+  const D d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
+  const D d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
-  const T d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+  const D d_span_down_force_1 = d_cut_force_down_2 + ratio<T>(1, 2) * d_centre_down_force_1;
+  const D d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
       - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
       + theta_dot[1] * cosine[1] * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+  const D d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
       - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
       - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
       + theta_dot[2] * cosine[2] * d_theta[2]));
-  const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+  const D d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
+  const D d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
       - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
       - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
       + theta_dot[3] * cosine[3] * d_theta[3]));
-  const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
-  const T d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine[4]
+  const D d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
+  const D d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine[4]
       - theta_dot[4] * theta_dot[4] * sine[4]) + length[4] * (cosine[4] * d_theta_ddot[4]
       - theta_ddot[4] * sine[4] * d_theta[4] - theta_dot[4] * (T(2) * sine[4] * d_theta_dot[4]
       + theta_dot[4] * cosine[4] * d_theta[4]));
-  const T d_joint_side_acceleration_4 = d_span_side_acceleration_4 + d_joint_side_acceleration_3;
-  const T d_cut_force_side_5 = load_mass * d_joint_side_acceleration_4
+  const D d_joint_side_acceleration_4 = d_span_side_acceleration_4 + d_joint_side_acceleration_3;
+  const D d_cut_force_side_5 = load_mass * d_joint_side_acceleration_4
       + joint_side_acceleration_4 * d_load_mass;
-  const T d_centre_side_acceleration_4 = ratio<T>(1, 2) * d_span_side_acceleration_4
+  const D d_centre_side_acceleration_4 = ratio<T>(1, 2) * d_span_side_acceleration_4
       + d_joint_side_acceleration_3;
-  const T d_centre_side_force_4 = mass[4] * d_centre_side_acceleration_4
+  const D d_centre_side_force_4 = mass[4] * d_centre_side_acceleration_4
       + centre_side_acceleration_4 * d_mass[4];
-  const T d_cut_force_side_4 = d_cut_force_side_5 + d_centre_side_force_4;
-  const T d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
+  const D d_cut_force_side_4 = d_cut_force_side_5 + d_centre_side_force_4;
+  const D d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
       + d_joint_side_acceleration_2;
-  const T d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
+  const D d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
       + centre_side_acceleration_3 * d_mass[3];
-  const T d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
-  const T d_centre_side_acceleration_2 = d_span_side_acceleration_1
+  const D d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
+  const D d_centre_side_acceleration_2 = d_span_side_acceleration_1
       + ratio<T>(1, 2) * d_span_side_acceleration_2;
-  const T d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
+  const D d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
       + centre_side_acceleration_2 * d_mass[2];
-  const T d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
-  const T d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
-  const T d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
+  const D d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
+  const D d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
+  const D d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
       + centre_side_acceleration_1 * d_mass[1];
-  const T d_span_side_force_1 = d_cut_force_side_2 + ratio<T>(1, 2) * d_centre_side_force_1;
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
+  const D d_span_side_force_1 = d_cut_force_side_2 + ratio<T>(1, 2) * d_centre_side_force_1;
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
       + joint_angle_3 * d_stiffness[3] + joint_rate_3 * d_damping[3];
-  const T d_span_down_force_2 = d_cut_force_down_3 + ratio<T>(1, 2) * d_centre_down_force_2;
-  const T d_span_side_force_2 = d_cut_force_side_3 + ratio<T>(1, 2) * d_centre_side_force_2;
-  const T d_joint_angle_4 = d_theta[4] - d_theta[3];
-  const T d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
-  const T d_joint_moment_4 = stiffness[4] * d_joint_angle_4 + damping[4] * d_joint_rate_4
+  const D d_span_down_force_2 = d_cut_force_down_3 + ratio<T>(1, 2) * d_centre_down_force_2;
+  const D d_span_side_force_2 = d_cut_force_side_3 + ratio<T>(1, 2) * d_centre_side_force_2;
+  const D d_joint_angle_4 = d_theta[4] - d_theta[3];
+  const D d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
+  const D d_joint_moment_4 = stiffness[4] * d_joint_angle_4 + damping[4] * d_joint_rate_4
       + joint_angle_4 * d_stiffness[4] + joint_rate_4 * d_damping[4];
-  const T d_span_down_force_3 = d_cut_force_down_4 + ratio<T>(1, 2) * d_centre_down_force_3;
-  const T d_span_side_force_3 = d_cut_force_side_4 + ratio<T>(1, 2) * d_centre_side_force_3;
-  const T d_span_down_force_4 = d_cut_force_down_5 + ratio<T>(1, 2) * d_centre_down_force_4;
-  const T d_span_side_force_4 = d_cut_force_side_5 + ratio<T>(1, 2) * d_centre_side_force_4;
+  const D d_span_down_force_3 = d_cut_force_down_4 + ratio<T>(1, 2) * d_centre_down_force_3;
+  const D d_span_side_force_3 = d_cut_force_side_4 + ratio<T>(1, 2) * d_centre_side_force_3;
+  const D d_span_down_force_4 = d_cut_force_down_5 + ratio<T>(1, 2) * d_centre_down_force_4;
+  const D d_span_side_force_4 = d_cut_force_side_5 + ratio<T>(1, 2) * d_centre_side_force_4;
   dr[0] = inertia[1] * d_theta_ddot[1] + theta_ddot[1] * d_inertia[1] - d_torque[1]
       + d_joint_moment_1 - d_joint_moment_2 + d_length[1] * (cosine[1] * span_side_force_1
       - sine[1] * span_down_force_1) + length[1] * (cosine[1] * (d_span_side_force_1
@@ -1241,8 +1242,8 @@ void energy(const Point<T>& at, T* e) {
 
 /// Derivative of the energies and powers along `along`.
 /// 162 additions, 232 multiplications, 0 divisions, 0 functions
-template <class T>
-void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
+template <class T, class D>
+void energy_tangent(const Point<T>& at, const Point<D>& along, D* de) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const FromOne<T> inertia(at.p + 8);
@@ -1255,16 +1256,16 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const FromOne<T> theta_dot(at.v);
   T sine[5], cosine[5];
   sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 4);
-  const FromOne<T> d_inertia(along.p + 8);
-  const FromOne<T> d_stiffness(along.p + 12);
-  const FromOne<T> d_damping(along.p + 16);
-  const FromOne<T> d_torque(along.p + 20);
-  const T d_load_mass = along.p[24];
-  const T d_gravity = along.p[25];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 4);
+  const FromOne<D> d_inertia(along.p + 8);
+  const FromOne<D> d_stiffness(along.p + 12);
+  const FromOne<D> d_damping(along.p + 16);
+  const FromOne<D> d_torque(along.p + 20);
+  const D d_load_mass = along.p[24];
+  const D d_gravity = along.p[25];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
   const T joint_down_0 = T(0);
   const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
   const T span_down_1 = length[1] * cosine[1];
@@ -1313,137 +1314,137 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const T joint_down_velocity_4 = span_down_velocity_4 + joint_down_velocity_3;
   const T joint_angle_4 = theta[4] - theta[3];
   const T joint_rate_4 = theta_dot[4] - theta_dot[3];
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_joint_angle_4 = d_theta[4] - d_theta[3];
-  const T d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
-  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_joint_angle_4 = d_theta[4] - d_theta[3];
+  const D d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
+  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
       + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
       + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const D d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
       + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
-  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
-  const T d_span_side_velocity_4 = theta_dot[4] * cosine[4] * d_length[4]
+  const D d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const D d_span_side_velocity_4 = theta_dot[4] * cosine[4] * d_length[4]
       + length[4] * (cosine[4] * d_theta_dot[4] - theta_dot[4] * sine[4] * d_theta[4]);
-  const T d_joint_side_velocity_4 = d_span_side_velocity_4 + d_joint_side_velocity_3;
-  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+  const D d_joint_side_velocity_4 = d_span_side_velocity_4 + d_joint_side_velocity_3;
+  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
       + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
       + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const D d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
       + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
-  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
-  const T d_span_down_velocity_4 = -(theta_dot[4] * sine[4] * d_length[4]
+  const D d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  const D d_span_down_velocity_4 = -(theta_dot[4] * sine[4] * d_length[4]
       + length[4] * (theta_dot[4] * cosine[4] * d_theta[4] + sine[4] * d_theta_dot[4]));
-  const T d_joint_down_velocity_4 = d_span_down_velocity_4 + d_joint_down_velocity_3;
-  const T d_centre_side_velocity_4 = ratio<T>(1, 2) * d_span_side_velocity_4
+  const D d_joint_down_velocity_4 = d_span_down_velocity_4 + d_joint_down_velocity_3;
+  const D d_centre_side_velocity_4 = ratio<T>(1, 2) * d_span_side_velocity_4
       + d_joint_side_velocity_3;
-  const T d_centre_down_velocity_4 = ratio<T>(1, 2) * d_span_down_velocity_4
+  const D d_centre_down_velocity_4 = ratio<T>(1, 2) * d_span_down_velocity_4
       + d_joint_down_velocity_3;
-  const T d_centre_side_velocity_3 = ratio<T>(1, 2) * d_span_side_velocity_3
+  const D d_centre_side_velocity_3 = ratio<T>(1, 2) * d_span_side_velocity_3
       + d_joint_side_velocity_2;
-  const T d_centre_down_velocity_3 = ratio<T>(1, 2) * d_span_down_velocity_3
+  const D d_centre_down_velocity_3 = ratio<T>(1, 2) * d_span_down_velocity_3
       + d_joint_down_velocity_2;
-  const T d_centre_side_velocity_2 = d_span_side_velocity_1
+  const D d_centre_side_velocity_2 = d_span_side_velocity_1
       + ratio<T>(1, 2) * d_span_side_velocity_2;
-  const T d_centre_down_velocity_2 = d_span_down_velocity_1
+  const D d_centre_down_velocity_2 = d_span_down_velocity_1
       + ratio<T>(1, 2) * d_span_down_velocity_2;
-  const T d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
-  const T d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
-  const T d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
+  const D d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
+  const D d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
+  const D d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
       * centre_side_velocity_1 + centre_down_velocity_1 * centre_down_velocity_1)
       + theta_dot[1] * (inertia[1] * d_theta_dot[1]
       + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
       + mass[1] * (centre_side_velocity_1 * d_centre_side_velocity_1
       + centre_down_velocity_1 * d_centre_down_velocity_1);
-  const T d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
+  const D d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
       + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity_2 * centre_side_velocity_2
       + centre_down_velocity_2 * centre_down_velocity_2)
       + theta_dot[2] * (inertia[2] * d_theta_dot[2]
       + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
       + mass[2] * (centre_side_velocity_2 * d_centre_side_velocity_2
       + centre_down_velocity_2 * d_centre_down_velocity_2);
-  const T d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
+  const D d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
       + ratio<T>(1, 2) * d_mass[3] * (centre_side_velocity_3 * centre_side_velocity_3
       + centre_down_velocity_3 * centre_down_velocity_3)
       + theta_dot[3] * (inertia[3] * d_theta_dot[3]
       + ratio<T>(1, 2) * theta_dot[3] * d_inertia[3])
       + mass[3] * (centre_side_velocity_3 * d_centre_side_velocity_3
       + centre_down_velocity_3 * d_centre_down_velocity_3);
-  const T d_kinetic_energy_sum_4 = d_kinetic_energy_sum_3
+  const D d_kinetic_energy_sum_4 = d_kinetic_energy_sum_3
       + ratio<T>(1, 2) * d_mass[4] * (centre_side_velocity_4 * centre_side_velocity_4
       + centre_down_velocity_4 * centre_down_velocity_4)
       + theta_dot[4] * (inertia[4] * d_theta_dot[4]
       + ratio<T>(1, 2) * theta_dot[4] * d_inertia[4])
       + mass[4] * (centre_side_velocity_4 * d_centre_side_velocity_4
       + centre_down_velocity_4 * d_centre_down_velocity_4);
-  const T d_kinetic_energy_sum_5 = d_kinetic_energy_sum_4
+  const D d_kinetic_energy_sum_5 = d_kinetic_energy_sum_4
       + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity_4 * joint_side_velocity_4
       + joint_down_velocity_4 * joint_down_velocity_4)
       + load_mass * (joint_side_velocity_4 * d_joint_side_velocity_4
       + joint_down_velocity_4 * d_joint_down_velocity_4);
-  const T d_arc_2 = d_length[1] + d_length[2];
-  const T d_arc_3 = d_length[3] + d_arc_2;
-  const T d_arc_4 = d_length[4] + d_arc_3;
-  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
-  const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
-  const T d_span_down_4 = cosine[4] * d_length[4] - length[4] * sine[4] * d_theta[4];
-  const T d_joint_down_4 = d_span_down_4 + d_joint_down_3;
-  const T d_centre_down_4 = ratio<T>(1, 2) * d_span_down_4 + d_joint_down_3;
-  const T d_centre_down_3 = ratio<T>(1, 2) * d_span_down_3 + d_joint_down_2;
-  const T d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
-  const T d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
-  const T d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
+  const D d_arc_2 = d_length[1] + d_length[2];
+  const D d_arc_3 = d_length[3] + d_arc_2;
+  const D d_arc_4 = d_length[4] + d_arc_3;
+  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
+  const D d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
+  const D d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const D d_span_down_4 = cosine[4] * d_length[4] - length[4] * sine[4] * d_theta[4];
+  const D d_joint_down_4 = d_span_down_4 + d_joint_down_3;
+  const D d_centre_down_4 = ratio<T>(1, 2) * d_span_down_4 + d_joint_down_3;
+  const D d_centre_down_3 = ratio<T>(1, 2) * d_span_down_3 + d_joint_down_2;
+  const D d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
+  const D d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
+  const D d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
       - centre_down_1) + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down_1)
       + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down_1));
-  const T d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
+  const D d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
       + ratio<T>(1, 2) * length[2] - centre_down_2) + mass[2] * (d_gravity * (length[1]
       + ratio<T>(1, 2) * length[2] - centre_down_2) + gravity * (d_length[1]
       + ratio<T>(1, 2) * d_length[2] - d_centre_down_2));
-  const T d_gravity_energy_sum_3 = d_gravity_energy_sum_2
+  const D d_gravity_energy_sum_3 = d_gravity_energy_sum_2
       + gravity * d_mass[3] * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
       + mass[3] * (d_gravity * (ratio<T>(1, 2) * length[3] - centre_down_3 + arc_2)
       + gravity * (ratio<T>(1, 2) * d_length[3] + d_arc_2 - d_centre_down_3));
-  const T d_gravity_energy_sum_4 = d_gravity_energy_sum_3
+  const D d_gravity_energy_sum_4 = d_gravity_energy_sum_3
       + gravity * d_mass[4] * (ratio<T>(1, 2) * length[4] - centre_down_4 + arc_3)
       + mass[4] * (d_gravity * (ratio<T>(1, 2) * length[4] - centre_down_4 + arc_3)
       + gravity * (ratio<T>(1, 2) * d_length[4] + d_arc_3 - d_centre_down_4));
-  const T d_gravity_energy_sum_5 = d_gravity_energy_sum_4 + gravity * d_load_mass * (arc_4
+  const D d_gravity_energy_sum_5 = d_gravity_energy_sum_4 + gravity * d_load_mass * (arc_4
       - joint_down_4) + load_mass * (d_gravity * (arc_4 - joint_down_4) + gravity * (d_arc_4
       - d_joint_down_4));
-  const T d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
+  const D d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
       + ratio<T>(1, 2) * joint_angle_1 * d_stiffness[1]);
-  const T d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
+  const D d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
       + joint_angle_2 * (stiffness[2] * d_joint_angle_2
       + ratio<T>(1, 2) * joint_angle_2 * d_stiffness[2]);
-  const T d_joint_elastic_energy_sum_3 = d_joint_elastic_energy_sum_2
+  const D d_joint_elastic_energy_sum_3 = d_joint_elastic_energy_sum_2
       + joint_angle_3 * (stiffness[3] * d_joint_angle_3
       + ratio<T>(1, 2) * joint_angle_3 * d_stiffness[3]);
-  const T d_joint_elastic_energy_sum_4 = d_joint_elastic_energy_sum_3
+  const D d_joint_elastic_energy_sum_4 = d_joint_elastic_energy_sum_3
       + joint_angle_4 * (stiffness[4] * d_joint_angle_4
       + ratio<T>(1, 2) * joint_angle_4 * d_stiffness[4]);
-  const T d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
+  const D d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
       + joint_rate_1 * d_damping[1]);
-  const T d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
+  const D d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
       + joint_rate_2 * (T(2) * damping[2] * d_joint_rate_2 + joint_rate_2 * d_damping[2]);
-  const T d_joint_damping_power_sum_3 = d_joint_damping_power_sum_2
+  const D d_joint_damping_power_sum_3 = d_joint_damping_power_sum_2
       + joint_rate_3 * (T(2) * damping[3] * d_joint_rate_3 + joint_rate_3 * d_damping[3]);
-  const T d_joint_damping_power_sum_4 = d_joint_damping_power_sum_3
+  const D d_joint_damping_power_sum_4 = d_joint_damping_power_sum_3
       + joint_rate_4 * (T(2) * damping[4] * d_joint_rate_4 + joint_rate_4 * d_damping[4]);
-  const T d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
-  const T d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
+  const D d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
+  const D d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
       + d_torque_power_sum_1;
-  const T d_torque_power_sum_3 = torque[3] * d_theta_dot[3] + theta_dot[3] * d_torque[3]
+  const D d_torque_power_sum_3 = torque[3] * d_theta_dot[3] + theta_dot[3] * d_torque[3]
       + d_torque_power_sum_2;
-  const T d_torque_power_sum_4 = torque[4] * d_theta_dot[4] + theta_dot[4] * d_torque[4]
+  const D d_torque_power_sum_4 = torque[4] * d_theta_dot[4] + theta_dot[4] * d_torque[4]
       + d_torque_power_sum_3;
   de[0] = d_kinetic_energy_sum_5;
   de[1] = d_gravity_energy_sum_5;
@@ -1493,29 +1494,29 @@ void positions(const Point<T>& at, T* side, T* down) {
 
 /// Derivative of the positions along `along`.
 /// 14 additions, 24 multiplications, 0 divisions, 0 functions
-template <class T>
-void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
+template <class T, class D>
+void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* ddown) {
   const FromOne<T> length(at.p);
   T sine[5], cosine[5];
   sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  const T d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const T d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const T d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const T d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
-  const T d_joint_down_3 = d_span_down_3 + d_joint_down_2;
-  const T d_span_down_4 = cosine[4] * d_length[4] - length[4] * sine[4] * d_theta[4];
-  const T d_joint_down_4 = d_span_down_4 + d_joint_down_3;
-  const T d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
-  const T d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
-  const T d_joint_side_2 = d_span_side_1 + d_span_side_2;
-  const T d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
-  const T d_joint_side_3 = d_span_side_3 + d_joint_side_2;
-  const T d_span_side_4 = length[4] * cosine[4] * d_theta[4] + sine[4] * d_length[4];
-  const T d_joint_side_4 = d_span_side_4 + d_joint_side_3;
-  dside[0] = T(0);
-  ddown[0] = T(0);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
+  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
+  const D d_span_down_3 = cosine[3] * d_length[3] - length[3] * sine[3] * d_theta[3];
+  const D d_joint_down_3 = d_span_down_3 + d_joint_down_2;
+  const D d_span_down_4 = cosine[4] * d_length[4] - length[4] * sine[4] * d_theta[4];
+  const D d_joint_down_4 = d_span_down_4 + d_joint_down_3;
+  const D d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const D d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
+  const D d_joint_side_2 = d_span_side_1 + d_span_side_2;
+  const D d_span_side_3 = length[3] * cosine[3] * d_theta[3] + sine[3] * d_length[3];
+  const D d_joint_side_3 = d_span_side_3 + d_joint_side_2;
+  const D d_span_side_4 = length[4] * cosine[4] * d_theta[4] + sine[4] * d_length[4];
+  const D d_joint_side_4 = d_span_side_4 + d_joint_side_3;
+  dside[0] = D(T(0));
+  ddown[0] = D(T(0));
   dside[1] = d_span_side_1;
   ddown[1] = d_span_down_1;
   dside[2] = d_joint_side_2;
@@ -1568,40 +1569,40 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 
 /// Derivative of the velocities along `along`.
 /// 22 additions, 48 multiplications, 0 divisions, 0 functions
-template <class T>
-void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,
-                        T* ddown_rate) {
+template <class T, class D>
+void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,
+                        D* ddown_rate) {
   const FromOne<T> length(at.p);
   const FromOne<T> theta_dot(at.v);
   T sine[5], cosine[5];
   sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const T d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
       + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const T d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
+  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
       + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const T d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const T d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
+  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
+  const D d_span_side_velocity_3 = theta_dot[3] * cosine[3] * d_length[3]
       + length[3] * (cosine[3] * d_theta_dot[3] - theta_dot[3] * sine[3] * d_theta[3]);
-  const T d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
-  const T d_span_side_velocity_4 = theta_dot[4] * cosine[4] * d_length[4]
+  const D d_joint_side_velocity_3 = d_span_side_velocity_3 + d_joint_side_velocity_2;
+  const D d_span_side_velocity_4 = theta_dot[4] * cosine[4] * d_length[4]
       + length[4] * (cosine[4] * d_theta_dot[4] - theta_dot[4] * sine[4] * d_theta[4]);
-  const T d_joint_side_velocity_4 = d_span_side_velocity_4 + d_joint_side_velocity_3;
-  const T d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
+  const D d_joint_side_velocity_4 = d_span_side_velocity_4 + d_joint_side_velocity_3;
+  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
       + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const T d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
+  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
       + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const T d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  const T d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
+  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
+  const D d_span_down_velocity_3 = -(theta_dot[3] * sine[3] * d_length[3]
       + length[3] * (theta_dot[3] * cosine[3] * d_theta[3] + sine[3] * d_theta_dot[3]));
-  const T d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
-  const T d_span_down_velocity_4 = -(theta_dot[4] * sine[4] * d_length[4]
+  const D d_joint_down_velocity_3 = d_span_down_velocity_3 + d_joint_down_velocity_2;
+  const D d_span_down_velocity_4 = -(theta_dot[4] * sine[4] * d_length[4]
       + length[4] * (theta_dot[4] * cosine[4] * d_theta[4] + sine[4] * d_theta_dot[4]));
-  const T d_joint_down_velocity_4 = d_span_down_velocity_4 + d_joint_down_velocity_3;
-  dside_rate[0] = T(0);
-  ddown_rate[0] = T(0);
+  const D d_joint_down_velocity_4 = d_span_down_velocity_4 + d_joint_down_velocity_3;
+  dside_rate[0] = D(T(0));
+  ddown_rate[0] = D(T(0));
   dside_rate[1] = d_span_side_velocity_1;
   ddown_rate[1] = d_span_down_velocity_1;
   dside_rate[2] = d_joint_side_velocity_2;
@@ -1716,9 +1717,9 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
 
 /// Derivative of moments, tensions and curvatures along `along`.
 /// 165 additions, 222 multiplications, 8 divisions, 0 functions
-template <class T>
-void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
-                             T* dtension, T* dcurvature) {
+template <class T, class D>
+void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,
+                             D* dtension, D* dcurvature) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 4);
   const FromOne<T> stiffness(at.p + 12);
@@ -1730,15 +1731,15 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const FromOne<T> theta_ddot(at.a);
   T sine[5], cosine[5];
   sines_and_cosines<4>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 4);
-  const FromOne<T> d_stiffness(along.p + 12);
-  const FromOne<T> d_damping(along.p + 16);
-  const T d_load_mass = along.p[24];
-  const T d_gravity = along.p[25];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 4);
+  const FromOne<D> d_stiffness(along.p + 12);
+  const FromOne<D> d_damping(along.p + 16);
+  const D d_load_mass = along.p[24];
+  const D d_gravity = along.p[25];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]);
   const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
@@ -1806,103 +1807,103 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
   const T curvature_divisor_3 = length[2] + length[3];
   const T curvature_divisor_4 = length[3] + length[4];
-  const T d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const T d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const T d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
+  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
+  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
+  const D d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
       + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
-  const T d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+  const D d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
       + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const T d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
+  const D d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
       * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
       + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
       + theta_ddot[1] * sine[1]);
-  const T d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
+  const D d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
       * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
       + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
       + theta_ddot[2] * sine[2]);
-  const T d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const T d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
+  const D d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
+  const D d_span_down_acceleration_3 = length[3] * (theta_dot[3] * (theta_dot[3] * sine[3]
       * d_theta[3] - T(2) * cosine[3] * d_theta_dot[3]) - (theta_ddot[3] * cosine[3] * d_theta[3]
       + sine[3] * d_theta_ddot[3])) - d_length[3] * (theta_dot[3] * theta_dot[3] * cosine[3]
       + theta_ddot[3] * sine[3]);
-  const T d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
-  const T d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine[4]
+  const D d_joint_down_acceleration_3 = d_span_down_acceleration_3 + d_joint_down_acceleration_2;
+  const D d_span_down_acceleration_4 = length[4] * (theta_dot[4] * (theta_dot[4] * sine[4]
       * d_theta[4] - T(2) * cosine[4] * d_theta_dot[4]) - (theta_ddot[4] * cosine[4] * d_theta[4]
       + sine[4] * d_theta_ddot[4])) - d_length[4] * (theta_dot[4] * theta_dot[4] * cosine[4]
       + theta_ddot[4] * sine[4]);
-  const T d_joint_down_acceleration_4 = d_span_down_acceleration_4 + d_joint_down_acceleration_3;
-  const T d_cut_force_down_5 = d_load_mass * (joint_down_acceleration_4 - gravity)
+  const D d_joint_down_acceleration_4 = d_span_down_acceleration_4 + d_joint_down_acceleration_3;
+  const D d_cut_force_down_5 = d_load_mass * (joint_down_acceleration_4 - gravity)
       + load_mass * (d_joint_down_acceleration_4 - d_gravity);
-  const T d_centre_down_acceleration_4 = ratio<T>(1, 2) * d_span_down_acceleration_4
+  const D d_centre_down_acceleration_4 = ratio<T>(1, 2) * d_span_down_acceleration_4
       + d_joint_down_acceleration_3;
-  const T d_centre_down_force_4 = d_mass[4] * (centre_down_acceleration_4 - gravity)
+  const D d_centre_down_force_4 = d_mass[4] * (centre_down_acceleration_4 - gravity)
       + mass[4] * (d_centre_down_acceleration_4 - d_gravity);
-  const T d_cut_force_down_4 = d_cut_force_down_5 + d_centre_down_force_4;
-  const T d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
+  const D d_cut_force_down_4 = d_cut_force_down_5 + d_centre_down_force_4;
+  const D d_centre_down_acceleration_3 = ratio<T>(1, 2) * d_span_down_acceleration_3
       + d_joint_down_acceleration_2;
-  const T d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
+  const D d_centre_down_force_3 = d_mass[3] * (centre_down_acceleration_3 - gravity)
       + mass[3] * (d_centre_down_acceleration_3 - d_gravity);
-  const T d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
-  const T d_centre_down_acceleration_2 = d_span_down_acceleration_1
+  const D d_cut_force_down_3 = d_cut_force_down_4 + d_centre_down_force_3;
+  const D d_centre_down_acceleration_2 = d_span_down_acceleration_1
       + ratio<T>(1, 2) * d_span_down_acceleration_2;
-  const T d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
+  const D d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
       + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
-  const T d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
-  const T d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
-  const T d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
+  const D d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
+  const D d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
+  const D d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
       + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
-  const T d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
+  const D d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
       - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
       - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
       + theta_dot[1] * cosine[1] * d_theta[1]));
-  const T d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
+  const D d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
       - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
       - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
       + theta_dot[2] * cosine[2] * d_theta[2]));
-  const T d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const T d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
+  const D d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
+  const D d_span_side_acceleration_3 = d_length[3] * (theta_ddot[3] * cosine[3]
       - theta_dot[3] * theta_dot[3] * sine[3]) + length[3] * (cosine[3] * d_theta_ddot[3]
       - theta_ddot[3] * sine[3] * d_theta[3] - theta_dot[3] * (T(2) * sine[3] * d_theta_dot[3]
       + theta_dot[3] * cosine[3] * d_theta[3]));
-  const T d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
-  const T d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine[4]
+  const D d_joint_side_acceleration_3 = d_span_side_acceleration_3 + d_joint_side_acceleration_2;
+  const D d_span_side_acceleration_4 = d_length[4] * (theta_ddot[4] * cosine[4]
       - theta_dot[4] * theta_dot[4] * sine[4]) + length[4] * (cosine[4] * d_theta_ddot[4]
       - theta_ddot[4] * sine[4] * d_theta[4] - theta_dot[4] * (T(2) * sine[4] * d_theta_dot[4]
       + theta_dot[4] * cosine[4] * d_theta[4]));
-  const T d_joint_side_acceleration_4 = d_span_side_acceleration_4 + d_joint_side_acceleration_3;
-  const T d_cut_force_side_5 = load_mass * d_joint_side_acceleration_4
+  const D d_joint_side_acceleration_4 = d_span_side_acceleration_4 + d_joint_side_acceleration_3;
+  const D d_cut_force_side_5 = load_mass * d_joint_side_acceleration_4
       + joint_side_acceleration_4 * d_load_mass;
-  const T d_centre_side_acceleration_4 = ratio<T>(1, 2) * d_span_side_acceleration_4
+  const D d_centre_side_acceleration_4 = ratio<T>(1, 2) * d_span_side_acceleration_4
       + d_joint_side_acceleration_3;
-  const T d_centre_side_force_4 = mass[4] * d_centre_side_acceleration_4
+  const D d_centre_side_force_4 = mass[4] * d_centre_side_acceleration_4
       + centre_side_acceleration_4 * d_mass[4];
-  const T d_cut_force_side_4 = d_cut_force_side_5 + d_centre_side_force_4;
-  const T d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
+  const D d_cut_force_side_4 = d_cut_force_side_5 + d_centre_side_force_4;
+  const D d_centre_side_acceleration_3 = ratio<T>(1, 2) * d_span_side_acceleration_3
       + d_joint_side_acceleration_2;
-  const T d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
+  const D d_centre_side_force_3 = mass[3] * d_centre_side_acceleration_3
       + centre_side_acceleration_3 * d_mass[3];
-  const T d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
-  const T d_centre_side_acceleration_2 = d_span_side_acceleration_1
+  const D d_cut_force_side_3 = d_cut_force_side_4 + d_centre_side_force_3;
+  const D d_centre_side_acceleration_2 = d_span_side_acceleration_1
       + ratio<T>(1, 2) * d_span_side_acceleration_2;
-  const T d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
+  const D d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
       + centre_side_acceleration_2 * d_mass[2];
-  const T d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
-  const T d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
-  const T d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
+  const D d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
+  const D d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
+  const D d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
       + centre_side_acceleration_1 * d_mass[1];
-  const T d_joint_angle_3 = d_theta[3] - d_theta[2];
-  const T d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
-  const T d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
+  const D d_joint_angle_3 = d_theta[3] - d_theta[2];
+  const D d_joint_rate_3 = d_theta_dot[3] - d_theta_dot[2];
+  const D d_joint_moment_3 = stiffness[3] * d_joint_angle_3 + damping[3] * d_joint_rate_3
       + joint_angle_3 * d_stiffness[3] + joint_rate_3 * d_damping[3];
-  const T d_joint_angle_4 = d_theta[4] - d_theta[3];
-  const T d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
-  const T d_joint_moment_4 = stiffness[4] * d_joint_angle_4 + damping[4] * d_joint_rate_4
+  const D d_joint_angle_4 = d_theta[4] - d_theta[3];
+  const D d_joint_rate_4 = d_theta_dot[4] - d_theta_dot[3];
+  const D d_joint_moment_4 = stiffness[4] * d_joint_angle_4 + damping[4] * d_joint_rate_4
       + joint_angle_4 * d_stiffness[4] + joint_rate_4 * d_damping[4];
-  const T d_arc_2 = d_length[1] + d_length[2];
-  const T d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
-  const T d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
-  const T d_curvature_divisor_3 = d_length[2] + d_length[3];
-  const T d_curvature_divisor_4 = d_length[3] + d_length[4];
+  const D d_arc_2 = d_length[1] + d_length[2];
+  const D d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
+  const D d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
+  const D d_curvature_divisor_3 = d_length[2] + d_length[3];
+  const D d_curvature_divisor_4 = d_length[3] + d_length[4];
   dmoment[0] = -d_joint_moment_1;
   dmoment[1] = -d_joint_moment_2;
   dmoment[2] = -d_joint_moment_3;

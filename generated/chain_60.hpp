@@ -2,7 +2,8 @@
 // Written by catena-derive. Do not edit: change the model description and derive again.
 //
 // Equations of motion of a hanging chain of 60 rigid links with elastic, damped joints and a load.
-// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp.
+// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp;
+// D, of differentials, is T or one that holds several directions, see directions.hpp.
 //
 // Structure found:
 //   M: semiseparable of rank 2, symmetric (proved for every pair of links)
@@ -125,8 +126,8 @@ void residual(const Point<T>& at, T* r) {
 
 /// Derivative of r along `along`.
 /// 2988 additions, 3726 multiplications, 0 divisions, 0 functions
-template <class T>
-void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
+template <class T, class D>
+void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 60);
   const FromOne<T> inertia(at.p + 120);
@@ -139,22 +140,22 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   const FromOne<T> theta_ddot(at.a);
   T sine[61], cosine[61];
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 60);
-  const FromOne<T> d_inertia(along.p + 120);
-  const FromOne<T> d_stiffness(along.p + 180);
-  const FromOne<T> d_damping(along.p + 240);
-  const FromOne<T> d_torque(along.p + 300);
-  const T d_load_mass = along.p[360];
-  const T d_gravity = along.p[361];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 60);
+  const FromOne<D> d_inertia(along.p + 120);
+  const FromOne<D> d_stiffness(along.p + 180);
+  const FromOne<D> d_damping(along.p + 240);
+  const FromOne<D> d_torque(along.p + 300);
+  const D d_load_mass = along.p[360];
+  const D d_gravity = along.p[361];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   T span_side_acceleration[61];
   T span_down_acceleration[61];
-  T d_joint_moment[61];
-  T d_span_down_acceleration[61];
-  T d_span_side_acceleration[61];
+  D d_joint_moment[61];
+  D d_span_down_acceleration[61];
+  D d_span_side_acceleration[61];
   {
     span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
@@ -180,8 +181,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         + theta_ddot[i] * sine[i]);
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-    const T d_joint_angle = d_theta[i] - d_theta[i - 1];
-    const T d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
+    const D d_joint_angle = d_theta[i] - d_theta[i - 1];
+    const D d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
     d_joint_moment[i] = stiffness[i] * d_joint_angle + damping[i] * d_joint_rate
         + joint_angle * d_stiffness[i] + joint_rate * d_damping[i];
     d_span_down_acceleration[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
@@ -195,8 +196,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   }
   T joint_side_acceleration[61];
   T joint_down_acceleration[61];
-  T d_joint_down_acceleration[61];
-  T d_joint_side_acceleration[61];
+  D d_joint_down_acceleration[61];
+  D d_joint_side_acceleration[61];
   joint_side_acceleration[1] = span_side_acceleration[1];
   joint_down_acceleration[1] = span_down_acceleration[1];
   joint_side_acceleration[2] = span_side_acceleration[2] + joint_side_acceleration[1];
@@ -211,11 +212,11 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   }
   T centre_down_force[61];
   T centre_side_force[61];
-  T d_centre_down_force[61];
-  T d_centre_side_force[61];
+  D d_centre_down_force[61];
+  D d_centre_side_force[61];
   {
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
+    const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
+    const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
     const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
     centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
@@ -226,9 +227,9 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         + centre_side_acceleration * d_mass[1];
   }
   {
-    const T d_centre_down_acceleration = d_span_down_acceleration[1]
+    const D d_centre_down_acceleration = d_span_down_acceleration[1]
         + ratio<T>(1, 2) * d_span_down_acceleration[2];
-    const T d_centre_side_acceleration = d_span_side_acceleration[1]
+    const D d_centre_side_acceleration = d_span_side_acceleration[1]
         + ratio<T>(1, 2) * d_span_side_acceleration[2];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[2]
         + joint_side_acceleration[1];
@@ -242,9 +243,9 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
         + centre_side_acceleration * d_mass[2];
   }
   for (int i = 3; i <= 60; ++i) {
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
+    const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
         + d_joint_down_acceleration[i - 1];
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
+    const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
         + d_joint_side_acceleration[i - 1];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
@@ -259,8 +260,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   }
   T cut_force_down[62];
   T cut_force_side[62];
-  T d_cut_force_down[62];
-  T d_cut_force_side[62];
+  D d_cut_force_down[62];
+  D d_cut_force_side[62];
   cut_force_down[61] = load_mass * (joint_down_acceleration[60] - gravity);
   cut_force_side[61] = load_mass * joint_side_acceleration[60];
   d_cut_force_down[61] = d_load_mass * (joint_down_acceleration[60] - gravity)
@@ -276,8 +277,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   for (int i = 1; i <= 59; ++i) {
     const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
     const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
-    const T d_span_down_force = d_cut_force_down[i + 1] + ratio<T>(1, 2) * d_centre_down_force[i];
-    const T d_span_side_force = d_cut_force_side[i + 1] + ratio<T>(1, 2) * d_centre_side_force[i];
+    const D d_span_down_force = d_cut_force_down[i + 1] + ratio<T>(1, 2) * d_centre_down_force[i];
+    const D d_span_side_force = d_cut_force_side[i + 1] + ratio<T>(1, 2) * d_centre_side_force[i];
     dr[i - 1] = inertia[i] * d_theta_ddot[i] + theta_ddot[i] * d_inertia[i] - d_torque[i]
         + d_joint_moment[i] - d_joint_moment[i + 1] + d_length[i] * (cosine[i] * span_side_force
         - sine[i] * span_down_force) + length[i] * (cosine[i] * (d_span_side_force
@@ -287,8 +288,8 @@ void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr) {
   {
     const T span_down_force = cut_force_down[61] + ratio<T>(1, 2) * centre_down_force[60];
     const T span_side_force = cut_force_side[61] + ratio<T>(1, 2) * centre_side_force[60];
-    const T d_span_down_force = d_cut_force_down[61] + ratio<T>(1, 2) * d_centre_down_force[60];
-    const T d_span_side_force = d_cut_force_side[61] + ratio<T>(1, 2) * d_centre_side_force[60];
+    const D d_span_down_force = d_cut_force_down[61] + ratio<T>(1, 2) * d_centre_down_force[60];
+    const D d_span_side_force = d_cut_force_side[61] + ratio<T>(1, 2) * d_centre_side_force[60];
     dr[59] = inertia[60] * d_theta_ddot[60] + theta_ddot[60] * d_inertia[60] - d_torque[60]
         + d_joint_moment[60] + d_length[60] * (cosine[60] * span_side_force
         - sine[60] * span_down_force) + length[60] * (cosine[60] * (d_span_side_force
@@ -1092,8 +1093,8 @@ void energy(const Point<T>& at, T* e) {
 
 /// Derivative of the energies and powers along `along`.
 /// 2626 additions, 3312 multiplications, 0 divisions, 0 functions
-template <class T>
-void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
+template <class T, class D>
+void energy_tangent(const Point<T>& at, const Point<D>& along, D* de) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 60);
   const FromOne<T> inertia(at.p + 120);
@@ -1106,26 +1107,26 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   const FromOne<T> theta_dot(at.v);
   T sine[61], cosine[61];
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 60);
-  const FromOne<T> d_inertia(along.p + 120);
-  const FromOne<T> d_stiffness(along.p + 180);
-  const FromOne<T> d_damping(along.p + 240);
-  const FromOne<T> d_torque(along.p + 300);
-  const T d_load_mass = along.p[360];
-  const T d_gravity = along.p[361];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 60);
+  const FromOne<D> d_inertia(along.p + 120);
+  const FromOne<D> d_stiffness(along.p + 180);
+  const FromOne<D> d_damping(along.p + 240);
+  const FromOne<D> d_torque(along.p + 300);
+  const D d_load_mass = along.p[360];
+  const D d_gravity = along.p[361];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
   T span_side_velocity[61];
   T span_down[61];
   T span_down_velocity[61];
   T joint_angle[61];
   T joint_rate[61];
-  T d_joint_angle[61];
-  T d_joint_rate[61];
-  T d_span_side_velocity[61];
-  T d_span_down_velocity[61];
-  T d_span_down[61];
+  D d_joint_angle[61];
+  D d_joint_rate[61];
+  D d_span_side_velocity[61];
+  D d_span_down_velocity[61];
+  D d_span_down[61];
   span_side_velocity[1] = length[1] * theta_dot[1] * cosine[1];
   span_down[1] = length[1] * cosine[1];
   span_down_velocity[1] = -length[1] * theta_dot[1] * sine[1];
@@ -1153,25 +1154,25 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
   T joint_side_velocity[61];
   T joint_down_velocity[61];
   T arc[61];
-  T d_joint_side_velocity[61];
-  T d_joint_down_velocity[61];
-  T d_arc[61];
-  T d_joint_down[61];
-  T d_joint_elastic_energy_sum[61];
-  T d_joint_damping_power_sum[61];
-  T d_torque_power_sum[61];
+  D d_joint_side_velocity[61];
+  D d_joint_down_velocity[61];
+  D d_arc[61];
+  D d_joint_down[61];
+  D d_joint_elastic_energy_sum[61];
+  D d_joint_damping_power_sum[61];
+  D d_torque_power_sum[61];
   T joint_down[61];
-  T d_kinetic_energy_sum[62];
-  T d_gravity_energy_sum[62];
+  D d_kinetic_energy_sum[62];
+  D d_gravity_energy_sum[62];
   {
     joint_down[0] = T(0);
   }
   {
     joint_side_velocity[1] = span_side_velocity[1];
     joint_down_velocity[1] = span_down_velocity[1];
-    const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[1];
-    const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[1];
-    const T d_centre_down = ratio<T>(1, 2) * d_span_down[1];
+    const D d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[1];
+    const D d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[1];
+    const D d_centre_down = ratio<T>(1, 2) * d_span_down[1];
     d_joint_elastic_energy_sum[1] = joint_angle[1] * (stiffness[1] * d_theta[1]
         + ratio<T>(1, 2) * joint_angle[1] * d_stiffness[1]);
     d_joint_damping_power_sum[1] = joint_rate[1] * (T(2) * damping[1] * d_theta_dot[1]
@@ -1197,13 +1198,13 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
     arc[2] = length[1] + length[2];
     d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
     d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
-    const T d_centre_side_velocity = d_span_side_velocity[1]
+    const D d_centre_side_velocity = d_span_side_velocity[1]
         + ratio<T>(1, 2) * d_span_side_velocity[2];
-    const T d_centre_down_velocity = d_span_down_velocity[1]
+    const D d_centre_down_velocity = d_span_down_velocity[1]
         + ratio<T>(1, 2) * d_span_down_velocity[2];
     d_arc[2] = d_length[1] + d_length[2];
     d_joint_down[2] = d_span_down[1] + d_span_down[2];
-    const T d_centre_down = d_span_down[1] + ratio<T>(1, 2) * d_span_down[2];
+    const D d_centre_down = d_span_down[1] + ratio<T>(1, 2) * d_span_down[2];
     d_joint_elastic_energy_sum[2] = d_joint_elastic_energy_sum[1]
         + joint_angle[2] * (stiffness[2] * d_joint_angle[2]
         + ratio<T>(1, 2) * joint_angle[2] * d_stiffness[2]);
@@ -1233,13 +1234,13 @@ void energy_tangent(const Point<T>& at, const Point<T>& along, T* de) {
     arc[i] = length[i] + arc[i - 1];
     d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
     d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
-    const T d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[i]
+    const D d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[i]
         + d_joint_side_velocity[i - 1];
-    const T d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[i]
+    const D d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[i]
         + d_joint_down_velocity[i - 1];
     d_arc[i] = d_length[i] + d_arc[i - 1];
     d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
-    const T d_centre_down = ratio<T>(1, 2) * d_span_down[i] + d_joint_down[i - 1];
+    const D d_centre_down = ratio<T>(1, 2) * d_span_down[i] + d_joint_down[i - 1];
     d_joint_elastic_energy_sum[i] = d_joint_elastic_energy_sum[i - 1]
         + joint_angle[i] * (stiffness[i] * d_joint_angle[i]
         + ratio<T>(1, 2) * joint_angle[i] * d_stiffness[i]);
@@ -1313,29 +1314,29 @@ void positions(const Point<T>& at, T* side, T* down) {
 
 /// Derivative of the positions along `along`.
 /// 238 additions, 360 multiplications, 0 divisions, 0 functions
-template <class T>
-void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown) {
+template <class T, class D>
+void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* ddown) {
   const FromOne<T> length(at.p);
   T sine[61], cosine[61];
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  T d_span_down[61];
-  T d_span_side[61];
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  D d_span_down[61];
+  D d_span_side[61];
   for (int i = 1; i <= 60; ++i) {
     d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
     d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
   }
-  T d_joint_down[61];
-  T d_joint_side[61];
+  D d_joint_down[61];
+  D d_joint_side[61];
   d_joint_down[2] = d_span_down[1] + d_span_down[2];
   d_joint_side[2] = d_span_side[1] + d_span_side[2];
   for (int i = 3; i <= 60; ++i) {
     d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
     d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
   }
-  dside[0] = T(0);
-  ddown[0] = T(0);
+  dside[0] = D(T(0));
+  ddown[0] = D(T(0));
   dside[1] = d_span_side[1];
   ddown[1] = d_span_down[1];
   for (int i = 2; i <= 60; ++i) {
@@ -1380,34 +1381,34 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
 
 /// Derivative of the velocities along `along`.
 /// 358 additions, 720 multiplications, 0 divisions, 0 functions
-template <class T>
-void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,
-                        T* ddown_rate) {
+template <class T, class D>
+void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,
+                        D* ddown_rate) {
   const FromOne<T> length(at.p);
   const FromOne<T> theta_dot(at.v);
   T sine[61], cosine[61];
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  T d_span_side_velocity[61];
-  T d_span_down_velocity[61];
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  D d_span_side_velocity[61];
+  D d_span_down_velocity[61];
   for (int i = 1; i <= 60; ++i) {
     d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
         + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
     d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
         + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
   }
-  T d_joint_side_velocity[61];
-  T d_joint_down_velocity[61];
+  D d_joint_side_velocity[61];
+  D d_joint_down_velocity[61];
   d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
   d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
   for (int i = 3; i <= 60; ++i) {
     d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
     d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
   }
-  dside_rate[0] = T(0);
-  ddown_rate[0] = T(0);
+  dside_rate[0] = D(T(0));
+  ddown_rate[0] = D(T(0));
   dside_rate[1] = d_span_side_velocity[1];
   ddown_rate[1] = d_span_down_velocity[1];
   for (int i = 2; i <= 60; ++i) {
@@ -1509,9 +1510,9 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
 
 /// Derivative of moments, tensions and curvatures along `along`.
 /// 2629 additions, 3246 multiplications, 120 divisions, 0 functions
-template <class T>
-void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,
-                             T* dtension, T* dcurvature) {
+template <class T, class D>
+void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,
+                             D* dtension, D* dcurvature) {
   const FromOne<T> length(at.p);
   const FromOne<T> mass(at.p + 60);
   const FromOne<T> stiffness(at.p + 180);
@@ -1523,19 +1524,19 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   const FromOne<T> theta_ddot(at.a);
   T sine[61], cosine[61];
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
-  const FromOne<T> d_length(along.p);
-  const FromOne<T> d_mass(along.p + 60);
-  const FromOne<T> d_stiffness(along.p + 180);
-  const FromOne<T> d_damping(along.p + 240);
-  const T d_load_mass = along.p[360];
-  const T d_gravity = along.p[361];
-  const FromOne<T> d_theta(along.q);
-  const FromOne<T> d_theta_dot(along.v);
-  const FromOne<T> d_theta_ddot(along.a);
+  const FromOne<D> d_length(along.p);
+  const FromOne<D> d_mass(along.p + 60);
+  const FromOne<D> d_stiffness(along.p + 180);
+  const FromOne<D> d_damping(along.p + 240);
+  const D d_load_mass = along.p[360];
+  const D d_gravity = along.p[361];
+  const FromOne<D> d_theta(along.q);
+  const FromOne<D> d_theta_dot(along.v);
+  const FromOne<D> d_theta_ddot(along.a);
   T span_side_acceleration[61];
   T span_down_acceleration[61];
-  T d_span_down_acceleration[61];
-  T d_span_side_acceleration[61];
+  D d_span_down_acceleration[61];
+  D d_span_side_acceleration[61];
   {
     span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
         - theta_dot[1] * theta_dot[1] * sine[1]);
@@ -1543,7 +1544,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         + theta_ddot[1] * sine[1]);
     const T joint_angle = theta[1];
     const T joint_rate = theta_dot[1];
-    const T d_joint_moment = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
+    const D d_joint_moment = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
         + joint_angle * d_stiffness[1] + joint_rate * d_damping[1];
     d_span_down_acceleration[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
         * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1])
@@ -1564,9 +1565,9 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
     const T joint_angle = theta[2] - theta[1];
     const T joint_rate = theta_dot[2] - theta_dot[1];
     const T arc = length[1] + length[2];
-    const T d_joint_angle = d_theta[2] - d_theta[1];
-    const T d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
-    const T d_joint_moment = stiffness[2] * d_joint_angle + damping[2] * d_joint_rate
+    const D d_joint_angle = d_theta[2] - d_theta[1];
+    const D d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
+    const D d_joint_moment = stiffness[2] * d_joint_angle + damping[2] * d_joint_rate
         + joint_angle * d_stiffness[2] + joint_rate * d_damping[2];
     d_span_down_acceleration[2] = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
         * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2])
@@ -1576,7 +1577,7 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
         - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
         + theta_dot[2] * cosine[2] * d_theta[2]));
-    const T d_arc = d_length[1] + d_length[2];
+    const D d_arc = d_length[1] + d_length[2];
     dmoment[1] = -d_joint_moment;
     dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc * (theta[1] - theta[2]) / arc) / arc;
   }
@@ -1588,9 +1589,9 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
     const T joint_angle = theta[i] - theta[i - 1];
     const T joint_rate = theta_dot[i] - theta_dot[i - 1];
     const T curvature_divisor = length[i - 1] + length[i];
-    const T d_joint_angle = d_theta[i] - d_theta[i - 1];
-    const T d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
-    const T d_joint_moment = stiffness[i] * d_joint_angle + damping[i] * d_joint_rate
+    const D d_joint_angle = d_theta[i] - d_theta[i - 1];
+    const D d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
+    const D d_joint_moment = stiffness[i] * d_joint_angle + damping[i] * d_joint_rate
         + joint_angle * d_stiffness[i] + joint_rate * d_damping[i];
     d_span_down_acceleration[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
         * d_theta[i] - T(2) * cosine[i] * d_theta_dot[i])
@@ -1600,15 +1601,15 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         - theta_dot[i] * theta_dot[i] * sine[i]) + length[i] * (cosine[i] * d_theta_ddot[i]
         - theta_ddot[i] * sine[i] * d_theta[i] - theta_dot[i] * (T(2) * sine[i] * d_theta_dot[i]
         + theta_dot[i] * cosine[i] * d_theta[i]));
-    const T d_curvature_divisor = d_length[i - 1] + d_length[i];
+    const D d_curvature_divisor = d_length[i - 1] + d_length[i];
     dmoment[i - 1] = -d_joint_moment;
     dcurvature[i - 1] = T(2) * (d_theta[i] - d_theta[i - 1] + d_curvature_divisor * (theta[i - 1]
         - theta[i]) / curvature_divisor) / curvature_divisor;
   }
   T joint_side_acceleration[61];
   T joint_down_acceleration[61];
-  T d_joint_down_acceleration[61];
-  T d_joint_side_acceleration[61];
+  D d_joint_down_acceleration[61];
+  D d_joint_side_acceleration[61];
   joint_side_acceleration[1] = span_side_acceleration[1];
   joint_down_acceleration[1] = span_down_acceleration[1];
   joint_side_acceleration[2] = span_side_acceleration[2] + joint_side_acceleration[1];
@@ -1623,11 +1624,11 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   }
   T centre_down_force[61];
   T centre_side_force[61];
-  T d_centre_down_force[61];
-  T d_centre_side_force[61];
+  D d_centre_down_force[61];
+  D d_centre_side_force[61];
   {
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
+    const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
+    const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
     const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
     centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
@@ -1638,9 +1639,9 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         + centre_side_acceleration * d_mass[1];
   }
   {
-    const T d_centre_down_acceleration = d_span_down_acceleration[1]
+    const D d_centre_down_acceleration = d_span_down_acceleration[1]
         + ratio<T>(1, 2) * d_span_down_acceleration[2];
-    const T d_centre_side_acceleration = d_span_side_acceleration[1]
+    const D d_centre_side_acceleration = d_span_side_acceleration[1]
         + ratio<T>(1, 2) * d_span_side_acceleration[2];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[2]
         + joint_side_acceleration[1];
@@ -1654,9 +1655,9 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
         + centre_side_acceleration * d_mass[2];
   }
   for (int i = 3; i <= 60; ++i) {
-    const T d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
+    const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
         + d_joint_down_acceleration[i - 1];
-    const T d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
+    const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
         + d_joint_side_acceleration[i - 1];
     const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
         + joint_side_acceleration[i - 1];
@@ -1671,8 +1672,8 @@ void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmome
   }
   T cut_force_down[62];
   T cut_force_side[62];
-  T d_cut_force_down[62];
-  T d_cut_force_side[62];
+  D d_cut_force_down[62];
+  D d_cut_force_side[62];
   cut_force_down[61] = load_mass * (joint_down_acceleration[60] - gravity);
   cut_force_side[61] = load_mass * joint_side_acceleration[60];
   d_cut_force_down[61] = d_load_mass * (joint_down_acceleration[60] - gravity)

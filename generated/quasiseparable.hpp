@@ -96,17 +96,18 @@ struct Quasiseparable {
 
   /// Overwrites x, the right-hand side, with the solution. The neighbour's value enters by above and
   /// below; the sums `carried` hold what lies beyond it, so that a step waits for one product and one
-  /// difference.
-  void solve(T* x) const {
-    T carried[ru], sum[rl];
-    for (int r = 0; r < ru; ++r) carried[r] = T(0);
-    for (int s = 0; s < rl; ++s) sum[s] = T(0);
-    T last = T(0), last_but_one = T(0);
+  /// difference. X is T, or holds several right-hand sides (directions.hpp).
+  template <class X>
+  void solve(X* x) const {
+    X carried[ru], sum[rl];
+    for (int r = 0; r < ru; ++r) carried[r] = X(0);
+    for (int s = 0; s < rl; ++s) sum[s] = X(0);
+    X last = X(0), last_but_one = X(0);
     for (int j = n - 1; j >= 0; --j) {
       if (j + 2 < n) {
         for (int r = 0; r < upper_rank; ++r) carried[r] += upper_column[j + 2][r] * last_but_one;
       }
-      T rest = x[j] * diagonal[j];
+      X rest = x[j] * diagonal[j];
       for (int r = 0; r < upper_rank; ++r) rest -= upper_row[j][r] * carried[r];
       last_but_one = last;
       last = j + 1 < n ? rest - above[j] * last : rest;
@@ -116,7 +117,7 @@ struct Quasiseparable {
       if (j > 1) {
         for (int s = 0; s < lower_rank; ++s) sum[s] += lower_column[j - 2][s] * last_but_one;
       }
-      T rest = x[j];
+      X rest = x[j];
       for (int s = 0; s < lower_rank; ++s) rest -= lower_row[j][s] * sum[s];
       last_but_one = last;
       last = rest - below[j] * last;

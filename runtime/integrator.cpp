@@ -84,7 +84,7 @@ Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, co
   require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
           "CVodeSetNonlinearSolver");
   if (options_.energy) start_quadratures();
-  if (!seeds_.empty()) start_sensitivities(seeds_);
+  if (!seeds_.empty()) start_sensitivities();
 }
 
 void Integrator::start_quadratures() {
@@ -98,24 +98,19 @@ void Integrator::start_quadratures() {
   require(CVodeQuadInit(cvodes_.get(), &Integrator::powers, quadrature_.get()), "CVodeQuadInit");
 }
 
-void Integrator::start_sensitivities(const std::vector<Seed>& seeds) {
-  std::vector<N_Vector> initial;
-  for (const Seed& seed : seeds) {
-    sensitivities_.emplace_back(new_state_vector(dynamics_.size(), context_.get()));
-    copy_state({seed.q, seed.v, seed.z}, sensitivities_.back().get());
-    initial.push_back(sensitivities_.back().get());
-  }
-  const int count = static_cast<int>(seeds.size());
-  require(CVodeSensInit1(cvodes_.get(), count, CV_STAGGERED1, &Integrator::sensitivity_rates,
-                         initial.data()),
-          "CVodeSensInit1");
-  // CVODES wants tolerances although the sensitivities do not take part in the error test.
-  std::vector<double> absolute(seeds.size(), options_.absolute_tolerance_velocity);
-  require(CVodeSensSStolerances(cvodes_.get(), options_.relative_tolerance, absolute.data()),
-          "CVodeSensSStolerances");
-  require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");
+void Integrator::start_sensitivities() {
   sensitivity_solver_ = std::make_unique<SensitivitySolver>(dynamics_, *matrix_, *step_solver_,
                                                             seeds_, context_.get());
+  sensitivities_.reset(new_state_vector(sensitivity_solver_->size(), context_.get()));
+  sensitivities_output_.reset(new_state_vector(sensitivity_solver_->size(), context_.get()));
+  sensitivity_solver_->start(elements(sensitivities_.get()));
+  N_Vector initial[] = {sensitivities_.get()};
+  require(CVodeSensInit1(cvodes_.get(), 1, CV_STAGGERED1, &Integrator::sensitivity_rates, initial),
+          "CVodeSensInit1");
+  // CVODES wants weights although the sensitivities do not take part in the error test; its own are
+  // made in vectors of the length of y.
+  require(CVodeSensEEtolerances(cvodes_.get()), "CVodeSensEEtolerances");
+  require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");
   require(CVodeSetNonlinearSolverSensStg1(cvodes_.get(), sensitivity_solver_->handle()),
           "CVodeSetNonlinearSolverSensStg1");
 }
@@ -166,30 +161,13 @@ int Integrator::powers(double t, N_Vector y, N_Vector power, void* user) {
   return 0;
 }
 
-int Integrator::sensitivity_rates(int, double t, N_Vector y, N_Vector ydot, int which, N_Vector s,
+int Integrator::sensitivity_rates(int, double t, N_Vector y, N_Vector ydot, int, N_Vector s,
                                   N_Vector sdot, void* user, N_Vector, N_Vector) {
   auto& self = *static_cast<Integrator*>(user);
-  const int n = self.n_, states = self.dynamics_.states();
-  const catena_model& table = self.dynamics_.table();
-  const double *q = elements(y), *v = q + n, *z = v + n, *a = elements(ydot) + n;
-  const double *sq = elements(s), *sv = sq + n, *sz = sv + n;
-  double* out = elements(sdot);
-  const double* zero = self.dynamics_.zero();
-  const catena_point at = self.dynamics_.at(t, q, v, a, z);
-  const catena_point along{
-      0.0, sq, sv, zero, sz, zero, self.seeds_[static_cast<std::size_t>(which)].parameters.data()};
-  std::copy_n(sv, n, out);
-  // dr along (sq, sv, sa, sz, dp) = 0 for sa; at gamma = 0 the Newton matrix is M
-  table.residual_tangent(&at, &along, out + n);
-  for (int i = 0; i < n; ++i) out[n + i] = -out[n + i];
-  if (states > 0) table.state_rate_tangent(&at, &along, out + 2 * n);
-  self.step_solver_->forget_factors();
-  if (const int pivot = self.matrix_->factor(self.dynamics_, at, 0.0)) {
-    self.rates_failure_ = {Status::kSingular, pivot - 1, t};
-    return 1;
-  }
-  self.matrix_->solve(out + n);
-  return 0;
+  const int pivot = self.sensitivity_solver_->rates(t, elements(y), elements(ydot) + self.n_,
+                                                    elements(s), elements(sdot));
+  if (pivot != 0) self.rates_failure_ = {Status::kSingular, pivot - 1, t};
+  return pivot != 0;
 }
 
 int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
@@ -198,6 +176,10 @@ int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
   const double* value = elements(y);
   double* out = elements(weight);
   const int n = self.n_, size = self.dynamics_.size();
+  if (N_VGetLength(y) != size) {  // sensitivities
+    N_VConst(1.0, weight);
+    return 0;
+  }
   for (int i = 0; i < n; ++i)
     out[i] = 1.0 / (options.relative_tolerance * std::abs(value[i]) +
                     options.absolute_tolerance_position);
@@ -235,9 +217,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
   result.energy_imbalance = options_.energy ? 0.0 : std::nan("");
 
   copy_column(elements(y_.get()), n_, dynamics_.states(), 0, result.trajectory);
-  for (std::size_t i = 0; i < seeds_.size(); ++i)
-    copy_column(elements(sensitivities_[i].get()), n_, dynamics_.states(), 0,
-                result.sensitivity[i]);
+  if (!seeds_.empty()) record_sensitivities(0, elements(sensitivities_.get()), result);
   if (options_.energy) record_energy(times[0], 0, result);
 
   result.status = Status::kSuccess;
@@ -287,10 +267,20 @@ void Integrator::record(double t, std::size_t column, SensitiveSimulation& resul
   require(CVodeGetDky(cvodes_.get(), t, 0, output_.get()), "CVodeGetDky");
   copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.trajectory);
   if (options_.energy) record_energy(t, column, result);
-  for (std::size_t i = 0; i < seeds_.size(); ++i) {
-    require(CVodeGetSensDky1(cvodes_.get(), t, 0, static_cast<int>(i), output_.get()),
-            "CVodeGetSensDky1");
-    copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.sensitivity[i]);
+  if (seeds_.empty()) return;
+  require(CVodeGetSensDky1(cvodes_.get(), t, 0, 0, sensitivities_output_.get()), "CVodeGetSensDky1");
+  record_sensitivities(column, elements(sensitivities_output_.get()), result);
+}
+
+void Integrator::record_sensitivities(std::size_t column, const double* values,
+                                      SensitiveSimulation& result) const {
+  const auto k = static_cast<Eigen::Index>(column);
+  for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
+    int element = 0;
+    Trajectory& sensitivity = result.sensitivity[seed];
+    for (Eigen::MatrixXd* part : {&sensitivity.q, &sensitivity.v, &sensitivity.z})
+      for (double& value : part->col(k))
+        value = sensitivity_solver_->element(values, seed, element++);
   }
 }
 

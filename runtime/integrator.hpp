@@ -54,7 +54,8 @@ class Integrator {
   static int error_weights(N_Vector y, N_Vector weight, void* self);
 
   void start_quadratures();
-  void start_sensitivities(const std::vector<Seed>& seeds);
+  void start_sensitivities();
+  void record_sensitivities(std::size_t column, const double* values, SensitiveSimulation& result) const;
   int step(long number, double last, double& t);
   void record(double t, std::size_t column, SensitiveSimulation& result);
   void record_energy(double t, std::size_t column, SensitiveSimulation& result);
@@ -72,7 +73,7 @@ class Integrator {
   std::vector<Seed> seeds_;
   std::unique_ptr<SensitivitySolver> sensitivity_solver_;
   NVectorHandle y_, output_, quadrature_;
-  std::vector<NVectorHandle> sensitivities_;
+  NVectorHandle sensitivities_, sensitivities_output_;
   std::vector<int> integrated_;  // energy items that are powers
   std::vector<double> energies_;
   StepSolver::Failure rates_failure_;

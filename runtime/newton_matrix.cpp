@@ -6,9 +6,19 @@
 
 namespace catena {
 
+void NewtonMatrix::solve_several(double* x) const {
+  for (std::size_t k = 0; k < CATENA_DIRECTIONS; ++k) {
+    for (std::size_t i = 0; i < column_.size(); ++i) column_[i] = x[CATENA_DIRECTIONS * i + k];
+    solve(column_.data());
+    for (std::size_t i = 0; i < column_.size(); ++i) x[CATENA_DIRECTIONS * i + k] = column_[i];
+  }
+}
+
 StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
-    : factor_(model.table().newton_factor),
+    : NewtonMatrix(model),
+      factor_(model.table().newton_factor),
       solve_(model.table().newton_solve),
+      solve_several_(model.table().newton_solves),
       solve_transposed_(model.table().newton_solve_transposed),
       work_(static_cast<std::size_t>(model.table().newton_work)) {}
 
@@ -18,11 +28,18 @@ int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gam
 
 void StructuredNewtonMatrix::solve(double* x) const { solve_(work_.data(), x); }
 
+void StructuredNewtonMatrix::solve_several(double* x) const {
+  if (solve_several_ != nullptr)
+    solve_several_(work_.data(), x);
+  else
+    NewtonMatrix::solve_several(x);
+}
+
 void StructuredNewtonMatrix::solve_transposed(double* x) const {
   solve_transposed_(work_.data(), x);
 }
 
-DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) {
+DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) : NewtonMatrix(model) {
   const int n = model.coordinates(), size = n + model.states();
   matrix_.resize(size, size);
   factors_ = Eigen::PartialPivLU<Eigen::MatrixXd>(size);

@@ -20,13 +20,20 @@ namespace catena {
 /// Angles are eliminated exactly: the system has the size of the chain, not twice that.
 class NewtonMatrix {
  public:
+  explicit NewtonMatrix(const Model& model)
+      : column_(static_cast<std::size_t>(model.coordinates() + model.states())) {}
   virtual ~NewtonMatrix() = default;
   /// Factors the matrix at a point. Returns 0, or the 1-based index of the unknown without a pivot.
   virtual int factor(Dynamics& dynamics, const catena_point& at, double gamma) = 0;
   /// Overwrites the right-hand side (coordinates, then states) with the solution.
   virtual void solve(double* x) const = 0;
+  /// The same for CATENA_DIRECTIONS right-hand sides: that many numbers for each entry, aligned as Several.
+  virtual void solve_several(double* x) const;
   /// The same with the transpose of the matrix.
   virtual void solve_transposed(double* x) const = 0;
+
+ private:
+  mutable std::vector<double> column_;  // one of several right-hand sides
 };
 
 /// By the emitted factorisation, O(links); for models without extra states.
@@ -35,11 +42,12 @@ class StructuredNewtonMatrix : public NewtonMatrix {
   explicit StructuredNewtonMatrix(const Model& model);
   int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
   void solve(double* x) const override;
+  void solve_several(double* x) const override;
   void solve_transposed(double* x) const override;
 
  private:
   decltype(catena_model::newton_factor) factor_;
-  decltype(catena_model::newton_solve) solve_, solve_transposed_;
+  decltype(catena_model::newton_solve) solve_, solve_several_, solve_transposed_;
   std::vector<double> work_;
 };
 

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/sensitivity_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runtime/state_vector.hpp"
 
 namespace catena {
+namespace {
+
+constexpr int kWidth = CATENA_DIRECTIONS;
+
+}  // namespace
 
 SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
                                      StepSolver& step_solver, const std::vector<Seed>& seeds,
@@ -14,74 +21,118 @@ SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
       matrix_(matrix),
       step_solver_(step_solver),
       seeds_(seeds),
-      n_(dynamics.coordinates()),
-      states_(dynamics.states()) {
-  const auto n = static_cast<std::size_t>(n_), states = static_cast<std::size_t>(states_);
-  for (std::vector<double>* values : {&dq_, &dv_, &da_}) values->assign(n, 0.0);
-  dz_.assign(states, 0.0);
-  change_.assign(n + states, 0.0);
+      tangents_(dynamics),
+      blocks_((static_cast<int>(seeds.size()) + kWidth - 1) / kWidth),
+      n_(kWidth * dynamics.coordinates()),
+      states_(kWidth * dynamics.states()) {
+  const auto n = static_cast<std::size_t>(dynamics.coordinates());
+  const auto states = static_cast<std::size_t>(dynamics.states());
+  const auto parameters = static_cast<std::size_t>(dynamics.table().parameters);
+  for (std::vector<Several>* values : {&dq_, &da_}) values->resize(n);
+  zero_.resize(std::max(n, 3 * static_cast<std::size_t>(dynamics.table().signals)));
+  change_.resize(n + states);
+  parameters_.resize(static_cast<std::size_t>(blocks_) * parameters);
+  for (std::size_t k = 0; k < seeds.size(); ++k)
+    for (std::size_t i = 0; i < parameters; ++i)
+      parameters_[k / kWidth * parameters + i].of[k % kWidth] =
+          seeds[k].parameters[static_cast<Eigen::Index>(i)];
 
   handle_ = own_nonlinear_solver(context, this, &SensitivitySolver::solve);
+}
+
+const double* SensitivitySolver::parameters(int block) const {
+  return numbers(parameters_) + kWidth * dynamics_.table().parameters * block;
+}
+
+double SensitivitySolver::element(const double* s, std::size_t seed, int element) const {
+  return s[block_size() * static_cast<int>(seed / kWidth) + kWidth * element +
+           static_cast<int>(seed % kWidth)];
+}
+
+void SensitivitySolver::start(double* s) const {
+  std::fill_n(s, size(), 0.0);
+  for (std::size_t k = 0; k < seeds_.size(); ++k) {
+    double* out = s + block_size() * static_cast<int>(k / kWidth) + k % kWidth;
+    for (const Eigen::VectorXd* part : {&seeds_[k].q, &seeds_[k].v, &seeds_[k].z})
+      for (Eigen::Index i = 0; i < part->size(); ++i, out += kWidth) *out = (*part)[i];
+  }
+}
+
+int SensitivitySolver::rates(double t, const double* y, const double* a, const double* s,
+                             double* sdot) {
+  const int coordinates = dynamics_.coordinates();
+  const catena_point at = dynamics_.at(t, y, y + coordinates, a, y + 2 * coordinates);
+  const double* zero = numbers(zero_);
+  step_solver_.forget_factors();
+  // dr along (sq, sv, sa, sz, dp) = 0 for sa; at gamma = 0 the Newton matrix is M
+  if (const int pivot = matrix_.factor(dynamics_, at, 0.0)) return pivot;
+  for (int block = 0; block < blocks_; ++block, s += block_size(), sdot += block_size()) {
+    const double *sq = s, *sv = sq + n_, *sz = sv + n_;
+    const catena_point along{0.0, sq, sv, zero, sz, zero, parameters(block)};
+    std::copy_n(sv, n_, sdot);
+    double* const change = numbers(change_);
+    tangents_.residual(at, along, change);
+    for (int i = 0; i < n_; ++i) change[i] = -change[i];
+    if (states_ > 0) tangents_.state_rate(at, along, change + n_);
+    matrix_.solve_several(change);
+    std::copy_n(change, n_ + states_, sdot + n_);
+  }
+  return 0;
 }
 
 int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Vector correction,
                              N_Vector, double, booleantype, void* cvode) {
   auto& self = *static_cast<SensitivitySolver*>(solver->content);
-  const int n = self.n_, states = self.states_;
+  const int n = self.n_, states = self.states_, coordinates = self.dynamics_.coordinates();
   double t, gamma, rl1;
   N_Vector prediction, state, rate, history;
   N_Vector *predictions, *sensitivities, *histories;
   void* user;
-  int which = 0;
   CVodeGetNonlinearSystemData(cvode, &t, &prediction, &state, &rate, &gamma, &rl1, &history, &user);
   CVodeGetNonlinearSystemDataSens(cvode, &t, &predictions, &sensitivities, &gamma, &rl1, &histories,
                                   &user);
-  CVodeGetCurrentSensSolveIndex(cvode, &which);
 
-  const double *q = elements(state), *v = q + n, *z = v + n;
+  const double *q = elements(state), *v = q + coordinates, *z = v + coordinates;
   const catena_point at = self.dynamics_.at(t, q, v, self.step_solver_.acceleration(), z);
-  if (which == 0) {
-    ++self.factorisations_;
-    if (self.matrix_.factor(self.dynamics_, at, gamma) != 0) {
-      self.step_solver_.forget_factors();
-      return SUN_NLS_CONV_RECVR;
+  ++self.factorisations_;
+  if (self.matrix_.factor(self.dynamics_, at, gamma) != 0) {
+    self.step_solver_.forget_factors();
+    return SUN_NLS_CONV_RECVR;
+  }
+  self.step_solver_.factors_renewed(gamma);
+
+  const double *s = elements(predicted), *past = elements(histories[0]);
+  double* e = elements(correction);
+  double *const dq = numbers(self.dq_), *const da = numbers(self.da_);
+  double* const change = numbers(self.change_);
+  const double* zero = numbers(self.zero_);
+  for (int block = 0; block < self.blocks_; ++block) {
+    const double *sq = s, *sv = sq + n, *sz = sv + n;
+    const double *past_q = past, *past_v = past_q + n, *past_z = past_v + n;
+    for (int i = 0; i < n; ++i) {
+      dq[i] = sq[i] + (gamma * sv[i] - rl1 * past_q[i]);
+      da[i] = rl1 * past_v[i] / gamma;
     }
-    self.step_solver_.factors_renewed(gamma);
+    const catena_point along{0.0, dq, sv, da, sz, zero, self.parameters(block)};
+    self.tangents_.residual(at, along, change);
+    for (int i = 0; i < n; ++i) change[i] *= -gamma;
+    if (states > 0) {
+      self.tangents_.state_rate(at, along, change + n);
+      for (int i = 0; i < states; ++i) change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
+    }
+    self.matrix_.solve_several(change);
+    bool finite = true;
+    for (int i = 0; i < n; ++i) {
+      finite = finite && std::isfinite(change[i]);
+      e[n + i] = change[i];
+      e[i] = gamma * (sv[i] + change[i]) - rl1 * past_q[i];
+    }
+    if (!finite) return SUN_NLS_CONV_RECVR;
+    std::copy_n(change + n, states, e + 2 * n);
+    s += self.block_size();
+    past += self.block_size();
+    e += self.block_size();
   }
-
-  const double *sq = elements(predicted), *sv = sq + n, *sz = sv + n;
-  const double* past_q = elements(histories[which]);
-  const double *past_v = past_q + n, *past_z = past_v + n;
-  for (int i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    self.dq_[k] = sq[i] + (gamma * sv[i] - rl1 * past_q[i]);
-    self.dv_[k] = sv[i];
-    self.da_[k] = rl1 * past_v[i] / gamma;
-  }
-  for (int i = 0; i < states; ++i) self.dz_[static_cast<std::size_t>(i)] = sz[i];
-  const catena_point along{0.0,
-                           self.dq_.data(),
-                           self.dv_.data(),
-                           self.da_.data(),
-                           self.dz_.data(),
-                           self.dynamics_.zero(),
-                           self.seeds_[static_cast<std::size_t>(which)].parameters.data()};
-  double* const change = self.change_.data();
-  self.dynamics_.table().residual_tangent(&at, &along, change);
-  for (int i = 0; i < n; ++i) change[i] *= -gamma;
-  if (states > 0) {
-    self.dynamics_.table().state_rate_tangent(&at, &along, change + n);
-    for (int i = 0; i < states; ++i) change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
-  }
-  self.matrix_.solve(change);
-
-  double* const e = elements(correction);
-  for (int i = 0; i < n; ++i) {
-    if (!std::isfinite(change[i])) return SUN_NLS_CONV_RECVR;
-    e[n + i] = change[i];
-    e[i] = gamma * (sv[i] + change[i]) - rl1 * past_q[i];
-  }
-  for (int i = n; i < n + states; ++i) e[n + i] = change[i];
   return SUN_NLS_SUCCESS;
 }
 

@@ -112,8 +112,10 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 std::string c_signature(std::string signature) {
   for (const auto& [from, to] : {std::pair{"[[maybe_unused]] ", ""},
                                  {"const Point<T>&", "const catena_point*"},
+                                 {"const Point<D>&", "const catena_point*"},
                                  {"const T&", "double"},
                                  {"T*", "double*"},
+                                 {"D*", "double*"},
                                  {"int acceleration", "int32_t acceleration"},
                                  {"int term", "int32_t term"}}) {
     signature = replaced(signature, from, to);

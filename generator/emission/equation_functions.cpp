@@ -16,10 +16,13 @@ void FunctionBuilder::residual() {
       "void c_residual(const catena_point* at, double* r) { residual(point(at), r); }\n");
   const auto dr = each(r, [&](const ex& e) { return tangent_.of(e); });
   add("residual_tangent", "Derivative of r along `along`.",
-      "void residual_tangent(const Point<T>& at, const Point<T>& along, T* dr)",
+      "void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr)",
       body(from_one("dr", dr), at_and_along_),
       "void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {\n"
-      "  residual_tangent(point(at), point(along), dr);\n}\n");
+      "  residual_tangent(point(at), point(along), dr);\n}\n"
+      "CATENA_EACH_PROCESSOR void c_residual_tangents(const catena_point* at,\n"
+      "                                               const catena_point* along, double* dr) {\n"
+      "  residual_tangent(point(at), directions(along), directions(dr));\n}\n");
 }
 
 // Each term of r from a derivation that has this term alone.
@@ -71,11 +74,14 @@ void FunctionBuilder::state_rates() {
       "}\n");
   const auto df = each(f, [&](const ex& e) { return tangent_.of(e); });
   add("state_rate_tangent", "Derivative of zdot along `along`.",
-      "void state_rate_tangent(const Point<T>& at, const Point<T>& along, T* dzdot)",
+      "void state_rate_tangent(const Point<T>& at, const Point<D>& along, D* dzdot)",
       body(from_one("dzdot", df), at_and_along_),
       "void c_state_rate_tangent(const catena_point* at, const catena_point* along,\n"
       "                          double* dzdot) {\n"
-      "  state_rate_tangent(point(at), point(along), dzdot);\n}\n");
+      "  state_rate_tangent(point(at), point(along), dzdot);\n}\n"
+      "CATENA_EACH_PROCESSOR void c_state_rate_tangents(const catena_point* at,\n"
+      "                                                 const catena_point* along, double* dzdot) {\n"
+      "  state_rate_tangent(point(at), directions(along), directions(dzdot));\n}\n");
 }
 
 // The gradient of weight . r + rate_weight . zdot.
@@ -106,10 +112,10 @@ void FunctionBuilder::adjoint() {
     }
   }
   InputDeclarations inputs = at_;
-  inputs["weight"] =
-      in_c() ? "const double* const weight = weights;" : "const FromOne<T> weight(weights);";
-  inputs["rate_weight"] = in_c() ? "const double* const rate_weight = rate_weights;"
-                                 : "const FromOne<T> rate_weight(rate_weights);";
+  inputs["weight"] = {in_c() ? "const double* const weight = weights;"
+                             : "const FromOne<T> weight(weights);"};
+  inputs["rate_weight"] = {in_c() ? "const double* const rate_weight = rate_weights;"
+                                  : "const FromOne<T> rate_weight(rate_weights);"};
   add("residual_adjoint",
       "Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.",
       "void residual_adjoint(const Point<T>& at, const T* weights,\n"

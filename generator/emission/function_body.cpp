@@ -31,6 +31,7 @@ struct Family {
   std::map<int, Item> items;           // by index
   std::set<Dependency> dependencies;   // on other definitions; inputs are left out
   bool is_output = false;
+  bool along = false;  // depends on a differential
   int sweep = -1;
   bool local = true;  // read only at the same link in the same sweep
 };
@@ -48,8 +49,10 @@ class Body {
         outputs_(outputs),
         inputs_(inputs),
         language_(language),
-        scalar_(language == Language::kC ? "double" : "T") {
+        scalar_(language == Language::kC ? "double" : "T"),
+        differential_(language == Language::kC ? "double" : "D") {
     collect();
+    for (const auto& [family, input] : inputs) result_.along = result_.along || input.along;
   }
 
   FunctionBody straight() {
@@ -142,7 +145,25 @@ class Body {
         }
       }
     }
+    for (Family& family : families_) {
+      for (const auto& [index, item] : family.items) family.along = family.along || along(item.value);
+    }
     position_ = std::move(position);
+  }
+
+  bool along(const ex& value) {
+    const auto symbols = definitions_.symbols_of(value);
+    return std::any_of(symbols.begin(), symbols.end(), [&](int number) {
+      const auto [found, is_new] = along_.emplace(number, false);
+      if (!is_new) return found->second;
+      const Symbol& symbol = definitions_[number];
+      const bool result = given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value);
+      return along_[number] = result;
+    });
+  }
+
+  const std::string& type_of(const Family& family) const {
+    return family.along ? differential_ : scalar_;
   }
 
   // Inputs, and what a declaration brings in ready-made (sines and cosines).
@@ -297,7 +318,7 @@ class Body {
     // Sines and cosines are brought in by one and the same declaration.
     std::set<std::string> written;
     for (const auto& [rank, family] : used_inputs_) {
-      std::string statements = inputs_.at(family);
+      std::string statements = inputs_.at(family).text;
       if (statements.empty() || !written.insert(statements).second) continue;
       statements += "\n";
       indented(statements, 1);
@@ -316,7 +337,11 @@ class Body {
   std::string statement(const Item& item, const std::string& index, const SymbolText& text,
                         bool straight) {
     const auto value = [&] {
-      return expression_text(definitions_, item.value, item.index, text, language_, &result_.operations);
+      const std::string plain =
+          expression_text(definitions_, item.value, item.index, text, language_, &result_.operations);
+      // In a function of differentials what depends on none is a constant, mostly zero.
+      const bool constant = item.output != nullptr && result_.along && !along(item.value);
+      return constant && language_ == Language::kCpp ? differential_ + "(" + plain + ")" : plain;
     };
     if (item.output != nullptr) {
       std::string place = item.output->before;
@@ -342,7 +367,7 @@ class Body {
         return name + "[" + index + "] = " + value() + ";";
       }
     }
-    return "const " + scalar_ + " " + name + " = " + value() + ";";
+    return "const " + type_of(family) + " " + name + " = " + value() + ";";
   }
 
   // Statements of one link; `index` is the text of its number ("i" or digits).
@@ -393,7 +418,7 @@ class Body {
       first = std::min(first, family.items.begin()->first);
       last = std::max(last, family.items.rbegin()->first);
       if (!family.is_output && !family.local) {
-        line(scalar_ + " " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
+        line(type_of(family) + " " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
       }
     }
     bool any_local = false;
@@ -454,10 +479,11 @@ class Body {
   const std::vector<Output>& outputs_;
   const InputDeclarations& inputs_;
   Language language_;
-  std::string scalar_;
+  std::string scalar_, differential_;  // types
   std::vector<Family> families_;
   std::map<std::string, size_t> position_;
   std::set<std::pair<int, std::string>> used_inputs_;
+  std::map<int, bool> along_;  // of the symbols asked about
   std::vector<Sweep> sweeps_;
   FunctionBody result_;
   OperationCount last_count_;

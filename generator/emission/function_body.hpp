@@ -24,9 +24,13 @@ struct Output {
   GiNaC::ex value;
 };
 
-/// How inputs are reached: family -> declaration that brings its name into the function
+/// How an input is reached: a declaration that brings its name into the function
 /// ("const FromOne<T> theta(at.q);").
-using InputDeclarations = std::map<std::string, std::string>;
+struct InputDeclaration {
+  std::string text;
+  bool along = false;  ///< a differential of type D; what depends on it is of that type too
+};
+using InputDeclarations = std::map<std::string, InputDeclaration>;  ///< by family
 
 enum class Layout {
   kStraight,  ///< one statement a definition
@@ -37,6 +41,7 @@ struct FunctionBody {
   std::string text;  ///< statements, indented by two
   OperationCount operations;
   int statements = 0;
+  bool along = false;  ///< has inputs of type D beside those of type T
 };
 
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,

@@ -25,8 +25,8 @@ FunctionBuilder::FunctionBuilder(const Description& description, int links, Layo
       at_(input_declarations(description, links, in_c() ? "at->" : "at.", "", language)),
       at_and_along_(at_) {
   at_and_along_.merge(
-      input_declarations(description, links, in_c() ? "along->" : "along.", "d_", language));
-  for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = "";
+      input_declarations(description, links, in_c() ? "along->" : "along.", "d_", language, true));
+  for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = {};
 }
 
 ModelFunctions FunctionBuilder::build() {

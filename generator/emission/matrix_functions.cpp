@@ -164,6 +164,8 @@ void FunctionBuilder::newton() {
       "  return matrix.factor();\n}\n"
       "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
       "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);\n}\n"
+      "CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {\n"
+      "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(directions(x));\n}\n"
       "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
       "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);\n}\n");
 }

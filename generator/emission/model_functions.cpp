@@ -5,8 +5,8 @@
 
 namespace catena {
 
-std::vector<std::string> ModelFunctions::table_entries() const {
-  const bool states = summary.states > 0;
+std::vector<std::string> ModelFunctions::table_entries(Language language) const {
+  const bool states = summary.states > 0, in_c = language == Language::kC;
   const auto maybe = [](bool there, const char* name) {
     return std::string(there ? name : "nullptr");
   };
@@ -33,7 +33,10 @@ std::vector<std::string> ModelFunctions::table_entries() const {
           "c_energy_tangent",
           "c_internal_forces_tangent",
           "c_residual_adjoint",
-          maybe(summary.structured, "c_newton_solve_transposed")};
+          maybe(summary.structured, "c_newton_solve_transposed"),
+          maybe(!in_c, "c_residual_tangents"),
+          maybe(!in_c && states, "c_state_rate_tangents"),
+          maybe(summary.structured, "c_newton_solves")};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -32,7 +32,7 @@ struct ModelFunctions {
   bool uses_time = false, observes = false;
 
   /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
-  std::vector<std::string> table_entries() const;
+  std::vector<std::string> table_entries(Language language) const;
 };
 
 /// In C there is no Newton matrix: `newton_type` stays empty and the table says not structured.

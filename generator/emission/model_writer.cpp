@@ -54,7 +54,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
     for (const Effect& effect : description.effects) out << " " << effect.id;
   }
   out << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
-         "scalar.hpp.\n//\n// Structure found:\n"
+         "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions)
       << "#pragma once\n\n#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
@@ -80,7 +80,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   for (const EmittedFunction& function : functions.functions) {
     out << "\n/// " << function.comment;
     if (function.body.statements > 0) out << "\n/// " << operations_text(function.body);
-    out << "\ntemplate <class T>\n"
+    out << (function.body.along ? "\ntemplate <class T, class D>\n" : "\ntemplate <class T>\n")
         << function.signature << " {\n"
         << function.before << function.body.text << function.after << "}\n";
   }
@@ -92,7 +92,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
   out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "#include \"" << s.name
-      << ".hpp\"\n\n#include \"catena_model.h\"\n\nnamespace catena::" << s.name
+      << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::" << s.name
       << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
   out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)\n"

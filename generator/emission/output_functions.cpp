@@ -38,7 +38,7 @@ void FunctionBuilder::energy() {
       "void energy(const Point<T>& at, T* e)", body(outputs, at_),
       "void c_energy(const catena_point* at, double* e) { energy(point(at), e); }\n");
   add("energy_tangent", "Derivative of the energies and powers along `along`.",
-      "void energy_tangent(const Point<T>& at, const Point<T>& along, T* de)",
+      "void energy_tangent(const Point<T>& at, const Point<D>& along, D* de)",
       body(tangents_of(outputs), at_and_along_),
       "void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {\n"
       "  energy_tangent(point(at), point(along), de);\n}\n");
@@ -52,7 +52,7 @@ void FunctionBuilder::positions() {
       "void c_positions(const catena_point* at, double* side, double* down) {\n"
       "  positions(point(at), side, down);\n}\n");
   add("positions_tangent", "Derivative of the positions along `along`.",
-      "void positions_tangent(const Point<T>& at, const Point<T>& along, T* dside, T* ddown)",
+      "void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* ddown)",
       body(tangents_of(position), at_and_along_),
       "void c_positions_tangent(const catena_point* at, const catena_point* along,\n"
       "                         double* dside, double* ddown) {\n"
@@ -64,8 +64,8 @@ void FunctionBuilder::positions() {
       "void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {\n"
       "  velocities(point(at), side_rate, down_rate);\n}\n");
   add("velocities_tangent", "Derivative of the velocities along `along`.",
-      "void velocities_tangent(const Point<T>& at, const Point<T>& along, T* dside_rate,\n"
-      "                        T* ddown_rate)",
+      "void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,\n"
+      "                        D* ddown_rate)",
       body(tangents_of(velocity), at_and_along_),
       "void c_velocities_tangent(const catena_point* at, const catena_point* along,\n"
       "                          double* dside_rate, double* ddown_rate) {\n"
@@ -83,8 +83,8 @@ void FunctionBuilder::internal_forces() {
       "                       double* curvature) {\n"
       "  internal_forces(point(at), moment, tension, curvature);\n}\n");
   add("internal_forces_tangent", "Derivative of moments, tensions and curvatures along `along`.",
-      "void internal_forces_tangent(const Point<T>& at, const Point<T>& along, T* dmoment,\n"
-      "                             T* dtension, T* dcurvature)",
+      "void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,\n"
+      "                             D* dtension, D* dcurvature)",
       body(tangents_of(outputs), at_and_along_),
       "void c_internal_forces_tangent(const catena_point* at, const catena_point* along,\n"
       "                               double* dmoment, double* dtension, double* dcurvature) {\n"
@@ -97,13 +97,13 @@ void FunctionBuilder::sensor() {
   InputDeclarations inputs = input_declarations(description_, links_, "", "", language_);
   inputs.merge(input_declarations(description_, links_, "d", "d_", language_));
   const std::string type = in_c() ? "const double " : "const T ";
-  inputs["time"] = type + "time = t;";
-  inputs["d_time"] = type + "d_time = " + (in_c() ? "0.0;" : "T(0);");
+  inputs["time"] = {type + "time = t;"};
+  inputs["d_time"] = {type + "d_time = " + (in_c() ? "0.0;" : "T(0);")};
   const char* const names[] = {"side", "down", "angle"};
   for (int k = 0; k < 3; ++k) {
     const std::string at = std::to_string(k);
-    inputs[names[k]] = type + names[k] + " = in[" + at + "];";
-    inputs[std::string("d_") + names[k]] = type + "d_" + names[k] + " = din[" + at + "];";
+    inputs[names[k]] = {type + names[k] + " = in[" + at + "];"};
+    inputs[std::string("d_") + names[k]] = {type + "d_" + names[k] + " = din[" + at + "];"};
   }
   const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
   add("observe", "What the sensor reports of side, down (m) and angle (rad).",

@@ -119,31 +119,32 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
 
 InputDeclarations input_declarations(const Description& description, int links,
                                      const std::string& point, const std::string& family_prefix,
-                                     Language language) {
+                                     Language language, bool along) {
   InputDeclarations declarations;
   const bool c = language == Language::kC;
-  const std::string scalar_type = c ? "double" : "T";
+  const std::string scalar_type = c ? "double" : along ? "D" : "T";
   for (const InputPlace& place : input_places(description, links)) {
     const std::string name = family_prefix + place.family, member = point + place.member;
     const std::string shift = place.offset == 0 ? "" : " + " + std::to_string(place.offset);
-    declarations[name] =
+    const std::string text =
         !place.indexed ? "const " + scalar_type + " " + name + " = " + member + "[" +
                              std::to_string(place.offset) + "];"
         : c ? "const double* const " + name + " = " + member + shift + ";"
-            : "const FromOne<T> " + name + "(" + member + shift + ");";
+            : "const FromOne<" + scalar_type + "> " + name + "(" + member + shift + ");";
+    declarations[name] = {text, along};
   }
-  declarations[family_prefix + "time"] =
-      "const " + scalar_type + " " + family_prefix + "time = " + point + "t;";
+  declarations[family_prefix + "time"] = {
+      "const " + scalar_type + " " + family_prefix + "time = " + point + "t;", along};
   if (family_prefix.empty()) {
     const std::string arrays = scalar_type + " sine[" + std::to_string(links + 1) + "], cosine[" +
                                std::to_string(links + 1) + "];\n";
     const std::string arguments = point + "q, sine + 1, cosine + 1);";
-    declarations["sine"] = declarations["cosine"] =
+    declarations["sine"] = declarations["cosine"] = {
         arrays + (c ? "sines_and_cosines(" + arguments
-                    : "sines_and_cosines<" + std::to_string(links) + ">(" + arguments);
+                    : "sines_and_cosines<" + std::to_string(links) + ">(" + arguments)};
   }
-  declarations["pi"] = c ? "const double pi = 3.14159265358979323846;"
-                         : "const T pi = T(3.14159265358979323846);";
+  declarations["pi"] = {c ? "const double pi = 3.14159265358979323846;"
+                          : "const T pi = T(3.14159265358979323846);"};
   return declarations;
 }
 

@@ -40,9 +40,9 @@ std::vector<InputPlace> input_places(const Description& description, int links);
 
 /// Declarations that bring the derivation's inputs into an emitted function. `point` is how
 /// the point is reached ("at.", or "" for functions that are given t and p alone); `family_prefix`
-/// is "d_" for differentials.
+/// is "d_" for differentials; `along`: they are of type D.
 InputDeclarations input_declarations(const Description& description, int links,
                                      const std::string& point, const std::string& family_prefix,
-                                     Language language = Language::kCpp);
+                                     Language language, bool along = false);
 
 }  // namespace catena

@@ -96,7 +96,7 @@ std::string table_entries(const Description& description, const ModelFunctions& 
       << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0")
       << ",\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
          "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
-  for (const std::string& entry : functions.table_entries()) {
+  for (const std::string& entry : functions.table_entries(language)) {
     out << "      " << (!c ? entry : entry == "nullptr" ? "NULL" : entry.substr(2)) << ",\n";
   }
   return out.str();

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runtime/several.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace catena {
+
+SeveralTangents::SeveralTangents(const Dynamics& dynamics) : dynamics_(dynamics) {
+  const auto n = static_cast<std::size_t>(dynamics.coordinates());
+  const auto states = static_cast<std::size_t>(dynamics.states());
+  for (std::vector<double>* values : {&q_, &v_, &a_}) values->resize(n);
+  z_.resize(states);
+  p_.resize(static_cast<std::size_t>(dynamics.table().parameters));
+  change_.resize(std::max(n, states));
+}
+
+void SeveralTangents::residual(const catena_point& at, const catena_point& along, double* dr) {
+  const catena_model& table = dynamics_.table();
+  if (table.residual_tangents != nullptr) return table.residual_tangents(&at, &along, dr);
+  one_at_a_time(table.residual_tangent, at, along, dynamics_.coordinates(), dr);
+}
+
+void SeveralTangents::state_rate(const catena_point& at, const catena_point& along, double* dzdot) {
+  const catena_model& table = dynamics_.table();
+  if (table.state_rate_tangents != nullptr) return table.state_rate_tangents(&at, &along, dzdot);
+  one_at_a_time(table.state_rate_tangent, at, along, dynamics_.states(), dzdot);
+}
+
+void SeveralTangents::one_at_a_time(Tangent tangent, const catena_point& at,
+                                    const catena_point& along, int count, double* changes) {
+  const double* zero = dynamics_.zero();
+  const catena_point one{0.0, q_.data(), v_.data(), a_.data(), z_.data(), zero, p_.data()};
+  for (int k = 0; k < CATENA_DIRECTIONS; ++k) {
+    for (const auto& [several, single] :
+         {std::pair{along.q, &q_}, {along.v, &v_}, {along.a, &a_}, {along.z, &z_}, {along.p, &p_}})
+      for (std::size_t i = 0; i < single->size(); ++i)
+        (*single)[i] = several[CATENA_DIRECTIONS * i + static_cast<std::size_t>(k)];
+    tangent(&at, &one, change_.data());
+    for (int i = 0; i < count; ++i)
+      changes[CATENA_DIRECTIONS * i + k] = change_[static_cast<std::size_t>(i)];
+  }
+}
+
+}  // namespace catena
