@@ -32,6 +32,7 @@ void for_each_seen(const Problem& problem, const Evaluation& evaluation, Part pa
   }
 }
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kLeastNoise = 1e-12;  // m or rad: perfect data leave nothing to weigh by
 
 /// Of every residual, its channel's place in a list of the channels of all recordings that have any.
@@ -58,14 +59,15 @@ Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Par
   if (!evaluation.with_jacobian) return residuals;
   const auto unknowns = static_cast<Index>(problem.unknowns().size());
   residuals.jacobian.setZero(residuals.value.size(), unknowns);
-  for (Index i = 0; i < residuals.value.size(); ++i) {
-    const ResidualIndex& index = residuals.index[static_cast<std::size_t>(i)];
-    const auto& sensitivity =
-        evaluation.predictions[static_cast<std::size_t>(index.experiment)].sensitivity;
-    for (Index j = 0; j < static_cast<Index>(sensitivity.size()); ++j)
-      if (const auto& along = sensitivity[static_cast<std::size_t>(j)]; along.size())
-        residuals.jacobian(i, j) = along(index.channel, index.frame);
-  }
+  for (Index j = 0; j < unknowns; ++j)
+    for (Index i = 0; i < residuals.value.size(); ++i) {
+      const ResidualIndex& index = residuals.index[static_cast<std::size_t>(i)];
+      const auto& sensitivity =
+          evaluation.predictions[static_cast<std::size_t>(index.experiment)].sensitivity;
+      if (j >= static_cast<Index>(sensitivity.size())) continue;
+      const Eigen::MatrixXd& along = sensitivity[static_cast<std::size_t>(j)];
+      if (along.size()) residuals.jacobian(i, j) = along(index.channel, index.frame);
+    }
   return residuals;
 }
 
@@ -168,17 +170,15 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
   return weights;
 }
 
-double error_of(const Problem& problem, const Evaluation& evaluation, Part part) {
-  if (!evaluation.ok) return std::numeric_limits<double>::infinity();
-  const Residuals residuals = residuals_of(problem, evaluation, part);
+namespace {
+
+/// The case's measure of residuals and joints.
+double error_of(const Problem& problem, const Residuals& residuals, const Joints& joints) {
   double error = 0;
   switch (problem.study().error.measure) {
     case Measure::kLeastSquares:
-      error = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm();
-      if (part == Part::kFit) {
-        const Joints joints = joints_of(problem, evaluation);
-        error += joints.value.cwiseProduct(joints.weight).squaredNorm();
-      }
+      error = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm() +
+              joints.value.cwiseProduct(joints.weight).squaredNorm();
       error = std::sqrt(error / static_cast<double>(residuals.value.size()));
       break;
     case Measure::kMeanDistance: {
@@ -195,14 +195,30 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
       error = std::exp(noise_of(problem, residuals).array().log().mean());
       break;
   }
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  return std::isfinite(error) ? error : kInfinite;
 }
 
-double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
-                          Eigen::VectorXd& gradient, double rounding) {
+}  // namespace
+
+double error_of(const Problem& problem, const Evaluation& evaluation, Part part) {
+  if (!evaluation.ok) return kInfinite;
+  const Joints joints = part == Part::kFit ? joints_of(problem, evaluation) : Joints{};
+  return error_of(problem, residuals_of(problem, evaluation, part), joints);
+}
+
+Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
+  if (!evaluation.ok) return {false, {}, {}, kInfinite};
+  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit), joints_of(problem, evaluation), 0};
+  misfit.error = error_of(problem, misfit.residuals, misfit.joints);
+  return misfit;
+}
+
+double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::VectorXd& gradient,
+                          double rounding) {
   gradient.setZero(static_cast<Index>(problem.unknowns().size()));
-  if (!evaluation.ok) return std::numeric_limits<double>::infinity();
-  const Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
+  if (!misfit.ok) return kInfinite;
+  const Residuals& residuals = misfit.residuals;
+  const Joints& joints = misfit.joints;
   const Eigen::VectorXd& r = residuals.value;
   const auto rounded = [&](double square) { return std::sqrt(square + rounding * rounding); };
   Eigen::VectorXd by_residual(r.size());
@@ -211,7 +227,6 @@ double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
     case Measure::kLeastSquares: {
       const Eigen::VectorXd noise = noise_of(problem, residuals);
       const auto count = static_cast<double>(r.size());
-      const Joints joints = joints_of(problem, evaluation);
       const Eigen::VectorXd gaps = joints.value.cwiseProduct(joints.weight);
       error = std::sqrt((r.cwiseQuotient(noise).squaredNorm() + gaps.squaredNorm()) / count);
       by_residual = r.array() / noise.array().square() / (count * error);

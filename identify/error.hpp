@@ -61,10 +61,20 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
 /// Infinite if the evaluation failed; a failed simulation is never a good fit. Gaps between joined
 /// windows count with their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
-/// The same with its gradient by the unknowns. The kinks of the two L1-like measures are rounded on
-/// a scale of `rounding` (m or rad).
-double error_and_gradient(const Problem& problem, const Evaluation& evaluation,
-                          Eigen::VectorXd& gradient, double rounding = 1e-7);
+
+/// The fitted part of an evaluation: what the optimisers work with.
+struct Misfit {
+  bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty
+  Residuals residuals;
+  Joints joints;
+  double error = 0;  ///< error_of
+};
+Misfit misfit_of(const Problem& problem, const Evaluation& evaluation);
+
+/// The error of a misfit with derivatives and its gradient by the unknowns. The kinks of the two
+/// L1-like measures are rounded on a scale of `rounding` (m or rad).
+double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::VectorXd& gradient,
+                          double rounding = 1e-7);
 
 /// How far simulation and measurement are apart in one part of one experiment.
 struct Gap {

@@ -66,27 +66,24 @@ void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string&
 }
 
 double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
-  if (gradient) {
-    const Evaluation evaluation = evaluate_residuals(x, true);
-    return error_and_gradient(problem_, evaluation, *gradient);
-  }
+  if (gradient) return error_and_gradient(problem_, evaluate_residuals(x, true), *gradient);
   if (options_.recall)
     if (const HistoryEntry* known = options_.recall(x)) {
       note(x, known->error, known->message, false);
       return known->error;
     }
-  const Evaluation evaluation = evaluate_residuals(x, false);
-  return error_of(problem_, evaluation, Part::kFit);
+  return evaluate_residuals(x, false).error;
 }
 
-Evaluation FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
+Misfit FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
   const auto keep_going = [this] {
     return !(options_.stop && options_.stop->load()) &&
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };
   const Evaluation evaluation = catena::evaluate(problem_, x, false, jacobian, keep_going);
-  note(x, error_of(problem_, evaluation, Part::kFit), evaluation.message, jacobian);
-  return evaluation;
+  Misfit misfit = misfit_of(problem_, evaluation);
+  note(x, misfit.error, evaluation.message, jacobian);
+  return misfit;
 }
 
 FitResult FitJournal::result(FitStatus status, const std::string& message) {

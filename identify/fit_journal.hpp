@@ -18,7 +18,7 @@ class FitJournal {
   /// failed.
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
   /// The residuals at x (least squares); the error is recorded.
-  Evaluation evaluate_residuals(const Eigen::VectorXd& x, bool jacobian);
+  Misfit evaluate_residuals(const Eigen::VectorXd& x, bool jacobian);
 
   bool must_stop();
   FitStatus why_stopped() const { return why_; }

@@ -2,6 +2,7 @@
 #include "identify/prediction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "runtime/positions.hpp"
@@ -64,22 +65,36 @@ VectorXd or_zero(const VectorXd& vector, Index size) {
   return vector.size() ? vector : VectorXd::Zero(size);
 }
 
+/// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link (rad).
+using Sight = std::array<double, 3>;
+
 /// Reads a simulation as the sensors of one experiment do.
 class Observer {
  public:
-  Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters)
-      : model_(model),
-        table_(model.table()),
+  /// `along`: the directions of which derivatives will be asked for.
+  Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters,
+           const std::vector<Seed>& along)
+      : table_(model.table()),
         experiment_(experiment),
         parameters_(parameters),
+        seeds_(along),
         accelerations_(VectorXd::Zero(model.coordinates())),
         signals_(VectorXd::Zero(3 * model.signals())),
         no_signals_(signals_),
-        here_(sized()),
-        rates_(sized()),
-        change_(sized()) {
+        here_(sized(model)),
+        rates_(here_),
+        change_(here_) {
     for (const PointSpec& point : experiment.recording.points)
       places_.push_back(place_of(model, parameters, point));
+    for (const Seed& seed : seeds_) {
+      std::vector<double>& moved = moved_.emplace_back();
+      for (const Place& place : places_)
+        moved.push_back(place.at_arc_length ? fraction_tangent(model, parameters, seed.parameters,
+                                                               place.point)
+                                            : 0);
+    }
+    true_.resize(places_.size());
+    seen_.resize(places_.size());
   }
 
   /// Moves on to frame k, which is column `column` of the path.
@@ -90,51 +105,59 @@ class Observer {
     experiment_.signals.evaluate(path.time[static_cast<std::size_t>(column)], signals_.data());
     const catena_point at = point(path, signals_, parameters_);
     table_.positions(&at, here_.side.data(), here_.down.data());
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Place& place = places_[i];
+      const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
+      true_[i] = {there.side, there.down, path.q(place.point.link, column)};
+      if (table_.observes)
+        table_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
+      else
+        seen_[i] = true_[i];
+    }
   }
 
-  double value(const Channel& channel) const {
-    double in[3], out[3];
-    true_values(channel, in);
-    if (!table_.observes) return in[static_cast<int>(channel.component)];
-    table_.observe(t_, parameters_.data(), in, out);
-    return out[static_cast<int>(channel.component)];
-  }
-
-  /// Prepares derivatives along one direction.
-  void look_along(const Trajectory& sensitivity, const VectorXd& by_parameter, bool held) {
-    sensitivity_ = &sensitivity;
-    by_parameter_ = &by_parameter;
+  /// From there to the derivatives along direction number `direction`.
+  void look_along(const Trajectory& sensitivity, std::size_t direction, bool held) {
+    const VectorXd& by_parameter = seeds_[direction].parameters;
     const catena_point at = point(*path_, signals_, parameters_);
     const catena_point along = point(sensitivity, no_signals_, by_parameter);
     table_.positions_tangent(&at, &along, change_.side.data(), change_.down.data());
-    clock_shift_ = 0;
-    if (!table_.observes || held) return;
-    clock_shift_ = table_.clock_tangent(t_, parameters_.data(), by_parameter.data());
-    table_.velocities(&at, rates_.side.data(), rates_.down.data());
-    change_.side += clock_shift_ * rates_.side;
-    change_.down += clock_shift_ * rates_.down;
+    double clock_shift = 0;
+    if (table_.observes && !held) {
+      clock_shift = table_.clock_tangent(t_, parameters_.data(), by_parameter.data());
+      table_.velocities(&at, rates_.side.data(), rates_.down.data());
+      change_.side += clock_shift * rates_.side;
+      change_.down += clock_shift * rates_.down;
+    }
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Place& place = places_[i];
+      const CablePoint change =
+          place.load ? load_of(change_)
+                     : position_tangent_of(here_, change_, place.point, moved_[direction][i]);
+      const Index link = place.point.link;
+      const Sight din{change.side, change.down,
+                      sensitivity.q(link, column_) + clock_shift * path_->v(link, column_)};
+      if (table_.observes)
+        table_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
+                               din.data(), seen_[i].data());
+      else
+        seen_[i] = din;
+    }
   }
 
-  double derivative(const Channel& channel) const {
-    const Place& place = places_[static_cast<std::size_t>(channel.point)];
-    const double moved = place.at_arc_length ? fraction_tangent(model_, parameters_, *by_parameter_,
-                                                                place.point)
-                                             : 0;
-    const CablePoint change = position_tangent_of(here_, change_, place.point, moved);
-    const Index link = place.point.link, load = model_.links() + 1;
-    const double din[3] = {place.load ? change_.side[load] : change.side,
-                           place.load ? change_.down[load] : change.down,
-                           sensitivity_->q(link, column_) + clock_shift_ * path_->v(link, column_)};
-    if (!table_.observes) return din[static_cast<int>(channel.component)];
-    double in[3], dout[3];
-    true_values(channel, in);
-    table_.observe_tangent(t_, parameters_.data(), by_parameter_->data(), in, din, dout);
-    return dout[static_cast<int>(channel.component)];
+  /// What was seen last.
+  double operator()(const Channel& channel) const {
+    return seen_[static_cast<std::size_t>(channel.point)]
+                [static_cast<std::size_t>(channel.component)];
   }
 
  private:
-  Positions sized() const {
-    return {VectorXd::Zero(model_.links() + 2), VectorXd::Zero(model_.links() + 2)};
+  static Positions sized(const Model& model) {
+    return {VectorXd::Zero(model.links() + 2), VectorXd::Zero(model.links() + 2)};
+  }
+
+  static CablePoint load_of(const Positions& at) {
+    return {at.side[at.side.size() - 1], at.down[at.down.size() - 1]};
   }
 
   catena_point point(const Trajectory& path, const VectorXd& signals, const VectorXd& p) const {
@@ -147,27 +170,18 @@ class Observer {
             p.data()};
   }
 
-  void true_values(const Channel& channel, double in[3]) const {
-    const Place& place = places_[static_cast<std::size_t>(channel.point)];
-    const CablePoint at = position_of(here_, place.point);
-    const Index load = model_.links() + 1;
-    in[0] = place.load ? here_.side[load] : at.side;
-    in[1] = place.load ? here_.down[load] : at.down;
-    in[2] = path_->q(place.point.link, column_);
-  }
-
-  const Model& model_;
   const catena_model& table_;
   const Experiment& experiment_;
   const VectorXd& parameters_;
+  const std::vector<Seed>& seeds_;
   std::vector<Place> places_;
+  std::vector<std::vector<double>> moved_;  // per direction and place: of points at an arc length
   VectorXd accelerations_, signals_, no_signals_;  // positions and velocities do not ask for a
   Positions here_, rates_, change_;
+  std::vector<Sight> true_, seen_;  // per place
   const Trajectory* path_ = nullptr;
-  const Trajectory* sensitivity_ = nullptr;
-  const VectorXd* by_parameter_ = nullptr;
   Index column_ = 0;
-  double t_ = 0, clock_shift_ = 0;
+  double t_ = 0;
 };
 
 }  // namespace
@@ -220,17 +234,17 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
 
   prediction.sensitivity.resize(along.size());
   for (const std::size_t j : seed_of) prediction.sensitivity[j].resize(channels, frames);
-  Observer observer(model, experiment, parameters);
+  Observer observer(model, experiment, parameters, seeds);
   for (Index k = 0; k < frames; ++k) {
     const auto frame = static_cast<std::size_t>(k);
     observer.move_to(simulation.trajectory, clock.column[frame], recording.time[frame]);
     for (Index c = 0; c < channels; ++c)
-      prediction.simulated(c, k) = observer.value(recording.channels[static_cast<std::size_t>(c)]);
+      prediction.simulated(c, k) = observer(recording.channels[static_cast<std::size_t>(c)]);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-      observer.look_along(simulation.sensitivity[s], seeds[s].parameters, clock.held[frame]);
+      observer.look_along(simulation.sensitivity[s], s, clock.held[frame]);
       for (Index c = 0; c < channels; ++c)
         prediction.sensitivity[seed_of[s]](c, k) =
-            observer.derivative(recording.channels[static_cast<std::size_t>(c)]);
+            observer(recording.channels[static_cast<std::size_t>(c)]);
     }
   }
   if (experiment.spec.joined) {

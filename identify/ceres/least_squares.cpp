@@ -4,9 +4,9 @@
 #include <ceres/ceres.h>
 
 #include <cmath>
-#include <optional>
+#include <limits>
 
-#include "identify/ceres/distance_block.hpp"
+#include "identify/ceres/distance_cost.hpp"
 #include "identify/ceres/simulated_residuals.hpp"
 #include "identify/error.hpp"
 #include "identify/fit_journal.hpp"
@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// A constant added to every distance, in units of the error at the start (see DistanceBlock).
+// A constant added to every distance, in units of the error at the start (see DistanceCost).
 constexpr double kOffset = 20;
 
 /// One of the numbers a simulation gives, with a weight.
@@ -51,13 +51,16 @@ class Block : public ceres::CostFunction {
 // the sensitivities describe a slope too short to walk on.
 constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
 
+// At a minimum on kinks, as sums of distances have, so many steps in a row fail.
+constexpr int kFailedSteps = 2;
+
 /// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by no
-/// more than `tolerance` of it; `offset` is no cost.
+/// more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep failing.
 class Watch : public ceres::IterationCallback {
  public:
   /// `promised`: by a first step that is too short, of which Ceres does not tell.
-  Watch(FitJournal& journal, double tolerance, double offset, double promised)
-      : journal_(journal), tolerance_(tolerance), offset_(offset), promised_(promised) {}
+  Watch(FitJournal& journal, double tolerance, double offset, bool kinks, double promised)
+      : journal_(journal), tolerance_(tolerance), offset_(offset), kinks_(kinks), promised_(promised) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     journal_.count_iteration();
@@ -67,6 +70,8 @@ class Watch : public ceres::IterationCallback {
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
     if (step.iteration == 1) promised_ = expected / cost;
     if (step.step_is_successful) gained_ += step.cost_change / cost;
+    failed_steps_ = step.step_is_successful ? 0 : failed_steps_ + 1;
+    if (kinks_ && failed_steps_ == kFailedSteps) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     const double least = tolerance_ * cost;
     const bool enough = expected <= least || std::abs(step.cost_change) <= least;
     return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
@@ -78,6 +83,8 @@ class Watch : public ceres::IterationCallback {
  private:
   FitJournal& journal_;
   double tolerance_, offset_;
+  bool kinks_;
+  int failed_steps_ = 0;          // in a row
   double promised_, gained_ = 0;  // shares of the cost
 };
 
@@ -95,6 +102,18 @@ ceres::LossFunction* loss_of(const ErrorSpec& error) {
   return nullptr;
 }
 
+// How far one step may take a logarithm.
+constexpr double kReach = 2;
+
+VectorXd reach_of(const Problem& problem) {
+  VectorXd reach(static_cast<Index>(problem.unknowns().size()));
+  for (Index j = 0; j < reach.size(); ++j)
+    reach[j] = problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic
+                   ? kReach
+                   : std::numeric_limits<double>::infinity();
+  return reach;
+}
+
 /// From y on, where `simulated` is, to the best y; the weights are those of the start.
 FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals& simulated, VectorXd& y,
                 std::string& message) {
@@ -109,7 +128,6 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   const Joints& joints = simulated.joints();
   const bool squares =
       error.measure == Measure::kLeastSquares || error.measure == Measure::kLikelihood;
-  std::optional<Distances> distances;
   double all_offsets = 0;
   if (squares) {
     const VectorXd noise = noise_of(problem, first);
@@ -122,7 +140,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   } else {
     // In units of the start's error, as if each were over its noise.
     const double scale = static_cast<double>(first.value.size()) / simulated.error();
-    std::vector<Distances::Term> terms;
+    std::vector<DistanceCost::Term> terms;
     if (error.measure == Measure::kMeanDistance) {
       const std::vector<Distance> points = distances_of(problem, first);
       for (const Distance& point : points)
@@ -131,14 +149,12 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
       const VectorXd weights = scale * channel_weights(problem, first);
       for (Index i = 0; i < weights.size(); ++i) terms.push_back({i, 1, weights[i]});
     }
-    distances.emplace(simulated, terms, kOffset * simulated.error());
+    auto* distances =
+        new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), reach_of(problem));
+    solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
+    all_offsets = distances->all_offsets();
     distances->step_to(y);
-    simulated.on_derivatives = [&] { distances->step_to(y); };
-    for (const Distances::Term& term : terms) {
-      all_offsets += term.weight * distances->offset();
-      solver.AddResidualBlock(new DistanceBlock(*distances, term, unknowns), nullptr, y.data());
-    }
-    solver.AddResidualBlock(new SecantBlock(*distances, unknowns), nullptr, y.data());
+    simulated.on_derivatives = [distances, &y] { distances->step_to(y); };
   }
   for (int j = 0; j < unknowns; ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
@@ -151,7 +167,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
 
   const double least_step = 1e-2 * spec.tolerance;  // of |y|
   const double lost = least_step * y.norm() * simulated.steepness();
-  Watch watch(journal, (squares ? 1e-2 : 10) * spec.tolerance, all_offsets, lost);
+  Watch watch(journal, (squares ? 1e-2 : 0.1) * spec.tolerance, all_offsets, !squares, lost);
   ceres::Solver::Options settings;
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.max_num_iterations = spec.max_evaluations;

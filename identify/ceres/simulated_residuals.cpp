@@ -23,37 +23,35 @@ void SimulatedResiduals::PrepareForEvaluation(bool jacobians, bool) {
     if (!known) jacobian_used_ = false;
     here_ = y_;
     const Eigen::VectorXd x = from_scaled(problem_, y_);
-    const Evaluation evaluation = journal_.evaluate_residuals(x, with_jacobian_);
-    ok_ = evaluation.ok;
-    if (!ok_) return;
-    error_ = error_of(problem_, evaluation, Part::kFit);
-    residuals_ = residuals_of(problem_, evaluation, Part::kFit);
-    joints_ = joints_of(problem_, evaluation);
-    if (with_jacobian_) scale_derivatives(x, evaluation);
+    Misfit misfit = journal_.evaluate_residuals(x, with_jacobian_);
+    misfit_.ok = misfit.ok;
+    if (!misfit_.ok) return;
+    misfit_ = std::move(misfit);
+    if (with_jacobian_) scale_derivatives(x);
   }
-  if (jacobians && ok_ && !jacobian_used_) {
+  if (jacobians && misfit_.ok && !jacobian_used_) {
     jacobian_used_ = true;
     error_before_ = error_of_jacobian_;
-    error_of_jacobian_ = error_;
+    error_of_jacobian_ = misfit_.error;
     if (on_derivatives) on_derivatives();
   }
 }
 
 /// From derivatives by the unknowns to those by what Ceres moves.
-void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x, const Evaluation& evaluation) {
+void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x) {
   Eigen::VectorXd gradient;
-  error_and_gradient(problem_, evaluation, gradient);
+  error_and_gradient(problem_, misfit_, gradient);
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Unknown& unknown = problem_.unknowns()[static_cast<std::size_t>(j)];
     // What a bound keeps from falling further rests; the others move as if it were known.
     const bool rests = (x[j] <= unknown.lower && gradient[j] > 0) ||
                        (x[j] >= unknown.upper && gradient[j] < 0);
     const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
-    residuals_.jacobian.col(j) *= slope;
-    joints_.jacobian.col(j) *= slope;
+    misfit_.residuals.jacobian.col(j) *= slope;
+    misfit_.joints.jacobian.col(j) *= slope;
     gradient[j] *= slope;
   }
-  steepness_ = error_ > 0 ? gradient.norm() / error_ : 0;
+  steepness_ = misfit_.error > 0 ? gradient.norm() / misfit_.error : 0;
 }
 
 }  // namespace catena

@@ -22,26 +22,25 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
   /// Called at every point whose derivatives Ceres is about to use.
   std::function<void()> on_derivatives;
 
-  bool ok() const { return ok_; }
-  const Residuals& residuals() const { return residuals_; }
-  const Joints& joints() const { return joints_; }
+  bool ok() const { return misfit_.ok; }
+  const Residuals& residuals() const { return misfit_.residuals; }
+  const Joints& joints() const { return misfit_.joints; }
   /// In the case's measure, here and at the point before whose derivatives were asked for.
-  double error() const { return error_; }
+  double error() const { return misfit_.error; }
   double error_before() const { return error_before_; }
   /// Norm of the error's gradient by y over the error.
   double steepness() const { return steepness_; }
 
  private:
-  void scale_derivatives(const Eigen::VectorXd& x, const Evaluation& evaluation);
+  void scale_derivatives(const Eigen::VectorXd& x);
 
   const Problem& problem_;
   FitJournal& journal_;
   const Eigen::VectorXd& y_;
   Eigen::VectorXd here_;  // where the residuals are from
-  bool ok_ = false, with_jacobian_ = false, jacobian_used_ = true;
-  Residuals residuals_;
-  Joints joints_;
-  double error_ = 0, error_before_ = 0, error_of_jacobian_ = 0, steepness_ = 0;
+  bool with_jacobian_ = false, jacobian_used_ = true;
+  Misfit misfit_;
+  double error_before_ = 0, error_of_jacobian_ = 0, steepness_ = 0;
 };
 
 }  // namespace catena

@@ -31,52 +31,40 @@ namespace catena {
 /// All this leaves out that r itself is curved. Where the last step s changed the gradient by y and
 /// y's exceeds s'Hs, one more row with residual 0 makes up for it: sqrt(1 / y's - s'Hs / (y's)^2) y'
 /// (the curvature along s is then y's, as it was found).
-class Distances {
+///
+/// Where an unknown y_j hardly shows, its curvature is next to nothing and the step as long as one likes. So
+/// each has |g_j| / reach_j added to it, g the gradient: no step is longer than reach_j on its account, and near
+/// the minimum nothing is added.
+///
+/// Of all these rows Ceres needs the sum of squares, J'r and J'J. It gets them from as many rows as there
+/// are unknowns and one more.
+class DistanceCost : public ceres::CostFunction {
  public:
   struct Term {
     Eigen::Index first = 0, count = 0;  // residuals
     double weight = 0;
   };
 
-  Distances(const SimulatedResiduals& simulated, std::vector<Term> terms, double offset);
+  /// `reach` of each unknown; infinite where none is known.
+  DistanceCost(const SimulatedResiduals& simulated, std::vector<Term> terms, double offset,
+               const Eigen::VectorXd& reach);
 
   /// Notes gradient and curvature at a point y with derivatives, after a step from the last such point.
   void step_to(const Eigen::VectorXd& y);
 
-  const SimulatedResiduals& simulated() const { return simulated_; }
-  double offset() const { return offset_; }
-  /// The curvatures a and b of a distance.
-  std::pair<double, double> curvature(double distance) const;
-  const Eigen::RowVectorXd& secant_row() const { return secant_row_; }
+  /// What the offsets add to the cost.
+  double all_offsets() const;
+
+  bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override;
 
  private:
   const SimulatedResiduals& simulated_;
   std::vector<Term> terms_;
   double offset_;
+  Eigen::VectorXd reach_;
   double width_ = 0.3;            // h, of the mean distance
-  Eigen::VectorXd y_, gradient_;  // of the last point
-  Eigen::RowVectorXd secant_row_;
-};
-
-/// One distance.
-class DistanceBlock : public ceres::CostFunction {
- public:
-  DistanceBlock(const Distances& distances, const Distances::Term& term, int unknowns);
-  bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override;
-
- private:
-  const Distances& distances_;
-  Distances::Term term_;
-};
-
-/// The row that makes up for the curvature of the residuals.
-class SecantBlock : public ceres::CostFunction {
- public:
-  SecantBlock(const Distances& distances, int unknowns);
-  bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override;
-
- private:
-  const Distances& distances_;
+  Eigen::VectorXd y_, gradient_;  // of the last point; J'r
+  Eigen::MatrixXd curvature_;     // J'J
 };
 
 }  // namespace catena
