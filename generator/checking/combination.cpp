@@ -72,15 +72,4 @@ std::vector<Combination> possible_combinations(const ex& hand, const ChainSymbol
   return result;
 }
 
-int solved_for(const ex& hand, const ChainSymbols& chain) {
-  int result = 0;
-  for (int j = 1; j <= chain.links; ++j) {
-    const ex coefficient = derivative(hand, chain.acceleration[at(j)]).expand();
-    if (coefficient.is_zero()) continue;
-    if (result != 0 || (coefficient != 1 && coefficient != -1)) return 0;
-    result = j;
-  }
-  return result;
-}
-
 }  // namespace catena::checking

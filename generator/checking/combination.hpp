@@ -29,7 +29,4 @@ std::vector<Combination> possible_combinations(const GiNaC::ex& hand, const Chai
 /// More links make the determinant of M too long for proofs.
 inline constexpr int kMostSolvedLinks = 3;
 
-/// The k for which h = 0 reads thetaddot_k = ... with no other acceleration; 0 if there is none.
-int solved_for(const GiNaC::ex& hand, const ChainSymbols& chain);
-
 }  // namespace catena::checking

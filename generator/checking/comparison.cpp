@@ -2,6 +2,8 @@
 #include "generator/checking/comparison.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,8 +15,10 @@
 #include "generator/checking/combination.hpp"
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/flat_derivation.hpp"
+#include "generator/checking/motion.hpp"
 #include "generator/checking/normal_form.hpp"
 #include "generator/checking/numeric_state.hpp"
+#include "generator/checking/shared_tree.hpp"
 
 namespace catena::checking {
 namespace {
@@ -25,14 +29,14 @@ using GiNaC::numeric;
 // States tried before two sides that are not proved different count as numerically equal.
 constexpr int kStates = 24;
 
-// kStateDigits less what cancellation may eat: two sides closer than this are equal at a state.
-const numeric& closeness() {
-  static const numeric value = GiNaC::pow(numeric(10), numeric(-40));
-  return value;
-}
-
-// Equations solved for an acceleration are compared in numbers for so many links at most.
+// Equations that are not proved are held against the motion of so many links at most.
 constexpr int kMostCompared = 12;
+
+// Proofs that would take more products than this, which is a few seconds, are left to evaluation.
+constexpr double kMostExpanded = 5.2e5;
+
+// The difference of an equation of more products than this is not written out.
+constexpr double kMostWritten = 2e4;
 
 // A factor of an equation longer than this is not written out in a remark.
 constexpr std::size_t kShortFactor = 40;
@@ -57,6 +61,18 @@ bool is_sum(const std::string& text) {
   return false;
 }
 
+/// "1, 2 and 4"
+template <class Factors>
+std::string listed(const Factors& by_number) {
+  std::string result;
+  for (auto entry = by_number.begin(); entry != by_number.end(); ++entry)
+    result += (entry == by_number.begin()              ? ""
+               : std::next(entry) == by_number.end() ? " and "
+                                                     : ", ") +
+              std::to_string(entry->first);
+  return result;
+}
+
 /// The two sides of a comparison.
 struct Sides {
   ex hand;
@@ -71,7 +87,7 @@ class Comparison {
     if (derivation.chain) model_ = std::make_unique<FlatDerivation>(*derivation.chain);
   }
 
-  Finding of(const Entry& entry) const {
+  Finding of(const Entry& entry) {
     try {
       if (entry.quantity == Quantity::kEquation) return of_equation(entry);
       if (entry.quantity == Quantity::kIdentity)
@@ -92,7 +108,7 @@ class Comparison {
   ex given(const ex& expression) const {
     return derivation_.given.empty()
                ? expression
-               : expression.subs(derivation_.given, GiNaC::subs_options::no_pattern);
+               : Replacement(derivation_.given)(expression);
   }
 
   Contributions model_parts(const Entry& entry) const {
@@ -184,33 +200,30 @@ class Comparison {
 
   /// An equation of motion may be stated with a factor, as a sum of several with factors, or solved
   /// for an acceleration. It is judged as the combination of the chain's equations that it is.
-  Finding of_equation(const Entry& entry) const {
+  Finding of_equation(const Entry& entry) {
     const ex hand = given(entry.value - entry.right);
-    if (NormalForm({hand})(hand).numerator.is_zero()) {
+    if (!differs_somewhere(hand) && NormalForm({hand})(hand).numerator.is_zero()) {
       Finding finding;
       finding.verdict = Verdict::kDifferent;
       finding.remark = "it says nothing: both sides are the same for every motion";
       return finding;
     }
-    std::vector<Combination> candidates;
-    for (const ex& factor : factors_between(hand, entry.row))
-      candidates.push_back({{{entry.row, factor}}, 1});
-    for (const Combination& combination : possible_combinations(hand, *derivation_.chain, *model_))
-      candidates.push_back(combination);
-    for (const Combination& candidate : candidates) {
-      const ex model = total(parts_of(candidate));
-      const ex excess = candidate.divisor * hand - model;
-      if (differs_somewhere(excess)) continue;
-      NormalForm form({excess});
-      if (!form(excess).numerator.is_zero()) continue;
+    const int solved = solved_for(hand);
+    const Quotient fraction = cleared(hand);
+    const std::vector<Combination> candidates = candidates_for(hand, entry.row);
+    std::optional<Combination> proved = proved_of(candidates, hand);
+    if (!proved && fraction.denominator != 1) {
+      proved = proved_of(candidates_for(fraction.numerator, entry.row), fraction.numerator);
+      if (proved) proved->divisor *= fraction.denominator;
+    }
+    if (proved) {
       Finding finding;
       finding.verdict = Verdict::kEqual;
-      finding.remark = name_of(candidate, entry.row, solved_for(hand, *derivation_.chain));
-      finding.combination = numbers_in(candidate);
+      finding.remark = name_of(*proved, entry.row, solved);
+      finding.combination = numbers_in(*proved);
       return finding;
     }
-    if (const int k = solved_for(hand, *derivation_.chain); k != 0 && derivation_.chain->links > 1)
-      return of_solved(hand, k);
+    if (std::optional<Finding> finding = by_motion(hand, solved, fraction.denominator)) return *finding;
     // Whichever combination leaves least is how it was meant.
     std::optional<Finding> best;
     for (const Combination& candidate : candidates) {
@@ -223,6 +236,47 @@ class Comparison {
       if (!best || finding.terms < best->terms) best = std::move(finding);
     }
     return *best;
+  }
+
+  /// The first candidate that is proved to be the equation h = 0.
+  std::optional<Combination> proved_of(const std::vector<Combination>& candidates,
+                                       const ex& h) const {
+    for (const Combination& candidate : candidates) {
+      const ex excess = candidate.divisor * h - total(parts_of(candidate));
+      if (differs_somewhere(excess) || is_too_long(excess)) continue;
+      NormalForm form({excess});
+      if (form(excess).numerator.is_zero()) return candidate;
+    }
+    return std::nullopt;
+  }
+
+  std::vector<Combination> candidates_for(const ex& hand, int row) const {
+    if (is_too_long(hand)) return {};
+    std::vector<Combination> result;
+    for (const ex& factor : factors_between(hand, row)) result.push_back({{{row, factor}}, 1});
+    for (const Combination& combination : possible_combinations(hand, *derivation_.chain, *model_))
+      result.push_back(combination);
+    return result;
+  }
+
+  bool is_too_long(const ex& expression) const {
+    return expanded_size(expression) > kMostExpanded;
+  }
+
+  /// The k for which h = 0 reads thetaddot_k = ... with no other acceleration; 0 if there is none,
+  /// or none other.
+  int solved_for(const ex& hand) const {
+    if (derivation_.chain->links == 1) return 0;
+    const std::optional<Motion::Vector> factors =
+        acceleration_factors(hand, *derivation_.chain, common_state().values);
+    int result = 0;
+    for (std::size_t j = 0; factors && j < factors->size(); ++j) {
+      const numeric size = GiNaC::abs((*factors)[j]);
+      if (size <= closeness()) continue;
+      if (result != 0 || GiNaC::abs(size - 1) > closeness()) return 0;
+      result = static_cast<int>(j) + 1;
+    }
+    return result;
   }
 
   /// The chain's equations with these factors, part by part.
@@ -258,13 +312,11 @@ class Comparison {
 
   /// "equation 1 + 2*(equation 2)"; empty for equation `row` itself.
   std::string name_of(const Combination& combination, int row, int solved) const {
-    if (solved != 0 && derivation_.chain->links > 1)
-      return "solved for thetaddot_" + std::to_string(solved);
-    std::vector<std::string> parts, numbers;
+    if (solved != 0) return "solved for thetaddot_" + std::to_string(solved);
+    std::vector<std::string> parts;
     bool is_short = combination.divisor == 1;
     for (const auto& [number, factor] : combination.factors) {
       const std::string equation = "equation " + std::to_string(number);
-      numbers.push_back(std::to_string(number));
       NormalForm form({factor});
       const std::string text = text_of(form(factor), form);
       is_short = is_short && text.size() < kShortFactor;
@@ -276,12 +328,9 @@ class Comparison {
     }
     if (parts.size() == 1 && !is_short)
       return combination.factors.begin()->first == row ? "multiplied by a factor"
-                                                       : "equation " + numbers[0] + " times a factor";
+                                                       : "equation " + listed(combination.factors) + " times a factor";
     if (is_short) return (parts.size() == 1 ? "it is " : "the sum ") + joined_by_signs(parts);
-    std::string list;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      list += (i == 0 ? "" : i + 1 < numbers.size() ? ", " : " and ") + numbers[i];
-    return "a combination of equations " + list;
+    return "a combination of equations " + listed(combination.factors);
   }
 
   /// Factors of the combination at a state, to tell independent ones from others.
@@ -306,88 +355,127 @@ class Comparison {
     return random_state(symbols_in(all), seed_);
   }
 
-  /// thetaddot_k = ...: held against the solution of all equations, in numbers.
-  Finding of_solved(const ex& hand, int k) const {
+  /// What is not proved is held against the chain's motion. Nothing is said of equations that do not
+  /// hold and whose difference is worth writing out.
+  std::optional<Finding> by_motion(const ex& hand, int solved, const ex& denominator) {
     const ChainSymbols& chain = *derivation_.chain;
+    const bool must_be_judged = solved != 0 || expanded_size(hand) > kMostWritten ||
+                                !chain.is_constant(denominator);
     Finding finding;
     if (chain.links > kMostCompared) {
-      finding.remark = "equations solved for an acceleration are compared up to " +
-                       std::to_string(kMostCompared) + " links";
+      if (!must_be_judged) return std::nullopt;
+      finding.remark = "too long to be expanded; such equations are compared with the motion of up "
+                       "to " + std::to_string(kMostCompared) + " links";
       return finding;
     }
-    finding.remark = "compared with the chain's equations solved for thetaddot_" +
-                     std::to_string(k);
-    const auto index = static_cast<std::size_t>(k);
-    const ex sign = hand.diff(GiNaC::ex_to<GiNaC::symbol>(chain.acceleration[index]));
-    const ex by_hand = (chain.acceleration[index] - hand / sign).expand();
-    std::vector<std::vector<ex>> mass;
-    std::vector<ex> rest;
-    GiNaC::exmap at_rest;
-    for (int i = 1; i <= chain.links; ++i) at_rest[chain.acceleration[static_cast<std::size_t>(i)]] = 0;
-    for (int i = 1; i <= chain.links; ++i) {
-      mass.emplace_back();
-      for (int j = 1; j <= chain.links; ++j) mass.back().push_back(given(total(model_->mass(i, j))));
-      rest.push_back(given(total(model_->equation(i))).subs(at_rest));
+    const NumericState state = common_state();
+    const std::optional<Motion::Vector> slope = acceleration_factors(hand, chain, state.values);
+    const std::optional<bool> obeyed = slope ? motion().is_obeyed(hand) : std::nullopt;
+    if (obeyed && *obeyed) {
+      finding.verdict = Verdict::kEqual;
+      finding.by_evaluation = true;
+      finding.combination = motion().factors(*slope, state.values);
+      finding.remark = solved != 0 ? "solved for thetaddot_" + std::to_string(solved)
+                                   : "a combination of equations " + listed(finding.combination);
+      return finding;
     }
-    const auto solution = [&](const NumericState& state) -> std::optional<numeric> {
-      const auto n = static_cast<unsigned>(chain.links);
-      GiNaC::matrix a(n, n), unknown(n, 1), right(n, 1);
-      for (unsigned i = 0; i < n; ++i) {
-        for (unsigned j = 0; j < n; ++j) {
-          const std::optional<numeric> value = evaluate_at(mass[i][j], state);
-          if (!value) return std::nullopt;
-          a(i, j) = *value;
-        }
-        const std::optional<numeric> value = evaluate_at(rest[i], state);
-        if (!value) return std::nullopt;
-        right(i, 0) = -*value;
-        unknown(i, 0) = GiNaC::symbol();
-      }
-      return GiNaC::ex_to<numeric>(a.solve(unknown, right)(static_cast<unsigned>(k) - 1, 0));
+    if (!must_be_judged) return std::nullopt;
+    finding.verdict = obeyed ? Verdict::kDifferent : Verdict::kUndecided;
+    if (solved == 0) {
+      finding.remark = "left - right at the chain's accelerations, which should be 0";
+      compare_motions(hand, finding);
+    } else {
+      finding.remark =
+          "compared with the chain's equations solved for thetaddot_" + std::to_string(solved);
+      const auto k = static_cast<std::size_t>(solved);
+      compare_motions(chain.acceleration[k] - hand / (*slope)[k - 1], finding, solved);
+    }
+    return finding;
+  }
+
+  /// What an expression, which should be 0 or thetaddot_k, comes to along the chain's motion.
+  void compare_motions(const ex& hand, Finding& finding, int k = 0) {
+    const ChainSymbols& chain = *derivation_.chain;
+    using Values = std::pair<numeric, numeric>;  // by hand, the chain's
+    const auto values_at = [&](const NumericState& state) -> std::optional<Values> {
+      const std::optional<Motion::Vector>& there = motion().accelerations(state);
+      if (!there) return std::nullopt;
+      GiNaC::exmap moving = state.values;
+      for (std::size_t j = 0; j < there->size(); ++j) moving[chain.acceleration[j + 1]] = (*there)[j];
+      const std::optional<numeric> yours = Evaluation(moving)(hand);
+      if (!yours) return std::nullopt;
+      return Values(*yours, k == 0 ? 0 : (*there)[static_cast<std::size_t>(k) - 1]);
     };
-    const auto difference_at = [&](const NumericState& state) -> std::optional<numeric> {
-      const std::optional<numeric> yours = evaluate_at(by_hand, state), chains = solution(state);
-      if (!yours || !chains) return std::nullopt;
-      finding.value = twelve_digits(*yours);
-      finding.expected = twelve_digits(*chains);
-      return *yours - *chains;
+    const auto agree = [](const Values& values) {
+      return GiNaC::abs(values.first - values.second) <=
+             closeness() * (1 + GiNaC::abs(values.first) + GiNaC::abs(values.second));
     };
+    int real = 0;
     for (std::uint64_t attempt = 0; attempt < kStates; ++attempt) {
-      std::vector<ex> sides = rest;
-      sides.push_back(by_hand);
-      for (const auto& row : mass) sides.insert(sides.end(), row.begin(), row.end());
-      NumericState state = random_state(symbols_in(sides), seed_ + attempt);
-      const std::optional<numeric> difference = difference_at(state);
-      if (!difference || GiNaC::abs(*difference) <= closeness()) continue;
+      const NumericState state = random_state(motion().symbols(), seed_ + attempt);
+      const std::optional<Values> values = values_at(state);
+      if (!values) continue;
+      ++real;
+      if (agree(*values)) continue;
       finding.verdict = Verdict::kDifferent;
       finding.state = state.assignments;
-      const std::string value = finding.value, expected = finding.expected;
-      // A source without which nothing is left of the difference is where it comes from.
-      const auto look_at = [&](const std::string& source, const std::vector<ex>& symbols) {
-        NumericState without = state;
-        for (const ex& symbol : symbols)
-          if (without.values.count(symbol) != 0) without.values[symbol] = 0;
-        const std::optional<numeric> left = difference_at(without);
-        if (left && GiNaC::abs(*left) <= closeness()) finding.origins.push_back(source);
-      };
-      look_at("gravity", {chain.gravity});
-      look_at("the centrifugal terms or the dampers", chain.rate);
-      for (std::size_t j = 1; j < chain.angle.size(); ++j) {
-        const std::string number = std::to_string(j);
-        look_at("spring of joint " + number, {chain.stiffness[j]});
-        look_at("damper of joint " + number, {chain.damping[j]});
-        look_at("torque T_" + number, {chain.torque[j]});
-        look_at("rotational energy of link " + number, {chain.inertia[j]});
-        look_at("link " + number, {chain.mass[j], chain.inertia[j]});
-      }
-      look_at("the load", {chain.load_mass});
-      finding.value = value;
-      finding.expected = expected;
-      return finding;
+      finding.value = twelve_digits(values->first);
+      finding.expected = twelve_digits(values->second);
+      finding.origins = sources_without_which(state, [&](const NumericState& without) {
+        const std::optional<Values> left = values_at(without);
+        return left && agree(*left);
+      });
+      return;
     }
-    finding.verdict = Verdict::kUndecided;
-    finding.remark += "; both agree to 40 digits at " + std::to_string(kStates) + " random states";
-    return finding;
+    if (real == 0) {
+      finding.remark += "; no state tried gave real numbers";
+    } else if (finding.verdict == Verdict::kUndecided) {
+      finding.remark += "; both agree to 40 digits at " + std::to_string(real) + " random states";
+    }
+  }
+
+  /// The sources of which each alone, taken away from a state, makes something agree.
+  std::vector<std::string> sources_without_which(
+      const NumericState& state, const std::function<bool(const NumericState&)>& agrees) const {
+    const ChainSymbols& chain = *derivation_.chain;
+    const auto without = [&](const std::string& source, const std::vector<ex>& symbols) {
+      NumericState changed = state;
+      changed.assignments.push_back("without " + source);
+      for (const ex& symbol : symbols)
+        if (changed.values.count(symbol) != 0) changed.values[symbol] = 0;
+      return agrees(changed);
+    };
+    std::vector<std::string> result;
+    const auto look_at = [&](const std::string& source, const std::vector<ex>& symbols) {
+      if (without(source, symbols)) result.push_back(source);
+    };
+    look_at("gravity", {chain.gravity});
+    look_at("the centrifugal terms or the dampers", chain.rate);
+    for (const auto& [source, family] :
+         {std::pair<std::string, const std::vector<ex>&>{"spring of joint ", chain.stiffness},
+          {"damper of joint ", chain.damping},
+          {"torque T_", chain.torque},
+          {"rotational energy of link ", chain.inertia}}) {
+      if (!without("any " + source, family)) continue;  // saves looking at each
+      for (std::size_t j = 1; j < family.size(); ++j)
+        look_at(source + std::to_string(j), {family[j]});
+    }
+    for (std::size_t j = 1; j < chain.mass.size(); ++j)
+      look_at("link " + std::to_string(j), {chain.mass[j], chain.inertia[j]});
+    look_at("the load", {chain.load_mass});
+    return result;
+  }
+
+  Motion& motion() {
+    if (!motion_) {
+      std::vector<ex> equations;
+      for (const Entry& entry : derivation_.entries)
+        if (entry.quantity == Quantity::kEquation)
+          equations.push_back(given(entry.value - entry.right));
+      motion_ = std::make_unique<Motion>(*derivation_.chain, *model_, derivation_.given, equations,
+                                         seed_);
+    }
+    return *motion_;
   }
 
   /// Constants c with dh = c dr for the torque and the acceleration of the row, and 1, -1.
@@ -461,12 +549,13 @@ class Comparison {
   const Derivation& derivation_;
   std::uint64_t seed_;
   std::unique_ptr<FlatDerivation> model_;
+  std::unique_ptr<Motion> motion_;  // for the equations that need it
 };
 
 }  // namespace
 
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed) {
-  const Comparison comparison(derivation, seed);
+  Comparison comparison(derivation, seed);
   std::vector<Finding> result;
   for (const Entry& entry : derivation.entries) result.push_back(comparison.of(entry));
   return result;

@@ -13,7 +13,7 @@
 namespace catena::checking {
 
 enum class Verdict {
-  kEqual,      ///< proved
+  kEqual,      ///< proved, or by evaluation
   kDifferent,  ///< disproved, or beyond what is decided but different at a state to many digits
   kUndecided   ///< beyond what is decided, and equal at every state tried
 };
@@ -21,6 +21,7 @@ enum class Verdict {
 /// What is known about one entry.
 struct Finding {
   Verdict verdict = Verdict::kUndecided;
+  bool by_evaluation = false;        ///< equal at a random point, exactly: exact_form.hpp
   std::string remark;                ///< in what sense equal, or why undecided; may be empty
   std::string difference;            ///< by hand minus model (or left minus right), readable
   std::string simplest;              ///< the shortest term of a long difference, else empty

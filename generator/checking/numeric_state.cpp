@@ -6,9 +6,11 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "generator/checking/expression_text.hpp"
+#include "generator/checking/shared_tree.hpp"
 
 namespace catena::checking {
 namespace {
@@ -21,12 +23,18 @@ std::string name_of_symbol(const GiNaC::ex& symbol) {
 
 }  // namespace
 
+const GiNaC::numeric& closeness() {
+  static const GiNaC::numeric value = GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(-40));
+  return value;
+}
+
 std::vector<GiNaC::ex> symbols_in(const std::vector<GiNaC::ex>& expressions) {
   std::map<SymbolOrder, GiNaC::ex> found;
   for (const GiNaC::ex& expression : expressions)
-    for (GiNaC::const_preorder_iterator i = expression.preorder_begin();
-         i != expression.preorder_end(); ++i)
-      if (GiNaC::is_a<GiNaC::symbol>(*i)) found.emplace(SymbolOrder(name_of_symbol(*i)), *i);
+    for_each_part(expression, [&](const GiNaC::ex& part) {
+      if (GiNaC::is_a<GiNaC::symbol>(part)) found.emplace(SymbolOrder(name_of_symbol(part)), part);
+      return true;
+    });
   std::vector<GiNaC::ex> result;
   for (const auto& [order, symbol] : found) result.push_back(symbol);
   return result;
@@ -48,17 +56,45 @@ NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t s
   return state;
 }
 
-std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state) {
+std::optional<GiNaC::numeric> Evaluation::operator()(const GiNaC::ex& expression) {
   GiNaC::Digits = kStateDigits;
   try {
-    const GiNaC::ex value = expression.subs(state.values, GiNaC::subs_options::no_pattern).evalf();
-    if (!GiNaC::is_a<GiNaC::numeric>(value)) return std::nullopt;
-    const GiNaC::numeric number = GiNaC::ex_to<GiNaC::numeric>(value);
+    const GiNaC::numeric number = value_of(expression);
     if (!number.is_real()) return std::nullopt;
     return number;
   } catch (const std::exception&) {  // a pole at this state, or a domain left
     return std::nullopt;
   }
+}
+
+GiNaC::numeric Evaluation::value_of(const GiNaC::ex& e) {
+  using GiNaC::ex_to, GiNaC::is_a, GiNaC::numeric;
+  if (is_a<numeric>(e)) return ex_to<numeric>(e);
+  const auto known = values_.find(e);
+  if (known != values_.end()) return ex_to<numeric>(known->second);
+  numeric result;
+  if (is_a<GiNaC::add>(e)) {
+    for (const GiNaC::ex& term : e) result = result + value_of(term);
+  } else if (is_a<GiNaC::mul>(e)) {
+    result = 1;
+    for (const GiNaC::ex& factor : e) result = result * value_of(factor);
+  } else if (is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
+    result = GiNaC::pow(value_of(e.op(0)), ex_to<numeric>(e.op(1)));
+  } else {  // a function, a root, pi
+    GiNaC::exmap arguments;
+    for (const GiNaC::ex& argument : e) arguments[argument] = value_of(argument);
+    const GiNaC::ex value = Replacement(arguments)(e).evalf();
+    if (!is_a<numeric>(value)) throw std::domain_error("a symbol without a value");
+    result = ex_to<numeric>(value);
+  }
+  values_[e] = result;
+  return result;
+}
+
+std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state) {
+  const std::optional<GiNaC::numeric> value = Evaluation(state.values)(expression);
+  if (!value) return std::nullopt;
+  return GiNaC::ex_to<GiNaC::numeric>(GiNaC::ex(*value).evalf());
 }
 
 }  // namespace catena::checking

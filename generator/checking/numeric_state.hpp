@@ -6,12 +6,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace catena::checking {
 
 /// Working precision of evaluate_at, decimal digits.
 inline constexpr int kStateDigits = 60;
+
+/// kStateDigits less what cancellation may eat: values closer than this count as equal at a state.
+const GiNaC::numeric& closeness();
 
 /// Values for symbols at which two expressions are compared.
 struct NumericState {
@@ -25,6 +29,19 @@ std::vector<GiNaC::ex> symbols_in(const std::vector<GiNaC::ex>& expressions);
 /// Seeded values with two decimals: positive symbols within 0.1..3, others within -3..3. The same
 /// seed and symbols give the same state.
 NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t seed);
+
+/// Values of expressions at one point, each distinct part computed once: rational operations of
+/// rational values exactly, functions to kStateDigits.
+class Evaluation {
+ public:
+  explicit Evaluation(GiNaC::exmap values) : values_(std::move(values)) {}
+  /// Nothing at a pole, outside a domain and for symbols without a value.
+  std::optional<GiNaC::numeric> operator()(const GiNaC::ex& expression);
+
+ private:
+  GiNaC::numeric value_of(const GiNaC::ex& expression);
+  GiNaC::exmap values_;
+};
 
 /// The value to kStateDigits, or nothing where it is not a real number.
 std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state);

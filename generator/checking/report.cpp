@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <map>
 
+#include "generator/checking/exact_form.hpp"
+
 namespace catena::checking {
 namespace {
 
 std::string verdict_text(const Finding& finding) {
-  if (finding.verdict == Verdict::kEqual) return "equal";
+  if (finding.verdict == Verdict::kEqual)
+    return finding.by_evaluation ? "equal by evaluation" : "equal";
   return finding.verdict == Verdict::kDifferent ? "different" : "undecided";
 }
 
@@ -112,19 +115,25 @@ std::string report(const std::string& file, const Derivation& derivation,
   std::size_t width = 0;
   for (const Entry& entry : derivation.entries) width = std::max(width, entry.label.size());
   std::map<Verdict, int> count;
+  int evaluated = 0;
   for (std::size_t i = 0; i < findings.size(); ++i) {
     text += paragraph(derivation.entries[i], findings[i], width);
-    ++count[findings[i].verdict];
+    ++(findings[i].by_evaluation ? evaluated : count[findings[i].verdict]);
   }
   std::string remarks;
   if (derivation.chain)
     for (const Quantity quantity : {Quantity::kMass, Quantity::kDamping, Quantity::kStiffness})
       remarks += matrix_remarks(derivation, findings, quantity);
   if (derivation.chain) remarks += equations_remark(derivation, findings);
+  if (evaluated > 0)
+    remarks += "equal by evaluation: too long to be expanded; the exact values at a random point are "
+               "the same, which for\ndifferent expressions has a chance below 2^-" +
+               std::to_string(kCertainty) + "\n";
   for (const std::string& note : derivation.notes) remarks += note + "\n";
   if (!remarks.empty()) text += "\n" + remarks;
   return text + "\n" + std::to_string(findings.size()) +
          " checked: " + std::to_string(count[Verdict::kEqual]) + " equal (proved), " +
+         (evaluated > 0 ? std::to_string(evaluated) + " equal by evaluation, " : "") +
          std::to_string(count[Verdict::kDifferent]) + " different, " +
          std::to_string(count[Verdict::kUndecided]) + " undecided\n";
 }
