@@ -33,7 +33,7 @@ constexpr int kStates = 24;
 constexpr int kMostCompared = 12;
 
 // Proofs that would take more products than this, which is a few seconds, are left to evaluation.
-constexpr double kMostExpanded = 5.2e5;
+constexpr double kMostExpanded = 5.5e5;
 
 // The difference of an equation of more products than this is not written out.
 constexpr double kMostWritten = 2e4;

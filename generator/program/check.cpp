@@ -35,7 +35,7 @@ std::string contents_of(const std::string& file) {
   return text;
 }
 
-/// 0 if every entry is proved equal, 1 if one is different or undecided.
+/// 0 if every entry is equal, 1 if one is different or undecided.
 int check(const CheckOptions& options) {
   using namespace checking;
   const Derivation derivation = evaluate(parse_derivation(contents_of(options.file), options.file),
@@ -60,7 +60,7 @@ void add_check_command(CLI::App& app, int& status) {
   command->add_option("--seed", options->seed, "selects the numeric states shown")
       ->capture_default_str();
   command->footer(
-      "Exit status: 0 all proved equal, 1 something different or undecided, 2 wrong\ninput.\n"
+      "Exit status: 0 all equal, 1 something different or undecided, 2 wrong\ninput.\n"
       "Example: catena check examples/derivations/chapter_3_two_links.txt");
   command->callback([options, &status] { status = check(*options); });
 }

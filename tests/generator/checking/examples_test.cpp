@@ -34,6 +34,8 @@ const std::vector<Row>& rows() {
                                          {"stiffness_4_11_mended.txt", 32, 0, 0},
                                          {"coriolis_4_12.txt", 5, 0, 0},
                                          {"gravity_4_23.txt", 5, 0, 0},
+                                         {"accelerations_by_cofactors.txt", 4, 0, 0},
+                                         {"accelerations_by_elimination.txt", 4, 0, 0},
                                          {"lagrangian_2_9.txt", 0, 1, 0},
                                          {"lagrangian_2_9_mended.txt", 7, 0, 0},
                                          {"catenary_2_32_2_33.txt", 1, 1, 0},
@@ -52,6 +54,8 @@ TEST_CASE("the shipped examples get their verdicts") {
     CHECK(result.count(Verdict::kEqual) == row.equal);
     CHECK(result.count(Verdict::kDifferent) == row.different);
     CHECK(result.count(Verdict::kUndecided) == row.undecided);
+    for (const Finding& finding : result.findings)
+      CHECK(finding.by_evaluation == (row.file == "accelerations_by_elimination.txt"));
   }
 }
 
@@ -73,6 +77,16 @@ TEST_CASE("the general forms hold for other numbers of links") {
       const Checked result = checked(example(file), links);
       CHECK(result.count(Verdict::kEqual) == static_cast<int>(result.findings.size()));
     }
+  }
+}
+
+TEST_CASE("accelerations by elimination are proved or evaluated") {
+  for (const int links : {2, 3, 4, 6, 12}) {
+    INFO(links << " links");
+    const Checked result = checked(example("accelerations_by_elimination.txt"), links);
+    CHECK(result.count(Verdict::kEqual) == links);
+    for (const Finding& finding : result.findings) CHECK(finding.by_evaluation == (links > 2));
+    CHECK(independent_equations(result.findings, links) == links);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generator/checking/lexer.hpp"
@@ -70,6 +71,22 @@ std::string mutated(const std::string& text, const Mutation& mutation) {
                         mutation.replacement);
 }
 
+/// x of A x = b, A positive definite.
+template <class Matrix>
+std::vector<double> solved(Matrix a, std::vector<double> b) {
+  for (std::size_t k = 0; k < b.size(); ++k)
+    for (std::size_t i = k + 1; i < b.size(); ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < b.size(); ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for (std::size_t k = b.size(); k-- > 0;) {
+    for (std::size_t j = k + 1; j < b.size(); ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
 /// A state in doubles, and the closed forms there.
 class ClosedForms {
  public:
@@ -117,6 +134,15 @@ class ClosedForms {
       case Quantity::kGravity:
         return gravity[row];
       case Quantity::kEquation: {
+        if (entry.label.rfind("thetaddot", 0) == 0) {
+          std::vector<double> right;
+          for (std::size_t i = 0; i < angle_.size(); ++i) {
+            right.push_back(torque_[i] - coriolis[i] - gravity[i]);
+            for (std::size_t j = 0; j < angle_.size(); ++j)
+              right[i] -= damping[i][j] * rate_[j] + stiffness[i][j] * angle_[j];
+          }
+          return acceleration_[row] - solved(mass, right)[row];
+        }
         double sum = coriolis[row] + gravity[row] - torque_[row];
         for (std::size_t j = 0; j < angle_.size(); ++j)
           sum += mass[row][j] * acceleration_[j] + damping[row][j] * rate_[j] +
@@ -213,6 +239,72 @@ TEST_CASE("seeded mistakes are found, and only where they are") {
   CHECK(caught.size() == 5);
   MESSAGE(total << " mutants confirmed wrong and found");
   CHECK(total >= 30);
+}
+
+TEST_CASE("mistakes before and in an elimination of four links are found in the accelerations") {
+  const std::string lagrangian = example("chapter_3_four_links.txt");
+  const std::string elimination =
+      "for i = 1..n\n"
+      "  b[i] = -E[i]\n"
+      "  for j = 1..n\n"
+      "    A[i,j] = diff(E[i], thetaddot_j)\n"
+      "    b[i] = at(b[i], thetaddot_j, 0)\n"
+      "  end\n"
+      "end\n"
+      "for k = 1..n-1\n"
+      "  for i = k+1..n\n"
+      "    factor = A[i,k]/A[k,k]\n"
+      "    A[i,j] = A[i,j] - factor*A[k,j] for j = k+1..n\n"
+      "    b[i] = b[i] - factor*b[k]\n"
+      "  end\n"
+      "end\n"
+      "for r = 0..n-1\n"
+      "  i = n - r\n"
+      "  a[i] = (b[i] - sum(j = i+1..n, A[i,j]*a[j]))/A[i,i]\n"
+      "  thetaddot[i] = a[i]\n"
+      "end\n";
+  std::vector<std::string> mutants;
+  std::mt19937_64 random(20191108);
+  const std::string energies = lagrangian.substr(0, lagrangian.find("\n# Euler"));
+  const std::vector<Mutation> all = mutations_of(energies, 4);
+  for (const Mistake mistake : {Mistake::kSign, Mistake::kIndex, Mistake::kFactor,
+                                Mistake::kSineForCosine, Mistake::kMissingMass}) {
+    std::vector<Mutation> candidates;
+    for (const Mutation& mutation : all)
+      if (mutation.mistake == mistake) candidates.push_back(mutation);
+    for (int i = 0; i < 5; ++i)
+      mutants.push_back(
+          left_sides(mutated(lagrangian, candidates[random() % candidates.size()])) + elimination);
+  }
+  for (const auto& [right, wrong] : std::vector<std::pair<std::string, std::string>>{
+           {"= -E[i]", "= E[i]"},
+           {"factor = A[i,k]/A[k,k]", "factor = A[k,i]/A[i,i]"},
+           {"- factor*A[k,j]", "+ factor*A[k,j]"},
+           {"- factor*b[k]", "- 2*factor*b[k]"},
+           {"sum(j = i+1..n,", "sum(j = i+2..n,"},
+           {"b[i] - sum(", "b[i] + sum("}}) {
+    std::string text = elimination;
+    text.replace(text.find(right), right.size(), wrong);
+    mutants.push_back(left_sides(lagrangian) + text);
+  }
+  int caught = 0;
+  for (const std::string& mutant : mutants) {
+    INFO(mutant);
+    const Checked result = checked(mutant);
+    const std::set<std::string> wrong = wrong_entries(result.derivation, random());
+    for (std::size_t k = 0; k < result.findings.size(); ++k) {
+      const Entry& entry = result.derivation.entries[k];
+      if (entry.quantity == Quantity::kLagrangian) continue;
+      const Finding& finding = result.findings[k];
+      const bool is_wrong = wrong.count(entry.label) == 1;
+      INFO(entry.label);
+      CHECK(finding.verdict == (is_wrong ? Verdict::kDifferent : Verdict::kEqual));
+      CHECK(is_wrong == (finding.value != finding.expected));
+    }
+    if (!wrong.empty()) ++caught;
+  }
+  MESSAGE(caught << " of " << mutants.size() << " mutants confirmed wrong and found");
+  CHECK(caught >= 25);
 }
 
 TEST_CASE("a mistake is named by where it sits") {

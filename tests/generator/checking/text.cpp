@@ -18,6 +18,15 @@ std::string example(const std::string& name) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+std::string left_sides(const std::string& text) {
+  return text.substr(text.find('\n'), text.find("\n# Euler") - text.find('\n')) +
+         "\ndissipation = sum(j = 1..n, c_j*(thetadot[j] - thetadot[j-1])^2/2)\n"
+         "for i = 1..n\n"
+         "  E[i] = ddt(diff(L, thetadot_i)) - diff(L, theta_i) - T_i + "
+         "diff(dissipation, thetadot_i)\n"
+         "end\n";
+}
+
 int Checked::count(Verdict verdict) const {
   return static_cast<int>(
       std::count_if(findings.begin(), findings.end(),

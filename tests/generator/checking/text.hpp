@@ -15,6 +15,10 @@ using namespace catena::checking;
 /// The text of examples/derivations/NAME.
 std::string example(const std::string& name);
 
+/// The left sides E[i] of the equations of motion E[i] = 0, from the Lagrangian of an example of
+/// chapter 3.
+std::string left_sides(const std::string& lagrangian);
+
 /// A derivation and what is found about it.
 struct Checked {
   Derivation derivation;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/checking/exact_form.hpp"
+
+#include <doctest/doctest.h>
+
+#include "generator/checking/numeric_state.hpp"
+
+using namespace catena::checking;
+using GiNaC::ex;
+
+namespace {
+
+const GiNaC::realsymbol x("x"), y("y");
+
+std::optional<GiNaC::numeric> value(const ex& e, int bits) {
+  ExactForm form({e});
+  const std::optional<ex> rational = form(e);
+  REQUIRE(rational);
+  return Evaluation(form.point({*rational}, bits, 1))(*rational);
+}
+
+}  // namespace
+
+TEST_CASE("identities are exactly zero at a random point, others exactly not") {
+  const ex half = cos(x / 2), product = cos(x) * cos(y) + sin(x) * sin(y);
+  CHECK(value(pow(sin(x), 2) + pow(cos(x), 2) - 1, 128)->is_zero());
+  CHECK(value(1 + cos(x) - 2 * half * half, 128)->is_zero());
+  CHECK(value((cos(x - y) - product) * y / (x + sin(x)), 128)->is_zero());
+  CHECK(value(exp(x) * exp(-x / 2) - exp(x / 2), 128)->is_zero());
+  CHECK_FALSE(value(1 + cos(x) - 2 * half, 128)->is_zero());
+  CHECK_FALSE(value(sin(x) - x, 128)->is_zero());  // the angle and its sine are independent
+  CHECK_FALSE(value(product - cos(x + y), 128)->is_zero());
+}
+
+TEST_CASE("degrees bound what a fraction has in all its variables") {
+  const ExactForm form({x});
+  const Degree sum = form.degree(pow(x + y, 3) + x / y + 1);
+  CHECK(sum.numerator >= 4);  // ((x + y)^3 y + x + y)/y
+  CHECK(sum.denominator == 1);
+  const Degree inverse = form.degree(pow(x * x + y, -2));
+  CHECK(inverse.numerator == 0);
+  CHECK(inverse.denominator == 4);
+  ExactForm circular({sin(x)});
+  CHECK(circular.degree(*circular(pow(sin(x), 3))).numerator >= 3);  // (2 t)^3/(1 + t^2)^3
+  CHECK(circular.degree(*circular(pow(sin(x), 3))).denominator == 6);
+}
+
+TEST_CASE("what is not rational has no exact value") {
+  for (const ex& e : {ex(log(x * x + 1)), ex(sqrt(x * x + 1)), ex(abs(x)), ex(sqrt(ex(2)))})
+    CHECK_FALSE(ExactForm({e})(e));
+}
