@@ -364,8 +364,9 @@ class Comparison {
     Finding finding;
     if (chain.links > kMostCompared) {
       if (!must_be_judged) return std::nullopt;
-      finding.remark = "too long to be expanded; such equations are compared with the motion of up "
-                       "to " + std::to_string(kMostCompared) + " links";
+      finding.remark =
+          "solved equations and those too long to be expanded are compared with the motion of up to " +
+          std::to_string(kMostCompared) + " links";
       return finding;
     }
     const NumericState state = common_state();
