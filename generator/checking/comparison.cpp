@@ -2,12 +2,10 @@
 #include "generator/checking/comparison.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +14,7 @@
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/flat_derivation.hpp"
 #include "generator/checking/motion.hpp"
+#include "generator/checking/motion_comparison.hpp"
 #include "generator/checking/normal_form.hpp"
 #include "generator/checking/numeric_state.hpp"
 #include "generator/checking/shared_tree.hpp"
@@ -25,9 +24,6 @@ namespace {
 
 using GiNaC::ex;
 using GiNaC::numeric;
-
-// States tried before two sides that are not proved different count as numerically equal.
-constexpr int kStates = 24;
 
 // Equations that are not proved are held against the motion of so many links at most.
 constexpr int kMostCompared = 12;
@@ -43,13 +39,6 @@ constexpr std::size_t kShortFactor = 40;
 
 // A difference of more parts than this is shown by its shortest part as well.
 constexpr std::size_t kShortDifference = 3;
-
-std::string twelve_digits(const numeric& value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value.to_double();
-  return text.str();
-}
 
 bool is_sum(const std::string& text) {
   int depth = 0;
@@ -384,87 +373,15 @@ class Comparison {
     finding.verdict = obeyed ? Verdict::kDifferent : Verdict::kUndecided;
     if (solved == 0) {
       finding.remark = "left - right at the chain's accelerations, which should be 0";
-      compare_motions(hand, finding);
+      compare_with_motion(hand, 0, motion(), chain, seed_, finding);
     } else {
       finding.remark =
           "compared with the chain's equations solved for thetaddot_" + std::to_string(solved);
       const auto k = static_cast<std::size_t>(solved);
-      compare_motions(chain.acceleration[k] - hand / (*slope)[k - 1], finding, solved);
+      compare_with_motion(chain.acceleration[k] - hand / (*slope)[k - 1], solved, motion(), chain,
+                          seed_, finding);
     }
     return finding;
-  }
-
-  /// What an expression, which should be 0 or thetaddot_k, comes to along the chain's motion.
-  void compare_motions(const ex& hand, Finding& finding, int k = 0) {
-    const ChainSymbols& chain = *derivation_.chain;
-    using Values = std::pair<numeric, numeric>;  // by hand, the chain's
-    const auto values_at = [&](const NumericState& state) -> std::optional<Values> {
-      const std::optional<Motion::Vector>& there = motion().accelerations(state);
-      if (!there) return std::nullopt;
-      GiNaC::exmap moving = state.values;
-      for (std::size_t j = 0; j < there->size(); ++j) moving[chain.acceleration[j + 1]] = (*there)[j];
-      const std::optional<numeric> yours = Evaluation(moving)(hand);
-      if (!yours) return std::nullopt;
-      return Values(*yours, k == 0 ? 0 : (*there)[static_cast<std::size_t>(k) - 1]);
-    };
-    const auto agree = [](const Values& values) {
-      return GiNaC::abs(values.first - values.second) <=
-             closeness() * (1 + GiNaC::abs(values.first) + GiNaC::abs(values.second));
-    };
-    int real = 0;
-    for (std::uint64_t attempt = 0; attempt < kStates; ++attempt) {
-      const NumericState state = random_state(motion().symbols(), seed_ + attempt);
-      const std::optional<Values> values = values_at(state);
-      if (!values) continue;
-      ++real;
-      if (agree(*values)) continue;
-      finding.verdict = Verdict::kDifferent;
-      finding.state = state.assignments;
-      finding.value = twelve_digits(values->first);
-      finding.expected = twelve_digits(values->second);
-      finding.origins = sources_without_which(state, [&](const NumericState& without) {
-        const std::optional<Values> left = values_at(without);
-        return left && agree(*left);
-      });
-      return;
-    }
-    if (real == 0) {
-      finding.remark += "; no state tried gave real numbers";
-    } else if (finding.verdict == Verdict::kUndecided) {
-      finding.remark += "; both agree to 40 digits at " + std::to_string(real) + " random states";
-    }
-  }
-
-  /// The sources of which each alone, taken away from a state, makes something agree.
-  std::vector<std::string> sources_without_which(
-      const NumericState& state, const std::function<bool(const NumericState&)>& agrees) const {
-    const ChainSymbols& chain = *derivation_.chain;
-    const auto without = [&](const std::string& source, const std::vector<ex>& symbols) {
-      NumericState changed = state;
-      changed.assignments.push_back("without " + source);
-      for (const ex& symbol : symbols)
-        if (changed.values.count(symbol) != 0) changed.values[symbol] = 0;
-      return agrees(changed);
-    };
-    std::vector<std::string> result;
-    const auto look_at = [&](const std::string& source, const std::vector<ex>& symbols) {
-      if (without(source, symbols)) result.push_back(source);
-    };
-    look_at("gravity", {chain.gravity});
-    look_at("the centrifugal terms or the dampers", chain.rate);
-    for (const auto& [source, family] :
-         {std::pair<std::string, const std::vector<ex>&>{"spring of joint ", chain.stiffness},
-          {"damper of joint ", chain.damping},
-          {"torque T_", chain.torque},
-          {"rotational energy of link ", chain.inertia}}) {
-      if (!without("any " + source, family)) continue;  // saves looking at each
-      for (std::size_t j = 1; j < family.size(); ++j)
-        look_at(source + std::to_string(j), {family[j]});
-    }
-    for (std::size_t j = 1; j < chain.mass.size(); ++j)
-      look_at("link " + std::to_string(j), {chain.mass[j], chain.inertia[j]});
-    look_at("the load", {chain.load_mass});
-    return result;
   }
 
   Motion& motion() {

@@ -15,6 +15,9 @@ using GiNaC::ex;
 using GiNaC::numeric;
 using Vector = Motion::Vector;
 
+// Degrees that ask for points of larger numbers are left undecided.
+constexpr double kMostBits = 4096;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// x of A x = b by elimination, exactly if the numbers are exact; nothing if A is singular.
@@ -135,6 +138,7 @@ std::optional<bool> Motion::is_obeyed(const ex& h) {
   const Degree degree = exact_->degree(*rational, known);
   // One bit more, as poles are left out; whole words, so that equations share their points.
   const double bits = std::log2(degree.numerator + degree.denominator + 1) + kCertainty + 1;
+  if (bits > kMostBits) return std::nullopt;
   std::optional<Evaluation>& here = point(static_cast<int>(std::ceil(bits / 64)) * 64);
   if (!here) return std::nullopt;
   const std::optional<numeric> value = (*here)(*rational);

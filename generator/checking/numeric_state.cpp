@@ -97,4 +97,11 @@ std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const Num
   return GiNaC::ex_to<GiNaC::numeric>(GiNaC::ex(*value).evalf());
 }
 
+std::string twelve_digits(const GiNaC::numeric& value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value.to_double();
+  return text.str();
+}
+
 }  // namespace catena::checking

@@ -17,6 +17,9 @@ inline constexpr int kStateDigits = 60;
 /// kStateDigits less what cancellation may eat: values closer than this count as equal at a state.
 const GiNaC::numeric& closeness();
 
+/// States tried before two sides that are not proved different count as numerically equal.
+inline constexpr int kStates = 24;
+
 /// Values for symbols at which two expressions are compared.
 struct NumericState {
   GiNaC::exmap values;
@@ -45,5 +48,8 @@ class Evaluation {
 
 /// The value to kStateDigits, or nothing where it is not a real number.
 std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state);
+
+/// For a reader.
+std::string twelve_digits(const GiNaC::numeric& value);
 
 }  // namespace catena::checking
