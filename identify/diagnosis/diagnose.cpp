@@ -25,7 +25,8 @@ constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
 constexpr double kNotWorse = 1.05;   // held-out error of a better model, over that of the present one
-constexpr std::size_t kTriedWithMoreLinks = 3;
+constexpr std::size_t kTriedWithMoreLinks = 3, kFirstsOfPairs = 4;
+constexpr int kSecondsOfPairs = 3;
 constexpr int kRounds = 2, kMostSwaps = 3;
 
 class Physician {
@@ -39,11 +40,10 @@ class Physician {
     hold_out(study, workshop_, result_.notes);
     workshop_.say("fitting the baseline");
     enter(fit_baseline(for_the_search(study), workshop_), {}, "");
-    // What looking back changed may make room for more, or need more links.
-    for (int round = 0; round < kRounds; ++round) {
-      look_for_effects();
-      if (result_.effects.empty() || !look_back() || !gap_left(stage())) break;
-    }
+    look_ahead_and_back();
+    // One after the other two effects may both be missed: neither is worth much alone, or a third
+    // imitates both.
+    if (!explained() && add_pair()) look_ahead_and_back();
     conclude(result_, study, workshop_);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -84,6 +84,20 @@ class Physician {
   }
 
   bool far() { return stage().fit.ratio() > kFarGap; }
+
+  bool explained() {
+    return !gap_left(stage()) ||
+           (stage().fit.ratio() <= kClosed && !only_imitated(result_.stages, stage().fit) &&
+            (stage().held_out.count == 0 || stage().held_out.ratio() <= kClosedHeldOut));
+  }
+
+  void look_ahead_and_back() {
+    // What looking back changed may make room for more, or need more links.
+    for (int round = 0; round < kRounds; ++round) {
+      look_for_effects();
+      if (result_.effects.empty() || !look_back() || !gap_left(stage())) break;
+    }
+  }
 
   void look_for_effects() {
     for (;;) {
@@ -157,6 +171,96 @@ class Physician {
     }
     enter(trimmed(best->model), with(stage().effects, best->id), best->id);
     return true;
+  }
+
+  /// Two effects, and the models on the way to them.
+  struct Pair {
+    Explanation first, second;
+    std::vector<Explanation> beside;  // the first
+    FittedModel finer;                // the pair with more links, where that was tried
+
+    const FittedModel& best() const { return finer.ok ? finer : second.model; }
+  };
+
+  /// Two effects at once: each of those that left least when no effect was there yet, and what is
+  /// best beside it. Enters the best such pair if it leaves less than what there is, predicts what no
+  /// fit has seen as well, and neither of the two is needless.
+  bool add_pair() {
+    if (options_.max_effects < 2) return false;
+    std::size_t bare = result_.stages.size() - 1;
+    while (!result_.stages[bare].effects.empty()) --bare;
+    const Stage base = result_.stages[bare];
+    std::vector<Pair> pairs = pairs_on(base);
+    const Pair* best = nullptr;
+    for (const Pair& pair : pairs)
+      if (!best || squares(pair.best()) < squares(best->best())) best = &pair;
+    if (!best || squares(best->best()) >= squares(stage().model)) return false;
+    const GapTest held_out = held_out_gap(best->best(), result_.floors);
+    if (held_out.count > 0 && held_out.rms > kNotWorse * stage().held_out.rms) return false;
+    enter(best->first.model, {best->first.id}, best->first.id, listed_ids(stage().effects));
+    stage().explanations = best->beside;
+    enter(trimmed(best->second.model), {best->first.id, best->second.id}, best->second.id);
+    if (best->finer.ok) enter(best->finer, stage().effects, kTooFewLinks);
+    result_.effects = stage().effects;
+    return true;
+  }
+
+  /// The best pairs on a model without effects that chance does not explain, without those that were
+  /// looked at already.
+  std::vector<Pair> pairs_on(const Stage& base) {
+    std::vector<Explanation> firsts;
+    for (const Explanation& each : base.explanations)
+      if (each.refitted && each.candidate >= 0 && each.comparison.misfit_share > kWorthwhile &&
+          !looked_beside(each.id, base.links))
+        firsts.push_back(each);
+    std::stable_sort(firsts.begin(), firsts.end(), [&](const auto& a, const auto& b) {
+      return squares(a.model) < squares(b.model);
+    });
+    firsts.resize(std::min<std::size_t>(firsts.size(), kFirstsOfPairs));
+    std::vector<Pair> pairs;
+    const double ways = std::pow(std::max(1, result_.tried), 2);
+    for (const Explanation& first : firsts) {
+      workshop_.say("scoring what may be missing beside " + first.id);
+      Search search(workshop_, first.model, {first.id}, result_.floors);
+      std::vector<Explanation> beside = search.score(false);
+      search.refit_best(beside, kSecondsOfPairs, false);
+      workshop_.stop_if_asked();
+      for (const Explanation& second : beside) {
+        if (!second.refitted || second.candidate < 0 ||
+            second.comparison.misfit_share < kWorthwhile)
+          continue;
+        const Comparison both = compare(base.model, second.model, result_.floors);
+        const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+          return pair.first.id == second.id && pair.second.id == first.id;
+        });
+        if (!known && both.criterion < 0 && both.log10_p + std::log10(ways) < kCertain)
+          pairs.push_back({first, second, beside, {}});
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) {
+      return squares(a.second.model) < squares(b.second.model);
+    });
+    pairs.resize(std::min(pairs.size(), kTriedWithMoreLinks));
+    const int links = std::min(2 * base.links, options_.max_links);
+    const bool closed = !pairs.empty() && pairs.front().second.fit.ratio() <= kClosed;
+    if (closed || links <= base.links) return pairs;
+    in_parallel(pairs.size(), workshop_.threads, [&](std::size_t k) {
+      Pair& pair = pairs[k];
+      pair.finer = refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id},
+                                       workshop_);
+    });
+    workshop_.stop_if_asked();
+    for (Pair& pair : pairs)
+      if (pair.finer.ok && squares(pair.finer) >= squares(pair.second.model)) pair.finer = {};
+    return pairs;
+  }
+
+  /// Whether something was sought beside that effect alone.
+  bool looked_beside(const std::string& id, int links) {
+    return std::any_of(result_.stages.begin(), result_.stages.end(), [&](const Stage& each) {
+      return each.effects == std::vector<std::string>{id} && each.links == links &&
+             !each.explanations.empty();
+    });
   }
 
   /// The few effects that left least, but `except`, each added to `effects` and refitted with so
@@ -398,11 +502,11 @@ class Physician {
         successor = &explanation;
       // Of two that explain the same, one inside the other, the smaller has the name; of two laws
       // of one effect, the one that the other is declared a form of.
-      if (effect && !successor && !decision.decided && named.effect.form_of == effect->id &&
-          acceptable(explanation))
+      const Model all = workshop_.model_with_all(stage().links);
+      if (effect && !successor && !decision.decided && acceptable(explanation) &&
+          (named.effect.form_of == effect->id || is_special_case(*effect, named, all)))
         successor = &explanation;
-      const bool contains =
-          effect && is_special_case(named, *effect, workshop_.model_with_all(stage().links));
+      const bool contains = effect && is_special_case(named, *effect, all);
       const bool form = effect && effect->effect.form_of == id;
       (decision.decided || contains ? result_.runners_up
        : form                       ? result_.forms

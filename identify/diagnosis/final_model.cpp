@@ -207,8 +207,11 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& worksho
   FittedModel refitted =
       fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
                 workshop.least_squares, workshop.stop);
+  // A fit that cannot leave its start is there already.
   if (!refitted.ok)
-    throw std::runtime_error("the final model could not be fitted: " + refitted.message);
+    refitted = assess(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem));
+  if (!refitted.ok)
+    throw std::runtime_error("the final model cannot be simulated: " + refitted.message);
   diagnosis.final = std::move(refitted);
 }
 

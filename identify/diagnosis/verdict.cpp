@@ -14,14 +14,14 @@ constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothi
 constexpr double kVisible = 1.07;         // residual over noise above which what is left counts
 constexpr double kImitated = 0.02;        // of the squared misfit before the first effect
 
+}  // namespace
+
 std::string listed_ids(const std::vector<std::string>& ids) {
   std::string text;
   for (std::size_t i = 0; i < ids.size(); ++i)
     text += (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") + ids[i];
   return text;
 }
-
-}  // namespace
 
 bool gap_left(const Stage& stage) {
   return stage.fit.present || (stage.held_out.count > 0 && stage.held_out.ratio() > kClosedHeldOut);

@@ -18,6 +18,9 @@ bool trace_left(const Stage& stage);
 /// leave a trace of it, from what their laws get slightly wrong. `last`: with them, fitted again.
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
 
+/// "a, b and c".
+std::string listed_ids(const std::vector<std::string>& ids);
+
 /// Fits the final model as `asked` says and tells what the stages amount to.
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop);
 
