@@ -13,6 +13,7 @@
 #pragma once
 
 #include "dense.hpp"
+#include "lanes.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
 #include "semiseparable.hpp"

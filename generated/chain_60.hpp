@@ -13,6 +13,7 @@
 #pragma once
 
 #include "dense.hpp"
+#include "lanes.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
 #include "semiseparable.hpp"
@@ -805,6 +806,160 @@ int acceleration(const Point<T>& at, T* a) {
         + load_mass);
     a[59] = torque[60] - joint_moment[60] + length[60] * (sine[60] * span_down_force_bias
         - cosine[60] * span_side_force_bias);
+  }
+  return matrix.solve(a);
+}
+
+/// The same, bit for bit, in the order that suits a T of several numbers.
+/// 1249 additions, 1680 multiplications, 0 divisions, 0 functions
+template <class T>
+int accelerations(const Point<T>& at, T* a) {
+  MassMatrix<T> matrix;
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 60);
+  const FromOne<T> inertia(at.p + 120);
+  const FromOne<T> stiffness(at.p + 180);
+  const FromOne<T> damping(at.p + 240);
+  const FromOne<T> torque(at.p + 300);
+  const T load_mass = at.p[360];
+  const T gravity = at.p[361];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  T sine[61], cosine[61];
+  sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
+  T joint_moment[61];
+  T span_down_acceleration_bias_last;
+  T joint_down_acceleration_bias_last;
+  T centre_down_force_bias[61];
+  T span_side_acceleration_bias_last;
+  T joint_side_acceleration_bias_last;
+  T centre_side_force_bias[61];
+  {
+    const T joint_angle = theta[1];
+    const T joint_rate = theta_dot[1];
+    joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
+    const T span_down_acceleration_bias = -length[1] * theta_dot[1] * theta_dot[1] * cosine[1];
+    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias;
+    centre_down_force_bias[1] = mass[1] * (centre_down_acceleration_bias - gravity);
+    const T span_side_acceleration_bias = -length[1] * theta_dot[1] * theta_dot[1] * sine[1];
+    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias;
+    centre_side_force_bias[1] = mass[1] * centre_side_acceleration_bias;
+    const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
+    const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
+    matrix.column[0][0] = mass_joint_down_acceleration_gain;
+    matrix.column[0][1] = mass_joint_side_acceleration_gain;
+    span_down_acceleration_bias_last = span_down_acceleration_bias;
+    span_side_acceleration_bias_last = span_side_acceleration_bias;
+  }
+  {
+    const T joint_angle = theta[2] - theta[1];
+    const T joint_rate = theta_dot[2] - theta_dot[1];
+    joint_moment[2] = stiffness[2] * joint_angle + damping[2] * joint_rate;
+    const T span_down_acceleration_bias = -length[2] * theta_dot[2] * theta_dot[2] * cosine[2];
+    const T joint_down_acceleration_bias = span_down_acceleration_bias_last
+        + span_down_acceleration_bias;
+    const T centre_down_acceleration_bias = span_down_acceleration_bias_last
+        + ratio<T>(1, 2) * span_down_acceleration_bias;
+    centre_down_force_bias[2] = mass[2] * (centre_down_acceleration_bias - gravity);
+    const T span_side_acceleration_bias = -length[2] * theta_dot[2] * theta_dot[2] * sine[2];
+    const T joint_side_acceleration_bias = span_side_acceleration_bias_last
+        + span_side_acceleration_bias;
+    const T centre_side_acceleration_bias = span_side_acceleration_bias_last
+        + ratio<T>(1, 2) * span_side_acceleration_bias;
+    centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
+    const T mass_joint_down_acceleration_gain = -length[2] * sine[2];
+    const T mass_joint_side_acceleration_gain = length[2] * cosine[2];
+    matrix.column[1][0] = mass_joint_down_acceleration_gain;
+    matrix.column[1][1] = mass_joint_side_acceleration_gain;
+    span_down_acceleration_bias_last = span_down_acceleration_bias;
+    joint_down_acceleration_bias_last = joint_down_acceleration_bias;
+    span_side_acceleration_bias_last = span_side_acceleration_bias;
+    joint_side_acceleration_bias_last = joint_side_acceleration_bias;
+  }
+  for (int i = 3; i <= 60; ++i) {
+    const T joint_angle = theta[i] - theta[i - 1];
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_moment[i] = stiffness[i] * joint_angle + damping[i] * joint_rate;
+    const T span_down_acceleration_bias = -length[i] * theta_dot[i] * theta_dot[i] * cosine[i];
+    const T joint_down_acceleration_bias = span_down_acceleration_bias
+        + joint_down_acceleration_bias_last;
+    const T centre_down_acceleration_bias = ratio<T>(1, 2) * span_down_acceleration_bias
+        + joint_down_acceleration_bias_last;
+    centre_down_force_bias[i] = mass[i] * (centre_down_acceleration_bias - gravity);
+    const T span_side_acceleration_bias = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
+    const T joint_side_acceleration_bias = span_side_acceleration_bias
+        + joint_side_acceleration_bias_last;
+    const T centre_side_acceleration_bias = ratio<T>(1, 2) * span_side_acceleration_bias
+        + joint_side_acceleration_bias_last;
+    centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
+    const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
+    const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
+    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
+    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    span_down_acceleration_bias_last = span_down_acceleration_bias;
+    joint_down_acceleration_bias_last = joint_down_acceleration_bias;
+    span_side_acceleration_bias_last = span_side_acceleration_bias;
+    joint_side_acceleration_bias_last = joint_side_acceleration_bias;
+  }
+  T cut_force_down_bias_last;
+  T cut_force_side_bias_last;
+  T mass_cut_force_down_per_joint_down_acceleration_last;
+  {
+    const T cut_force_down_bias = load_mass * (joint_down_acceleration_bias_last - gravity);
+    const T cut_force_side_bias = load_mass * joint_side_acceleration_bias_last;
+    cut_force_down_bias_last = cut_force_down_bias;
+    cut_force_side_bias_last = cut_force_side_bias;
+  }
+  {
+    const T cut_force_down_bias = cut_force_down_bias_last + centre_down_force_bias[60];
+    const T span_down_force_bias = cut_force_down_bias_last
+        + ratio<T>(1, 2) * centre_down_force_bias[60];
+    const T cut_force_side_bias = cut_force_side_bias_last + centre_side_force_bias[60];
+    const T span_side_force_bias = cut_force_side_bias_last
+        + ratio<T>(1, 2) * centre_side_force_bias[60];
+    const T mass_cut_force_down_per_joint_down_acceleration = mass[60] + load_mass;
+    matrix.row[59][0] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.row[59][1] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.diagonal[59] = inertia[60] + length[60] * length[60] * (ratio<T>(1, 4) * mass[60]
+        + load_mass);
+    a[59] = torque[60] - joint_moment[60] + length[60] * (sine[60] * span_down_force_bias
+        - cosine[60] * span_side_force_bias);
+    cut_force_down_bias_last = cut_force_down_bias;
+    cut_force_side_bias_last = cut_force_side_bias;
+    mass_cut_force_down_per_joint_down_acceleration_last = mass_cut_force_down_per_joint_down_acceleration;
+  }
+  for (int i = 59; i >= 2; --i) {
+    const T cut_force_down_bias = cut_force_down_bias_last + centre_down_force_bias[i];
+    const T span_down_force_bias = cut_force_down_bias_last
+        + ratio<T>(1, 2) * centre_down_force_bias[i];
+    const T cut_force_side_bias = cut_force_side_bias_last + centre_side_force_bias[i];
+    const T span_side_force_bias = cut_force_side_bias_last
+        + ratio<T>(1, 2) * centre_side_force_bias[i];
+    const T mass_cut_force_down_per_joint_down_acceleration = mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration_last;
+    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration_last);
+    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration_last);
+    matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
+        + mass_cut_force_down_per_joint_down_acceleration_last);
+    a[i - 1] = torque[i] - joint_moment[i] + joint_moment[i + 1]
+        + length[i] * (sine[i] * span_down_force_bias - cosine[i] * span_side_force_bias);
+    cut_force_down_bias_last = cut_force_down_bias;
+    cut_force_side_bias_last = cut_force_side_bias;
+    mass_cut_force_down_per_joint_down_acceleration_last = mass_cut_force_down_per_joint_down_acceleration;
+  }
+  {
+    const T span_down_force_bias = cut_force_down_bias_last
+        + ratio<T>(1, 2) * centre_down_force_bias[1];
+    const T span_side_force_bias = cut_force_side_bias_last
+        + ratio<T>(1, 2) * centre_side_force_bias[1];
+    matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
+    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
+    matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
+        + mass_cut_force_down_per_joint_down_acceleration_last);
+    a[0] = torque[1] - joint_moment[1] + joint_moment[2]
+        + length[1] * (sine[1] * span_down_force_bias - cosine[1] * span_side_force_bias);
   }
   return matrix.solve(a);
 }

@@ -44,8 +44,8 @@ struct SymmetricSemiseparable {
   // Rows 0, 1, ... are eliminated from the first on, rows n-1, n-2, ... from the last up. The two
   // sweeps do the same and do not depend on each other: one vector operation serves both. A step
   // waits for the one before, through W; so each takes two rows, whose pivots alpha and
-  // beta - gamma^2 / alpha = determinant / alpha are divided by at the same time, and what can be
-  // formed without W is.
+  // beta - gamma^2 / alpha = determinant / alpha are divided by at the same time. Where the longest
+  // wait allows it, products are formed once and shared.
   //
   // What couples the halves is a vector each way, sum = C' x_top and carried = R' x_bottom (C the
   // columns of the top, R the rows of the bottom), found from
@@ -55,7 +55,7 @@ struct SymmetricSemiseparable {
   int solve_from_both_ends(T* x) const {
     constexpr int m = n / 4 * 2;  // rows of the top sweep; those between are the bottom's last
     const Both zero{T(0), T(0)}, one{T(1), T(1)};
-    Both other[m][rr], scaled[m][rr], solved[m];
+    Both scaled[m][rr], solved[m];
     Both w[rr][rr], carried[rr];
     for (int r = 0; r < rr; ++r) {
       carried[r] = zero;
@@ -63,36 +63,44 @@ struct SymmetricSemiseparable {
     }
 #pragma GCC unroll 4
     for (int i = 0; i < m; i += 2) {
-      // `own` couples a row to those left, `other` those left to it.
-      Both own[2][rr], pivot[2], y[2];
+      // `own` couples a row to those left, `other` those left to it, which W reaches.
+      Both own[2][rr], other[2][rr], pivot[2], y[2], reached[rr];
       for (int k = 0; k < 2; ++k) {
         const int top = i + k, bottom = n - 1 - top;
         for (int r = 0; r < rank; ++r) {
           own[k][r] = Both{column[top][r], row[bottom][r]};
-          other[top][r] = Both{row[top][r], column[bottom][r]};
+          other[k][r] = Both{row[top][r], column[bottom][r]};
         }
-        pivot[k] = reduced_pivot(Both{diagonal[top], diagonal[bottom]}, other[top], w);
-        y[k] = Both{x[top], x[bottom]} - product(other[top], carried);
-        for (int r = 0; r < rank; ++r) own[k][r] = own[k][r] - product_with_row(w, r, other[top]);
+        pivot[k] = Both{diagonal[top], diagonal[bottom]};
+        y[k] = Both{x[top], x[bottom]} - product(other[k], carried);
       }
-      const Both gamma = product(own[0], other[i + 1]);
+      pivot[0] = reduced_pivot(pivot[0], other[0], w);
+      for (int r = 0; r < rank; ++r) {
+        own[0][r] = own[0][r] - product_with_row(w, r, other[0]);
+        reached[r] = product_with_row(w, r, other[1]);
+        own[1][r] = own[1][r] - reached[r];
+      }
+      pivot[1] = pivot[1] - product(other[1], reached);
+      const Both gamma = product(own[0], other[1]);
       const Both determinant = pivot[0] * pivot[1] - gamma * gamma;
       if (!positive_pivot(pivot[0].first())) return i + 1;
       if (!positive_pivot(pivot[0].second())) return n - i;
       if (!positive_pivot(determinant.first())) return i + 2;
       if (!positive_pivot(determinant.second())) return n - i - 1;
-      const Both factor = gamma / pivot[0];
       const Both reciprocal[2] = {one / pivot[0], pivot[0] / determinant};
+      const Both factor = gamma * reciprocal[0];
       y[1] = y[1] - factor * y[0];
       for (int r = 0; r < rank; ++r) own[1][r] = own[1][r] - factor * own[0][r];
       for (int k = 0; k < 2; ++k) {
         solved[i + k] = y[k] * reciprocal[k];
         for (int r = 0; r < rank; ++r) {
-          for (int s = 0; s <= r; ++s)
-            w[r][s] = w[r][s] + (own[k][r] * own[k][s]) * reciprocal[k];
           scaled[i + k][r] = own[k][r] * reciprocal[k];
-          carried[r] = carried[r] + scaled[i + k][r] * y[k];
+          carried[r] = carried[r] + own[k][r] * solved[i + k];
         }
+      }
+      for (int r = 0; r < rank; ++r) {
+        for (int s = 0; s <= r; ++s)
+          w[r][s] = (w[r][s] + scaled[i][r] * own[0][s]) + (own[1][r] * own[1][s]) * reciprocal[1];
       }
     }
 
@@ -124,11 +132,12 @@ struct SymmetricSemiseparable {
       const Both solution = solved[i] - product(scaled[i], from);
       x[i] = solution.first();
       x[n - 1 - i] = solution.second();
-      Both next[rr];
+      Both next[rr], other[rr];
+      for (int r = 0; r < rank; ++r) other[r] = Both{row[i][r], column[n - 1 - i][r]};
       for (int r = 0; r < rank; ++r) {
-        Both removed = (other[i][r] * scaled[i][0]) * from[0];
-        for (int s = 1; s < rank; ++s) removed = removed + (other[i][r] * scaled[i][s]) * from[s];
-        next[r] = (from[r] + other[i][r] * solved[i]) - removed;
+        Both removed = (other[r] * scaled[i][0]) * from[0];
+        for (int s = 1; s < rank; ++s) removed = removed + (other[r] * scaled[i][s]) * from[s];
+        next[r] = (from[r] + other[r] * solved[i]) - removed;
       }
       for (int r = 0; r < rank; ++r) from[r] = next[r];
     }

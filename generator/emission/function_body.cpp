@@ -34,20 +34,26 @@ struct Family {
   bool along = false;  // depends on a differential
   int sweep = -1;
   bool local = true;  // read only at the same link in the same sweep
+  bool carried = false;  // or at the one before, and elsewhere at the sweep's last: see carry()
 };
 
 struct Sweep {
   int direction;  // +1 towards the tip, -1 towards the support, 0: not over links
   std::vector<size_t> families;
+
+  bool has(size_t family) const {
+    return std::find(families.begin(), families.end(), family) != families.end();
+  }
 };
 
 class Body {
  public:
   Body(const Definitions& definitions, const std::vector<Output>& outputs,
-       const InputDeclarations& inputs, Language language)
+       const InputDeclarations& inputs, Layout layout, Language language)
       : definitions_(definitions),
         outputs_(outputs),
         inputs_(inputs),
+        layout_(layout),
         language_(language),
         scalar_(language == Language::kC ? "double" : "T"),
         differential_(language == Language::kC ? "double" : "D") {
@@ -268,10 +274,12 @@ class Body {
       if (alone) continue;
       const auto forward = sweep_in(1), backward = sweep_in(-1);
       if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
-      if (forward.size() >= backward.size()) {
-        add_sweeps(1, forward);
+      const int direction = forward.size() >= backward.size() ? 1 : -1;
+      const auto& members = direction > 0 ? forward : backward;
+      if (layout_ == Layout::kWholeSweeps) {
+        add_sweep(direction, members);
       } else {
-        add_sweeps(-1, backward);
+        add_sweeps(direction, members);
       }
     }
     for (const Family& family : families_) {
@@ -280,6 +288,31 @@ class Body {
         if (d.offset != 0 || read.sweep != family.sweep) read.local = false;
       }
     }
+    if (layout_ == Layout::kWholeSweeps) carry();
+  }
+
+  // What is read at the same link and the one before, and after the sweep at its last link, needs no
+  // array: `name` and `name_last` do.
+  void carry() {
+    std::set<size_t> stored;
+    for (const Family& reader : families_) {
+      for (const auto& [index, item] : reader.items) {
+        for (const int number : definitions_.symbols_of(item.value)) {
+          const Symbol& symbol = definitions_[number];
+          if (given(symbol)) continue;
+          const size_t k = position_.at(symbol.family);
+          const Family& family = families_[k];
+          const int direction = sweeps_[static_cast<size_t>(family.sweep)].direction;
+          const int last = direction > 0 ? family.items.rbegin()->first : family.items.begin()->first;
+          const bool near = reader.sweep == family.sweep
+                                ? symbol.index == index || symbol.index == index - direction
+                                : symbol.index == last;
+          if (direction == 0 || !near) stored.insert(k);
+        }
+      }
+    }
+    for (size_t k = 0; k < families_.size(); ++k)
+      families_[k].carried = !families_[k].is_output && !families_[k].local && !stored.count(k);
   }
 
   // ---- text -----------------------------------------------------------------------------------
@@ -363,7 +396,7 @@ class Body {
     if (symbol.index != kNoIndex) {
       if (straight) {
         name += "_" + index;
-      } else if (!family.local) {
+      } else if (!family.local && !family.carried) {
         return name + "[" + index + "] = " + value() + ";";
       }
     }
@@ -385,14 +418,23 @@ class Body {
       }
       if (given(symbol)) return input_text(symbol, at);
       if (symbol.index == kNoIndex) return symbol.family;
-      return families_[position_.at(symbol.family)].local ? symbol.family
-                                                          : symbol.family + "[" + at + "]";
+      const Family& family = families_[position_.at(symbol.family)];
+      if (family.carried) {
+        const bool here = symbol.index == link && sweep.has(position_.at(symbol.family));
+        return symbol.family + (here ? "" : "_last");
+      }
+      return family.local ? symbol.family : symbol.family + "[" + at + "]";
     };
     std::string statements;
     for (const size_t k : sweep.families) {
       const auto item = families_[k].items.find(link);
       if (item == families_[k].items.end()) continue;
       statements += statement(item->second, index, text, false) + "\n";
+    }
+    for (const size_t k : sweep.families) {
+      const Family& family = families_[k];
+      if (family.carried && family.items.count(link))
+        statements += family.name + "_last = " + family.name + ";\n";
     }
     return statements;
   }
@@ -417,13 +459,16 @@ class Body {
       const Family& family = families_[k];
       first = std::min(first, family.items.begin()->first);
       last = std::max(last, family.items.rbegin()->first);
-      if (!family.is_output && !family.local) {
+      if (family.carried) {
+        line(type_of(family) + " " + family.name + "_last;", 1);
+      } else if (!family.is_output && !family.local) {
         line(type_of(family) + " " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
       }
     }
     bool any_local = false;
     for (const size_t k : sweep.families) {
-      any_local = any_local || (!families_[k].is_output && families_[k].local);
+      any_local = any_local || families_[k].carried ||
+                  (!families_[k].is_output && families_[k].local);
     }
     const int step = sweep.direction;
     for (int link = step > 0 ? first : last; link >= first && link <= last;) {
@@ -478,6 +523,7 @@ class Body {
   const Definitions& definitions_;
   const std::vector<Output>& outputs_;
   const InputDeclarations& inputs_;
+  Layout layout_;
   Language language_;
   std::string scalar_, differential_;  // types
   std::vector<Family> families_;
@@ -493,7 +539,7 @@ class Body {
 
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
                            const InputDeclarations& inputs, Layout layout, Language language) {
-  Body body(definitions, outputs, inputs, language);
+  Body body(definitions, outputs, inputs, layout, language);
   return layout == Layout::kStraight ? body.straight() : body.loops();
 }
 

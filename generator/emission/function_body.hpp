@@ -33,8 +33,9 @@ struct InputDeclaration {
 using InputDeclarations = std::map<std::string, InputDeclaration>;  ///< by family
 
 enum class Layout {
-  kStraight,  ///< one statement a definition
-  kLoops      ///< loops over links where they read the same
+  kStraight,    ///< one statement a definition
+  kLoops,       ///< loops over links where they read the same, cut so that compilers make vectors of links
+  kWholeSweeps  ///< such loops uncut: less is stored between them, for scalars that are vectors
 };
 
 struct FunctionBody {

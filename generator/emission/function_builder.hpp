@@ -46,7 +46,11 @@ class FunctionBuilder {
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
   FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs) {
-    return function_body(definitions_, outputs, inputs, layout_, language_);
+    return body(outputs, inputs, layout_);
+  }
+  FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs,
+                    Layout layout) {
+    return function_body(definitions_, outputs, inputs, layout, language_);
   }
 
   void add(const std::string& name, const std::string& comment, const std::string& signature,

@@ -51,6 +51,7 @@ std::string quasiseparable_type(const Quasiseparable& q) {
 }  // namespace
 
 void FunctionBuilder::mass_and_acceleration() {
+  if (!in_c()) result_.accelerations = "acceleration";
   ModelSummary& s = result_.summary;
   Substitution bias = without_acceleration(chain_);
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
@@ -131,13 +132,18 @@ void FunctionBuilder::mass_and_acceleration() {
   for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
     all.push_back(output);
   }
+  const std::string solve = in_c()      ? "  return solve_in_place(&matrix, a);\n"
+                            : symmetric ? "  return matrix.solve(a);\n"
+                                        : "  const int failed = matrix.factor();\n"
+                                          "  if (failed == 0) matrix.solve(a);\n"
+                                          "  return failed;\n";
   add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
-      body(all, at_), acceleration_wrapper, matrix,
-      in_c()      ? "  return solve_in_place(&matrix, a);\n"
-      : symmetric ? "  return matrix.solve(a);\n"
-                  : "  const int failed = matrix.factor();\n"
-                    "  if (failed == 0) matrix.solve(a);\n"
-                    "  return failed;\n");
+      body(all, at_), acceleration_wrapper, matrix, solve);
+  if (in_c() || layout_ != Layout::kLoops) return;
+  result_.accelerations = "accelerations";
+  add("accelerations", "The same, bit for bit, in the order that suits a T of several numbers.",
+      "int accelerations(const Point<T>& at, T* a)", body(all, at_, Layout::kWholeSweeps), "", matrix,
+      solve);
 }
 
 void FunctionBuilder::newton() {

@@ -36,7 +36,12 @@ std::vector<std::string> ModelFunctions::table_entries(Language language) const 
           maybe(summary.structured, "c_newton_solve_transposed"),
           maybe(!in_c, "c_residual_tangents"),
           maybe(!in_c && states, "c_state_rate_tangents"),
-          maybe(summary.structured, "c_newton_solves")};
+          maybe(summary.structured, "c_newton_solves"),
+          several_at_once() ? "c_accelerations" : "c_acceleration"};
+}
+
+bool ModelFunctions::several_at_once() const {
+  return !accelerations.empty() && summary.links <= (summary.mass_structured ? 1000 : 100);
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -56,7 +56,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   out << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions)
-      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n"
+      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include \"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
   out << "extern \"C\" {\nstruct catena_model;\n}\n\n";
   out << "namespace catena::" << s.name << " {\n\n";
@@ -88,6 +88,43 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   return out.str();
 }
 
+// As many points as a register of the processor holds numbers.
+std::string several_at_once_text(const std::string& accelerations) {
+  return "template <int sets>\n"
+         "int32_t several(const catena_point* at, double* a) {\n"
+         "  using Number = Lanes<sets>;\n"
+         "  const auto numbers = [](const double* first) {\n"
+         "    return reinterpret_cast<const Number*>(first);\n"
+         "  };\n"
+         "  const Point<Number> points{Number(at->t),  numbers(at->q), numbers(at->v), numbers(at->a),\n"
+         "                             numbers(at->z), numbers(at->u), numbers(at->p)};\n"
+         "  return " +
+         accelerations +
+         "(points, reinterpret_cast<Number*>(a));\n}\n"
+         "#ifdef CATENA_PROCESSORS\n"
+         "__attribute__((target(\"arch=x86-64-v4\"), flatten)) int32_t eight(const catena_point* at,\n"
+         "                                                                double* a) {\n"
+         "  return several<8>(at, a);\n}\n"
+         "__attribute__((target(\"avx2\"), flatten)) int32_t four(const catena_point* at, double* a) {\n"
+         "  return several<4>(at, a);\n}\n"
+         "bool has_avx512() {  // what arch=x86-64-v4 stands for\n"
+         "  return __builtin_cpu_supports(\"avx512f\") && __builtin_cpu_supports(\"avx512bw\") &&\n"
+         "         __builtin_cpu_supports(\"avx512cd\") && __builtin_cpu_supports(\"avx512dq\") &&\n"
+         "         __builtin_cpu_supports(\"avx512vl\");\n}\n"
+         "int32_t sets_at_once() {\n"
+         "  return has_avx512() ? 8 : __builtin_cpu_supports(\"avx2\") ? 4 : 2;\n}\n"
+         "int32_t c_accelerations(const catena_point* at, double* a) {\n"
+         "  static const int32_t sets = sets_at_once();\n"
+         "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"
+         "#elif defined(__GNUC__)\n"
+         "int32_t sets_at_once() { return 2; }\n"
+         "int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); }\n"
+         "#else\n"
+         "int32_t sets_at_once() { return 1; }\n"
+         "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, a); }\n"
+         "#endif\n";
+}
+
 std::string source_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
@@ -98,6 +135,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)\n"
          "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give\n"
          "// the same bits.\n"
+         "#define CATENA_PROCESSORS\n"
          "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), flatten))\n"
          "#else\n#define CATENA_EACH_PROCESSOR\n#endif\n\n";
   out << "Point<double> point(const catena_point* p) {\n"
@@ -105,6 +143,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   for (const EmittedFunction& function : functions.functions) {
     if (!function.wrapper.empty()) out << "CATENA_EACH_PROCESSOR " << function.wrapper;
   }
+  if (functions.several_at_once()) out << several_at_once_text(functions.accelerations);
   out << "}  // namespace\n\nconst ::catena_model& table() {\n"
          "  static const ::catena_model model = {\n";
   out << table_entries(description, functions, Language::kCpp);

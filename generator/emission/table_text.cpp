@@ -99,6 +99,7 @@ std::string table_entries(const Description& description, const ModelFunctions& 
   for (const std::string& entry : functions.table_entries(language)) {
     out << "      " << (!c ? entry : entry == "nullptr" ? "NULL" : entry.substr(2)) << ",\n";
   }
+  out << "      " << (functions.several_at_once() ? "sets_at_once()" : "1") << ",  // sets\n";
   return out.str();
 }
 

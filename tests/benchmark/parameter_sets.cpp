@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Forward dynamics of eight parameter sets at once, per set, against one call each; AVX2 where the
-// processor has it. Results are compared bit for bit first.
+// Forward dynamics of eight parameter sets at once, per set, against one call each: as EightSets has it
+// on this processor, with states put in before and accelerations taken out after each evaluation or
+// without, and the emitted text for each kind of processor that this one can be. Results are compared
+// bit for bit first.
 #include <time.h>
 
 #include <algorithm>
@@ -10,98 +12,200 @@
 #include <functional>
 #include <vector>
 
-#include "runtime/model.hpp"
+#include "generated/chain_12.hpp"
+#include "generated/chain_2.hpp"
+#include "generated/chain_3.hpp"
+#include "generated/chain_4.hpp"
+#include "generated/chain_60.hpp"
+#include "runtime/eight_sets.hpp"
+#include "runtime/state.hpp"
 #include "tests/benchmark/cable.hpp"
-
-namespace catena::benchmark {
-int eight_sets_avx2(int links, int parameters, const double* q, const double* v, const double* p,
-                    double* a);
-int eight_sets_baseline(int links, int parameters, const double* q, const double* v,
-                        const double* p, double* a);
-}  // namespace catena::benchmark
 
 namespace {
 
-/// Medians over blocks of 50 calls, ns.
-double nanoseconds(const std::function<void()>& call) {
-  const auto now = [] {
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-  };
-  std::vector<double> blocks;
-  for (int block = 0; block < 200; ++block) {
-    const double begin = now();
-    for (int i = 0; i < 50; ++i) call();
-    blocks.push_back((now() - begin) / 50);
+using catena::EightSets;
+using catena::Lanes;
+using catena::Point;
+
+struct Arrays {
+  const double *q, *v, *p;
+  double* a;
+};
+
+template <int sets>
+inline int evaluate(int links, int parameters, const Arrays& arrays) {
+  using Number = Lanes<sets>;
+  int failed = 0;
+  for (int first = 0; first < EightSets::kSets; first += sets) {
+    const auto group = [&](const double* of, int entries) {
+      return reinterpret_cast<const Number*>(of + first * entries);
+    };
+    const Point<Number> at{Number(0), group(arrays.q, links), group(arrays.v, links),
+                           nullptr,   nullptr,                nullptr,
+                           group(arrays.p, parameters)};
+    auto* a = reinterpret_cast<Number*>(arrays.a + first * links);
+    switch (links) {
+      case 2:
+        failed += catena::chain_2::acceleration(at, a);
+        break;
+      case 3:
+        failed += catena::chain_3::acceleration(at, a);
+        break;
+      case 4:
+        failed += catena::chain_4::acceleration(at, a);
+        break;
+      case 12:
+        failed += catena::chain_12::accelerations(at, a);
+        break;
+      default:
+        failed += catena::chain_60::accelerations(at, a);
+    }
   }
-  std::nth_element(blocks.begin(), blocks.begin() + 100, blocks.end());
-  return blocks[100];
+  return failed;
+}
+
+using Evaluate = int(int links, int parameters, const Arrays& arrays);
+__attribute__((flatten)) int any_processor(int links, int parameters, const Arrays& arrays) {
+  return evaluate<2>(links, parameters, arrays);
+}
+__attribute__((target("avx2"), flatten)) int avx2(int links, int parameters, const Arrays& arrays) {
+  return evaluate<4>(links, parameters, arrays);
+}
+__attribute__((target("arch=x86-64-v4"), flatten)) int avx512(int links, int parameters,
+                                                             const Arrays& arrays) {
+  return evaluate<8>(links, parameters, arrays);
+}
+
+double now() {  // ns
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+/// Medians over interleaved blocks of calls, ns a call.
+std::vector<double> nanoseconds(const std::vector<std::function<void()>>& calls) {
+  constexpr int kBlocks = 201, kCalls = 50;
+  std::vector<std::vector<double>> blocks(calls.size());
+  for (int block = 0; block < kBlocks; ++block) {
+    for (std::size_t c = 0; c < calls.size(); ++c) {
+      calls[c]();
+      const double begin = now();
+      for (int i = 0; i < kCalls; ++i) calls[c]();
+      blocks[c].push_back((now() - begin) / kCalls);
+    }
+  }
+  std::vector<double> medians;
+  for (auto& times : blocks) {
+    std::nth_element(times.begin(), times.begin() + kBlocks / 2, times.end());
+    medians.push_back(times[kBlocks / 2]);
+  }
+  return medians;
 }
 
 }  // namespace
 
 int main() {
-  namespace b = catena::benchmark;
-  const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-  std::printf("links,one_ns,eight_baseline_ns_per_set,eight_avx2_ns_per_set\n");
+  const auto has = [](int sets) {
+    return sets == 2 || (sets == 4 ? __builtin_cpu_supports("avx2") != 0
+                                   : catena::Model::built_in(2).table().sets == 8);
+  };
+  const std::vector<std::pair<int, Evaluate*>> processors{{2, any_processor}, {4, avx2}, {8, avx512}};
+  std::printf(
+      "links,one_ns,eight_sets_ns_per_set,with_states_ns_per_set,baseline_ns_per_set,"
+      "avx2_ns_per_set,avx512_ns_per_set\n");
   for (const int n : {2, 3, 4, 12, 60}) {
     const auto model = catena::Model::built_in(n);
-    const b::Cable cable(n);
-    std::vector<Eigen::VectorXd> q, v, p;
-    struct alignas(32) Four {
-      double set[4];
-    };
-    const auto packed = [](const std::vector<Eigen::VectorXd>& sets) {
-      const auto size = static_cast<std::size_t>(sets[0].size());
-      std::vector<Four> all(2 * size);
-      for (std::size_t k = 0; k < 8; ++k)
-        for (std::size_t i = 0; i < size; ++i)
-          all[k / 4 * size + i].set[k % 4] = sets[k][static_cast<Eigen::Index>(i)];
-      return all;
-    };
-    for (int k = 0; k < 8; ++k) {
-      q.push_back(cable.start() * (1.0 + 0.1 * k));
-      v.push_back(cable.start() * (0.1 * k));
-      p.push_back(cable.parameters(model) * (1.0 + 0.01 * k));
+    const catena::benchmark::Cable cable(n);
+    EightSets eight(model);
+    std::vector<catena::State> states;
+    std::vector<Eigen::VectorXd> parameters;
+    for (int k = 0; k < EightSets::kSets; ++k) {
+      catena::State state = catena::State::zero(model);
+      state.q = cable.start() * (1.0 + 0.1 * k);
+      state.v = cable.start() * (0.1 * k);
+      states.push_back(state);
+      parameters.push_back(cable.parameters(model) * (1.0 + 0.01 * k));
+      eight.set_parameters(k, parameters.back());
+      for (int i = 0; i < n; ++i) {
+        eight.q(k, i) = state.q[i];
+        eight.v(k, i) = state.v[i];
+      }
     }
-    const auto all_q = packed(q), all_v = packed(v), all_p = packed(p);
-    std::vector<Four> all_a(static_cast<std::size_t>(2 * n));
     Eigen::VectorXd a(n);
+    Eigen::MatrixXd all(n, EightSets::kSets);
     const auto one = [&](std::size_t k) {
-      const catena_point at{0.0, q[k].data(), v[k].data(), nullptr, nullptr, nullptr, p[k].data()};
-      model.table().acceleration(&at, a.data());
+      const catena_point at{0.0,     states[k].q.data(), states[k].v.data(), nullptr, nullptr,
+                            nullptr, parameters[k].data()};
+      if (model.table().acceleration(&at, a.data()) != 0) std::abort();
     };
-    const auto eight = [&](auto function) {
-      return [&, function] {
-        if (function(n, model.parameters(), all_q[0].set, all_v[0].set, all_p[0].set,
-                     all_a[0].set) != 0)
-          std::abort();
+    const auto same = [&](int i, double together) {
+      return std::memcmp(&a[i], &together, sizeof together) == 0;
+    };
+    const auto fail = [&](const char* what) {
+      std::fprintf(stderr, "%d links: %s differs from one set at a time\n", n, what);
+      return 1;
+    };
+
+    std::vector<std::function<void()>> calls;
+    calls.push_back([&] {
+      for (std::size_t k = 0; k < EightSets::kSets; ++k) one(k);
+    });
+    calls.push_back([&] {
+      if (eight.evaluate(0.0) != 0) std::abort();
+    });
+    calls.push_back([&] {
+      for (int k = 0; k < EightSets::kSets; ++k)
+        for (int i = 0; i < n; ++i) {
+          eight.q(k, i) = states[static_cast<std::size_t>(k)].q[i];
+          eight.v(k, i) = states[static_cast<std::size_t>(k)].v[i];
+        }
+      if (eight.evaluate(0.0) != 0) std::abort();
+      for (int k = 0; k < EightSets::kSets; ++k)
+        for (int i = 0; i < n; ++i) all(i, k) = eight.acceleration(k, i);
+    });
+    calls[1]();
+    for (std::size_t k = 0; k < EightSets::kSets; ++k) {
+      one(k);
+      for (int i = 0; i < n; ++i)
+        if (!same(i, eight.acceleration(static_cast<int>(k), i))) return fail("EightSets");
+    }
+
+    struct alignas(64) Block {
+      double value[EightSets::kSets];
+    };
+    std::vector<std::vector<Block>> arrays;  // kept while they are measured
+    for (const auto& [sets, function] : processors) {
+      if (!has(sets)) continue;
+      const auto place = [sets = sets](int k, int i, int entries) {
+        return k / sets * sets * entries + i * sets + k % sets;
       };
-    };
-    const auto same_bits = [&] {
-      for (std::size_t k = 0; k < 8; ++k) {
+      const auto pack = [&](int entries, auto value) {
+        arrays.emplace_back(static_cast<std::size_t>(entries));
+        double* to = reinterpret_cast<double*>(arrays.back().data());
+        for (int k = 0; k < EightSets::kSets; ++k)
+          for (int i = 0; i < entries; ++i)
+            to[place(k, i, entries)] = value(static_cast<std::size_t>(k), i);
+        return to;
+      };
+      const Arrays packed{pack(n, [&](std::size_t k, int i) { return states[k].q[i]; }),
+                          pack(n, [&](std::size_t k, int i) { return states[k].v[i]; }),
+                          pack(model.parameters(),
+                               [&](std::size_t k, int i) { return parameters[k][i]; }),
+                          pack(n, [](std::size_t, int) { return 0.0; })};
+      calls.push_back([packed, function = function, n, size = model.parameters()] {
+        if (function(n, size, packed) != 0) std::abort();
+      });
+      calls.back()();
+      for (std::size_t k = 0; k < EightSets::kSets; ++k) {
         one(k);
         for (int i = 0; i < n; ++i)
-          if (std::memcmp(&a[i], &all_a[k / 4 * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)].set[k % 4], sizeof(double)) != 0)
-            return false;
+          if (!same(i, packed.a[place(static_cast<int>(k), i, n)])) return fail("eight at once");
       }
-      return true;
-    };
-    eight(b::eight_sets_baseline)();
-    bool same = same_bits();
-    if (avx2) {
-      eight(b::eight_sets_avx2)();
-      same = same && same_bits();
     }
-    if (!same) {
-      std::fprintf(stderr, "%d links: eight sets at once differ from one at a time\n", n);
-      return 1;
-    }
-    std::printf("%d,%.1f,%.1f,", n, nanoseconds([&] { one(0); }),
-                nanoseconds(eight(b::eight_sets_baseline)) / 8);
-    avx2 ? std::printf("%.1f\n", nanoseconds(eight(b::eight_sets_avx2)) / 8)
-         : std::printf("not measured\n");
+    std::printf("%d", n);
+    for (const double time : nanoseconds(calls)) std::printf(",%.1f", time / EightSets::kSets);
+    for (std::size_t c = calls.size(); c < 6; ++c) std::printf(",not measured");
+    std::printf("\n");
   }
   return 0;
 }

@@ -2,7 +2,7 @@
 //
 // Several parameter sets and states in one call of the emitted text give, lane by lane, the bits of
 // as many calls for one.
-#include "runtime/lanes.hpp"
+#include "generated/lanes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,7 +17,7 @@
 namespace {
 
 constexpr int kSets = 8;
-using Eight = catena::Lanes<struct BaselineProcessor, kSets>;
+using Eight = catena::Lanes<kSets>;
 
 struct Sets {
   explicit Sets(int n) : n(n) {
@@ -95,6 +95,28 @@ TEST_CASE("eight sets at once are eight sets one at a time, bit for bit") {
   SUBCASE("2 links") { CHECK_MODEL(2); }
   SUBCASE("12 links") { CHECK_MODEL(12); }
   SUBCASE("60 links") { CHECK_MODEL(60); }
+}
+
+TEST_CASE("whole sweeps give the bits of sweeps cut for vectors of links") {
+  const Sets sets(60);
+  const auto together = [](const auto& at, Eight* a) {
+    CHECK(catena::chain_60::accelerations(at, a) == 0);
+  };
+  const auto alone = [](const auto& at, double* a) {
+    CHECK(catena::chain_60::acceleration(at, a) == 0);
+  };
+  check_bits(sets, together, alone);
+}
+
+TEST_CASE("functions go lane by lane") {
+  volatile double step = 0.1;  // or the compiler would compute the expected values, more exactly
+  Eight x;
+  for (int k = 0; k < kSets; ++k) x.set(k, step * (k + 1));
+  const Eight root = sqrt(x), saturated = tanh(x);
+  for (int k = 0; k < kSets; ++k) {
+    CHECK(root[k] == std::sqrt(x[k]));
+    CHECK(saturated[k] == std::tanh(x[k]));
+  }
 }
 
 TEST_CASE("a pivot that fails in one set fails") {

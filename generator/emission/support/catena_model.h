@@ -156,6 +156,11 @@ typedef struct catena_model {
   void (*residual_tangents)(const catena_point* at, const catena_point* along, double* dr);
   void (*state_rate_tangents)(const catena_point* at, const catena_point* along, double* dzdot);
   void (*newton_solves)(const double* work, double* x);
+  /* As acceleration, for `sets` points at once, with the bits of one at a time: entry i of set k is
+     [i * sets + k] in q, v, z, u, p and a, each aligned to 8 * sets bytes; t is the same for all. The
+     processor decides on sets (8, 4, 2 or 1). */
+  int32_t (*accelerations)(const catena_point* at, double* a);
+  int32_t sets;
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Several numbers at once, one a lane: a scalar type for the emitted templates, with which one call
+// evaluates a model for as many parameter sets and states. Every lane gets the bits that the same text
+// gives for that set alone in double precision: the operations are the same, in the same order.
 #pragma once
+
+#ifdef __GNUC__
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
-#include "generated/scalar.hpp"
+#include "scalar.hpp"
 
 namespace catena {
 
-/// The compiler's vectors of four and of eight.
+/// The compiler's vectors: two doubles fill a register of any x86-64 processor, four one of AVX2, eight
+/// one of AVX-512.
 template <int count>
 struct LaneVectors;
+template <>
+struct LaneVectors<2> {
+  typedef double Vector __attribute__((vector_size(16)));
+  typedef std::uint64_t Bits __attribute__((vector_size(16)));
+};
 template <>
 struct LaneVectors<4> {
   typedef double Vector __attribute__((vector_size(32)));
@@ -22,14 +35,7 @@ struct LaneVectors<8> {
   typedef std::uint64_t Bits __attribute__((vector_size(64)));
 };
 
-/// Several numbers at once, one a lane: a scalar type for the emitted templates, with which one
-/// call evaluates a model for as many parameter sets and states. Four fill a register of AVX2. Every lane gets the bits that the
-/// same text gives for that set alone in double precision: the operations are the same, in the same
-/// order.
-///
-/// `Target` keeps apart what is compiled for different processors: template functions of the same
-/// name compiled with different flags would be merged into one.
-template <class Target, int count>
+template <int count>
 class Lanes {
  public:
   using Vector = typename LaneVectors<count>::Vector;
@@ -62,22 +68,50 @@ class Lanes {
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
 
   /// Comparisons are of all lanes: a pivot is good if it is good in every set.
-  friend bool operator>(const Lanes& a, const Lanes& b) { return all(a.values_ > b.values_); }
-  friend bool operator<(const Lanes& a, const Lanes& b) { return all(a.values_ < b.values_); }
+  friend bool operator>(const Lanes& a, const Lanes& b) { return all_greater(a.values_, b.values_); }
+  friend bool operator<(const Lanes& a, const Lanes& b) { return all_greater(b.values_, a.values_); }
 
   friend void sine_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
     sine_cosine_of<Vector, Bits>(angle.values_, sine.values_, cosine.values_);
   }
 
+#define CATENA_LANE_BY_LANE(function)                                                   \
+  friend Lanes function(const Lanes& x) {                                               \
+    Lanes y;                                                                            \
+    for (int k = 0; k < count; ++k) y.values_[k] = std::function(double(x.values_[k])); \
+    return y;                                                                           \
+  }
+  CATENA_LANE_BY_LANE(acos)
+  CATENA_LANE_BY_LANE(asin)
+  CATENA_LANE_BY_LANE(asinh)
+  CATENA_LANE_BY_LANE(atan)
+  CATENA_LANE_BY_LANE(cos)
+  CATENA_LANE_BY_LANE(cosh)
+  CATENA_LANE_BY_LANE(exp)
+  CATENA_LANE_BY_LANE(log)
+  CATENA_LANE_BY_LANE(sin)
+  CATENA_LANE_BY_LANE(sinh)
+  CATENA_LANE_BY_LANE(sqrt)
+  CATENA_LANE_BY_LANE(tan)
+  CATENA_LANE_BY_LANE(tanh)
+#undef CATENA_LANE_BY_LANE
+
  private:
-  template <class Mask>
-  static bool all(const Mask& mask) {
-    bool result = true;
-    for (int lane = 0; lane < count; ++lane) result = result && mask[lane] != 0;
-    return result;
+  // Masks of all bits or none, halved until two are left.
+  static bool all_greater(const Vector& a, const Vector& b) {
+    typedef std::int64_t Two __attribute__((vector_size(16)));
+    const auto greater = a > b;
+    Two parts[count / 2];
+    std::memcpy(parts, &greater, sizeof parts);
+    for (int half = count / 4; half > 0; half /= 2) {
+      for (int k = 0; k < half; ++k) parts[k] &= parts[k + half];
+    }
+    return (parts[0][0] & parts[0][1]) != 0;
   }
 
   Vector values_;
 };
 
 }  // namespace catena
+
+#endif

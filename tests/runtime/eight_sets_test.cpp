@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Eight parameter sets and states at once, by the widest registers of this processor, give the bits
+// of eight calls for one.
+#include "runtime/eight_sets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <random>
+#include <stdexcept>
+
+#include "runtime/state.hpp"
+
+namespace {
+
+using catena::EightSets;
+using catena::Model;
+using catena::State;
+
+TEST_CASE("eight sets have the bits of eight calls") {
+  std::mt19937 random(7);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const int n : Model::built_in_links()) {
+    CAPTURE(n);
+    const Model model = Model::built_in(n);
+    EightSets sets(model);
+    std::vector<Eigen::VectorXd> parameters;
+    std::vector<State> states;
+    for (int k = 0; k < EightSets::kSets; ++k) {
+      Eigen::VectorXd p(model.parameters());
+      for (int i = 0; i < p.size(); ++i) p[i] = uniform(0.1, 1.0);
+      State state = State::zero(model);
+      for (int i = 0; i < n; ++i) {
+        state.q[i] = uniform(-7.0, 7.0);
+        state.v[i] = uniform(-5.0, 5.0);
+      }
+      sets.set_parameters(k, p);
+      for (int i = 0; i < n; ++i) {
+        sets.q(k, i) = state.q[i];
+        sets.v(k, i) = state.v[i];
+      }
+      parameters.push_back(p);
+      states.push_back(state);
+    }
+    REQUIRE(sets.evaluate(0.0) == 0);
+    for (int k = 0; k < EightSets::kSets; ++k) {
+      const auto set = static_cast<std::size_t>(k);
+      Eigen::VectorXd a(n);
+      const catena_point at{0.0,     states[set].q.data(), states[set].v.data(), nullptr, nullptr,
+                            nullptr, parameters[set].data()};
+      REQUIRE(model.table().acceleration(&at, a.data()) == 0);
+      for (int i = 0; i < n; ++i) {
+        const double together = sets.acceleration(k, i);
+        CHECK(std::memcmp(&together, &a[i], sizeof together) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("what does not fit the model is refused") {
+  const Model model = Model::built_in(12);
+  EightSets sets(model);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(model.parameters());
+  sets.set_parameters(7, ones);
+  CHECK_THROWS_WITH_AS(sets.set_parameters(8, ones), "set 8: there are sets 0 to 7",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(sets.set_parameters(0, Eigen::VectorXd::Ones(5)), std::invalid_argument);
+  CHECK_THROWS_AS(sets.set_parameters(0, -ones), std::invalid_argument);
+}
+
+TEST_CASE("a mass matrix without a pivot is reported") {
+  const Model model = Model::built_in(4);
+  EightSets sets(model);  // all masses zero
+  CHECK(sets.evaluate(0.0) != 0);
+}
+
+}  // namespace
