@@ -111,7 +111,8 @@ typedef struct catena_model {
   int32_t (*acceleration)(const catena_point* at, double* a);
   /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns 0,
      or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
-     right-hand side, with the solution. Null unless structured. */
+     right-hand side, with the solution. Null unless structured. With extra states ca must be 1 and
+     N has cv dr/dz (1 - cv dzdot/dz)^-1 (cv dzdot/dv + cq dzdot/dq) besides: z is eliminated. */
   int32_t (*newton_factor)(const catena_point* at, double ca, double cv, double cq, double* work);
   void (*newton_solve)(const double* work, double* x);
   /* energies and powers, energies entries in the order of energy_item */
@@ -156,6 +157,11 @@ typedef struct catena_model {
   void (*residual_tangents)(const catena_point* at, const catena_point* along, double* dr);
   void (*state_rate_tangents)(const catena_point* at, const catena_point* along, double* dzdot);
   void (*newton_solves)(const double* work, double* x);
+  /* As acceleration, for `sets` points at once, with the bits of one at a time: entry i of set k is
+     [i * sets + k] in q, v, z, u, p and a, each aligned to 8 * sets bytes; t is the same for all. The
+     processor decides on sets (8, 4, 2 or 1). */
+  int32_t (*accelerations)(const catena_point* at, double* a);
+  int32_t sets;
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -56,9 +56,10 @@ static const catena_energy kEnergyTable[] = {
     {"torque", CATENA_SUPPLIED},
 };
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 // Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give
 // the same bits.
+#define CATENA_PROCESSORS
 #define CATENA_EACH_PROCESSOR __attribute__((target_clones("avx2", "default"), flatten))
 #else
 #define CATENA_EACH_PROCESSOR
@@ -132,6 +133,43 @@ CATENA_EACH_PROCESSOR void c_residual_adjoint(const catena_point* at, const doub
                         double* dp) {
   residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp);
 }
+template <int sets>
+int32_t several(const catena_point* at, double* a) {
+  using Number = Lanes<sets>;
+  const auto numbers = [](const double* first) {
+    return reinterpret_cast<const Number*>(first);
+  };
+  const Point<Number> points{Number(at->t),  numbers(at->q), numbers(at->v), numbers(at->a),
+                             numbers(at->z), numbers(at->u), numbers(at->p)};
+  return acceleration(points, reinterpret_cast<Number*>(a));
+}
+#ifdef CATENA_PROCESSORS
+__attribute__((target("arch=x86-64-v4"), flatten)) int32_t eight(const catena_point* at,
+                                                                double* a) {
+  return several<8>(at, a);
+}
+__attribute__((target("avx2"), flatten)) int32_t four(const catena_point* at, double* a) {
+  return several<4>(at, a);
+}
+bool has_avx512() {  // what arch=x86-64-v4 stands for
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+}
+int32_t sets_at_once() {
+  return has_avx512() ? 8 : __builtin_cpu_supports("avx2") ? 4 : 2;
+}
+int32_t c_accelerations(const catena_point* at, double* a) {
+  static const int32_t sets = sets_at_once();
+  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);
+}
+#elif defined(__GNUC__)
+int32_t sets_at_once() { return 2; }
+int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); }
+#else
+int32_t sets_at_once() { return 1; }
+int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, a); }
+#endif
 }  // namespace
 
 const ::catena_model& table() {
@@ -184,6 +222,8 @@ const ::catena_model& table() {
       c_residual_tangents,
       nullptr,
       c_newton_solves,
+      c_accelerations,
+      sets_at_once(),  // sets
   };
   return model;
 }

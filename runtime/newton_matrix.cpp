@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/newton_matrix.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,27 +17,90 @@ void NewtonMatrix::solve_several(double* x) const {
 
 StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
     : NewtonMatrix(model),
-      factor_(model.table().newton_factor),
-      solve_(model.table().newton_solve),
-      solve_several_(model.table().newton_solves),
-      solve_transposed_(model.table().newton_solve_transposed),
-      work_(static_cast<std::size_t>(model.table().newton_work)) {}
-
-int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
-  return factor_(&at, 1.0, gamma, gamma * gamma, work_.data());
+      table_(model.table()),
+      n_(static_cast<std::size_t>(model.coordinates())),
+      states_(static_cast<std::size_t>(model.states())),
+      work_(static_cast<std::size_t>(table_.newton_work)) {
+  if (states_ == 0) return;
+  const auto parameters = static_cast<std::size_t>(model.parameters());
+  u_.resize(3 * static_cast<std::size_t>(model.signals()));
+  for (auto* values : {&q_, &v_, &a_, &dq_, &dv_, &dr_}) values->resize(n_);
+  for (auto* values : {&z_, &diagonal_, &dz_, &rate_}) values->resize(states_);
+  dp_.resize(parameters);
+  none_.resize(std::max({n_, states_, parameters, u_.size()}));
 }
 
-void StructuredNewtonMatrix::solve(double* x) const { solve_(work_.data(), x); }
+int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
+  gamma_ = gamma;
+  if (states_ > 0) keep(at);
+  return table_.newton_factor(&at, 1.0, gamma, gamma * gamma, work_.data());
+}
+
+/// Copies the point and finds D: each rate depends on its own state alone, so that one product with
+/// ones has them all.
+void StructuredNewtonMatrix::keep(const catena_point& at) {
+  std::copy_n(at.q, n_, q_.begin());
+  std::copy_n(at.v, n_, v_.begin());
+  std::copy_n(at.a, n_, a_.begin());
+  std::copy_n(at.z, states_, z_.begin());
+  std::copy_n(at.u, u_.size(), u_.begin());
+  at_ = {at.t, q_.data(), v_.data(), a_.data(), z_.data(), u_.data(), at.p};
+  std::fill(dz_.begin(), dz_.end(), gamma_);
+  const catena_point along = direction(none_, none_, dz_);
+  table_.state_rate_tangent(&at_, &along, rate_.data());
+  for (std::size_t k = 0; k < states_; ++k) diagonal_[k] = 1.0 - rate_[k];
+}
+
+catena_point StructuredNewtonMatrix::direction(const std::vector<double>& q,
+                                               const std::vector<double>& v,
+                                               const std::vector<double>& z) const {
+  return {0.0, q.data(), v.data(), none_.data(), z.data(), none_.data(), none_.data()};
+}
+
+void StructuredNewtonMatrix::solve(double* x) const {
+  if (states_ > 0) {
+    for (std::size_t k = 0; k < states_; ++k) {
+      x[n_ + k] /= diagonal_[k];
+      dz_[k] = gamma_ * x[n_ + k];
+    }
+    const catena_point along = direction(none_, none_, dz_);
+    table_.residual_tangent(&at_, &along, dr_.data());
+    for (std::size_t i = 0; i < n_; ++i) x[i] -= dr_[i];
+  }
+  table_.newton_solve(work_.data(), x);
+  if (states_ > 0) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      dv_[i] = gamma_ * x[i];
+      dq_[i] = gamma_ * dv_[i];
+    }
+    const catena_point along = direction(dq_, dv_, none_);
+    table_.state_rate_tangent(&at_, &along, rate_.data());
+    for (std::size_t k = 0; k < states_; ++k) x[n_ + k] += rate_[k] / diagonal_[k];
+  }
+}
 
 void StructuredNewtonMatrix::solve_several(double* x) const {
-  if (solve_several_ != nullptr)
-    solve_several_(work_.data(), x);
+  if (states_ == 0 && table_.newton_solves != nullptr)
+    table_.newton_solves(work_.data(), x);
   else
     NewtonMatrix::solve_several(x);
 }
 
 void StructuredNewtonMatrix::solve_transposed(double* x) const {
-  solve_transposed_(work_.data(), x);
+  if (states_ > 0) {
+    for (std::size_t k = 0; k < states_; ++k) {
+      x[n_ + k] /= diagonal_[k];
+      rate_[k] = gamma_ * x[n_ + k];
+    }
+    table_.residual_adjoint(&at_, none_.data(), rate_.data(), dq_.data(), dv_.data(), dz_.data(),
+                            dp_.data());
+    for (std::size_t i = 0; i < n_; ++i) x[i] += dv_[i] + gamma_ * dq_[i];
+  }
+  table_.newton_solve_transposed(work_.data(), x);
+  if (states_ > 0) {
+    table_.residual_adjoint(&at_, x, none_.data(), dq_.data(), dv_.data(), dz_.data(), dp_.data());
+    for (std::size_t k = 0; k < states_; ++k) x[n_ + k] -= gamma_ * dz_[k] / diagonal_[k];
+  }
 }
 
 DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) : NewtonMatrix(model) {
@@ -102,7 +166,7 @@ void DenseNewtonMatrix::solve_transposed(double* x) const {
 
 std::unique_ptr<NewtonMatrix> make_newton_matrix(const Model& model, LinearSolver requested,
                                                  LinearSolver& used) {
-  const bool possible = model.table().structured != 0 && model.states() == 0;
+  const bool possible = model.table().structured != 0;
   if (requested == LinearSolver::kStructured && !possible)
     throw std::invalid_argument(
         "linear_solver = structured, but the Newton matrix of this model has no structure to "

@@ -36,7 +36,9 @@ class NewtonMatrix {
   mutable std::vector<double> column_;  // one of several right-hand sides
 };
 
-/// By the emitted factorisation, O(links); for models without extra states.
+/// By the emitted factorisation, O(links). Extra states are eliminated: with D = 1 - gamma dzdot/dz,
+/// a diagonal, and C the rest of their rows, the emitted N is what is left for v, and two products
+/// with tangents of the model, O(links) too, lead there and back.
 class StructuredNewtonMatrix : public NewtonMatrix {
  public:
   explicit StructuredNewtonMatrix(const Model& model);
@@ -46,9 +48,18 @@ class StructuredNewtonMatrix : public NewtonMatrix {
   void solve_transposed(double* x) const override;
 
  private:
-  decltype(catena_model::newton_factor) factor_;
-  decltype(catena_model::newton_solve) solve_, solve_several_, solve_transposed_;
+  void keep(const catena_point& at);
+  catena_point direction(const std::vector<double>& q, const std::vector<double>& v,
+                         const std::vector<double>& z) const;
+
+  const catena_model& table_;
+  const std::size_t n_, states_;
   std::vector<double> work_;
+  // for extra states: the point of the factors, D there, and what the products need
+  double gamma_ = 0.0;
+  catena_point at_{};
+  std::vector<double> q_, v_, a_, z_, u_, diagonal_, none_;
+  mutable std::vector<double> dq_, dv_, dz_, dp_, dr_, rate_;
 };
 
 /// By LU with row exchanges; columns from the model's tangents.

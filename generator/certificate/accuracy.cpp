@@ -222,6 +222,7 @@ class Measurement {
       for (int i = 0; i < n; ++i) list[at(i)] = factor * x[at(i)] / size_of_x;
     };
     scaled(along.q, cq), scaled(along.v, cv), scaled(along.a, ca);
+    eliminate_states(along, cv);
     ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, along, step_));
     ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, along, -step_));
     // |N|: its largest entry, column by column
@@ -231,6 +232,7 @@ class Measurement {
       RandomPoint unit = along;
       for (auto* list : {&unit.q, &unit.v, &unit.a}) std::fill(list->begin(), list->end(), 0.0);
       unit.q[at(j)] = cq, unit.v[at(j)] = cv, unit.a[at(j)] = ca;
+      eliminate_states(unit, cv);
       const catena_point along_unit = unit.at();
       table_.residual_tangent(&here, &along_unit, column.data());
       size_of_matrix = std::max(size_of_matrix, largest(column));
@@ -248,6 +250,22 @@ class Measurement {
     }
     note("newton_solve_transposed", transposed.to_double(),
          size_of_matrix * size_of_x * largest(y));
+  }
+
+  // along.z as the rest of `along` moves it in N: cv (1 - cv df/dz)^-1 (df/dv dv + df/dq dq)
+  void eliminate_states(RandomPoint& along, double cv) {
+    if (table_.states == 0) return;
+    const catena_point here = point_.at();
+    Values moved(at(table_.states)), own(moved);
+    std::fill(along.z.begin(), along.z.end(), 0.0);
+    const catena_point held = along.at();
+    table_.state_rate_tangent(&here, &held, moved.data());
+    RandomPoint unit = along;
+    for (auto* list : {&unit.q, &unit.v, &unit.a}) std::fill(list->begin(), list->end(), 0.0);
+    std::fill(unit.z.begin(), unit.z.end(), 1.0);
+    const catena_point states_alone = unit.at();
+    table_.state_rate_tangent(&here, &states_alone, own.data());
+    for (std::size_t k = 0; k < own.size(); ++k) along.z[k] = cv * moved[k] / (1 - cv * own[k]);
   }
 
   void states() {

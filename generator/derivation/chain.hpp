@@ -55,6 +55,8 @@ class Chain {
   const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }
   const std::vector<GiNaC::ex>& rates() const { return rates_; }
   const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
+  /// Extra states of effects and their rates, in the same order.
+  const std::vector<GiNaC::ex>& states() const { return states_; }
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
 
   /// side, down of the support (0), the far end of each link (1..n) and the load (n + 1)
@@ -125,7 +127,7 @@ class Chain {
   ex load_side_, load_down_, cos_tilt_, sin_tilt_;
   std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
 
-  std::vector<ex> coordinates_, rates_, accelerations_, residual_, state_rates_;
+  std::vector<ex> coordinates_, rates_, accelerations_, residual_, states_, state_rates_;
   std::vector<ex> point_side_, point_down_, moments_, tensions_, curvatures_;
   std::vector<EnergyItem> energies_;
   Sensor sensor_;

@@ -133,6 +133,7 @@ void Chain::add_effect_terms(const Effect& effect) {
     each(state.at, [&](Link i) {
       const std::string unit = state.unit + "/s";
       const ex rate = evaluate(effect, state.rate, kMotion, state.at, i, unit.c_str());
+      states_.push_back(effect_symbols_.at(effect.id + "." + state.name)[i]);
       state_rates_.push_back(definitions_.named(rate, effect.id + "_" + state.name + "_rate", i));
     });
   }

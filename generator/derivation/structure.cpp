@@ -35,18 +35,17 @@ class Linearisation {
  public:
   Linearisation(Chain& chain, const Weights& weights)
       : definitions_(chain.definitions()), weights_(weights), links_(chain.links()) {
-    std::vector<int> open;
-    const auto reach = [&](const ex& expression) {
-      for (const int number : definitions_.symbols_of(expression)) {
-        if (reached_.insert(number).second) open.push_back(number);
-      }
-    };
-    for (const ex& r : chain.residual()) reach(r);
-    while (!open.empty()) {
-      const int number = open.back();
-      open.pop_back();
-      reach(definitions_[number].value);
+    for (size_t k = 0; k < chain.states().size(); ++k) {
+      state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
     }
+    for (const auto& [state, rate] : state_rates_) {
+      for (const int number : reached_from({rate})) {
+        if (number != state && state_rates_.count(number))
+          throw NotOfThisForm("extra states depend on each other");
+        reached_.insert(number);
+      }
+    }
+    reached_.merge(reached_from(chain.residual()));
     for (const int k : reached_) {
       const Symbol& symbol = definitions_[k];
       if (symbol.is_input || symbol.index == kNoIndex) continue;
@@ -105,6 +104,23 @@ class Linearisation {
   }
 
  private:
+  std::set<int> reached_from(const std::vector<ex>& expressions) {
+    std::set<int> reached;
+    std::vector<int> open;
+    const auto reach = [&](const ex& expression) {
+      for (const int number : definitions_.symbols_of(expression)) {
+        if (reached.insert(number).second) open.push_back(number);
+      }
+    };
+    for (const ex& expression : expressions) reach(expression);
+    while (!open.empty()) {
+      const int number = open.back();
+      open.pop_back();
+      reach(definitions_[number].value);
+    }
+    return reached;
+  }
+
   const std::map<Basis, int>& numbers() {
     if (numbers_.empty()) {
       for (const int k : reached_) {
@@ -137,7 +153,9 @@ class Linearisation {
     if (found != known_.end()) return found->second;
     const Symbol symbol = definitions_[number];
     Form form;
-    if (symbol.family == "theta") {
+    if (state_rates_.count(number)) {
+      form = change_of_state(number);
+    } else if (symbol.family == "theta") {
       add(form, {Basis::kPerturbation, "", symbol.index}, weights_.position);
     } else if (symbol.family == "theta_dot") {
       add(form, {Basis::kPerturbation, "", symbol.index}, weights_.velocity);
@@ -168,9 +186,32 @@ class Linearisation {
     return form;
   }
 
+  // delta z = cv (f' u + df/dz delta z), f' the change of the rate f with z held.
+  Form change_of_state(int number) {
+    if (weights_.velocity.is_zero()) return {};
+    const Basis itself{Basis::kPerturbation, "", -1};
+    // What depends on z here is not what depends on it outside.
+    std::map<int, Form> outside{{number, {{itself, 1}}}};
+    known_.swap(outside);
+    Form rate = change_of(state_rates_.at(number));
+    known_.swap(outside);
+    const Symbol symbol = definitions_[number];
+    const ex slope = rate.count(itself) ? rate.at(itself) : ex(0);
+    rate.erase(itself);
+    const ex gain = definitions_.define(symbol.family + "_gain", symbol.index,
+                                        weights_.velocity / (1 - weights_.velocity * slope));
+    Form form;
+    for (const auto& [basis, coefficient] : rate) {
+      add(form, basis,
+          gain * definitions_.named(coefficient, symbol.family + "_rate_slope", symbol.index));
+    }
+    return form;
+  }
+
   Definitions& definitions_;
   Weights weights_;
   int links_;
+  std::map<int, ex> state_rates_;  // of extra states, by the state's number
   std::set<int> reached_;  // definitions that the residual needs
   std::set<std::string> down_, up_;
   std::map<Basis, int> numbers_;
@@ -214,7 +255,6 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   if (static_cast<int>(chain.coordinates().size()) != n) {
     throw NotOfThisForm("there are coordinates besides one angle a link");
   }
-  if (!chain.state_rates().empty()) throw NotOfThisForm("there are extra states");
   Linearisation linearisation(chain, weights);
   const std::vector<std::string> down(linearisation.down().begin(), linearisation.down().end());
   const std::vector<std::string> up(linearisation.up().begin(), linearisation.up().end());

@@ -20,6 +20,10 @@
 //
 // and e_i, f_i on the two neighbouring diagonals besides: tridiagonal plus semiseparable. Whether
 // the definitions are of this form is decided exactly, coefficient by coefficient, for each link.
+//
+// Extra states with rates f(q, v, z), each of which depends on no other state, change with the links
+// as an implicit step makes them, delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz) with
+// wa = 1: they are eliminated, and N is what is left.
 #pragma once
 
 #include <ginac/ginac.h>

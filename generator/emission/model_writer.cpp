@@ -132,7 +132,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
       << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::" << s.name
       << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
-  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)\n"
+  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)\n"
          "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give\n"
          "// the same bits.\n"
          "#define CATENA_PROCESSORS\n"

@@ -111,7 +111,8 @@ typedef struct catena_model {
   int32_t (*acceleration)(const catena_point* at, double* a);
   /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns 0,
      or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
-     right-hand side, with the solution. Null unless structured. */
+     right-hand side, with the solution. Null unless structured. With extra states ca must be 1 and
+     N has cv dr/dz (1 - cv dzdot/dz)^-1 (cv dzdot/dv + cq dzdot/dq) besides: z is eliminated. */
   int32_t (*newton_factor)(const catena_point* at, double ca, double cv, double cq, double* work);
   void (*newton_solve)(const double* work, double* x);
   /* energies and powers, energies entries in the order of energy_item */
