@@ -35,10 +35,14 @@ def folders(study):
     return output, binaries
 
 
+class Failed(Exception):
+    """A command and what it printed; one that nobody catches ends the study."""
+
+
 def run(*command):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(command)}\n{done.stdout}")
+        raise Failed(f"{' '.join(command)}\n{done.stdout}")
     return done.stdout
 
 
@@ -73,7 +77,10 @@ class Fit:
             case = f"{self.case.removesuffix('.toml')}_to_reach.toml"
             with open(case, "w") as file:
                 file.write(text.replace('"least_squares"\n', f'"least_squares"\nmax_evaluations = {limit}\n'))
-            shorter = Fit(self.binaries, case, f"{self.output}_to_reach")
+            try:
+                shorter = Fit(self.binaries, case, f"{self.output}_to_reach")
+            except Failed:  # stopped so soon, a fit may not leave its start
+                continue
             if shorter.error <= error:
                 return shorter
         return self
