@@ -58,6 +58,8 @@ class Linearisation {
     for (const auto& family : down_) {
       if (up_.count(family)) throw NotOfThisForm(family + " depends on both neighbouring links");
     }
+    // From the first on: a sum along thousands of links, asked for at its end, would overflow the stack.
+    for (const int k : reached_) change_of_symbol(k);
   }
 
   // The change of an expression, in terms that are allowed at link i.

@@ -106,6 +106,10 @@ class Body {
       open.pop_back();
       if (!given(definitions_[number])) need(definitions_[number].value);
     }
+    for (const int number : needed) {  // a symbol's number is larger than those its value reads
+      const Symbol& symbol = definitions_[number];
+      if (given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value)) along_.insert(number);
+    }
     std::map<std::string, size_t> position;
     const auto family_of = [&](const std::string& name) -> Family& {
       const auto [found, is_new] = position.emplace(name, families_.size());
@@ -159,13 +163,8 @@ class Body {
 
   bool along(const ex& value) {
     const auto symbols = definitions_.symbols_of(value);
-    return std::any_of(symbols.begin(), symbols.end(), [&](int number) {
-      const auto [found, is_new] = along_.emplace(number, false);
-      if (!is_new) return found->second;
-      const Symbol& symbol = definitions_[number];
-      const bool result = given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value);
-      return along_[number] = result;
-    });
+    return std::any_of(symbols.begin(), symbols.end(),
+                       [&](int number) { return along_.count(number) > 0; });
   }
 
   const std::string& type_of(const Family& family) const {
@@ -529,7 +528,7 @@ class Body {
   std::vector<Family> families_;
   std::map<std::string, size_t> position_;
   std::set<std::pair<int, std::string>> used_inputs_;
-  std::map<int, bool> along_;  // of the symbols asked about
+  std::set<int> along_;  // symbols that depend on a differential
   std::vector<Sweep> sweeps_;
   FunctionBody result_;
   OperationCount last_count_;
