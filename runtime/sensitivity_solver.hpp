@@ -9,9 +9,9 @@
 
 namespace catena {
 
-/// The sensitivities along all seeds as one vector, which CVODES carries as one sensitivity: CATENA_DIRECTIONS
-/// seeds make a block, in which each element of (sq, sv, sz) has that many numbers side by side. The last
-/// block is filled with zeros.
+/// The sensitivities along all seeds as one vector, which CVODES carries as one sensitivity:
+/// CATENA_DIRECTIONS seeds make a block, in which each element of (sq, sv, sz) has that many numbers
+/// side by side. The last block is filled with zeros.
 ///
 /// The equations of a step, solved after StepSolver has solved for the state, are the linearisation of
 /// the step's own equations: with (sq, sv, sz) the derivative of the state along a seed and

@@ -32,9 +32,9 @@ namespace catena {
 /// y's exceeds s'Hs, one more row with residual 0 makes up for it: sqrt(1 / y's - s'Hs / (y's)^2) y'
 /// (the curvature along s is then y's, as it was found).
 ///
-/// Where an unknown y_j hardly shows, its curvature is next to nothing and the step as long as one likes. So
-/// each has |g_j| / reach_j added to it, g the gradient: no step is longer than reach_j on its account, and near
-/// the minimum nothing is added.
+/// Where an unknown y_j hardly shows, its curvature is next to nothing and the step as long as one
+/// likes. So each has |g_j| / reach_j added to it, g the gradient: no step is longer than reach_j on
+/// its account, and near the minimum nothing is added.
 ///
 /// Of all these rows Ceres needs the sum of squares, J'r and J'J. It gets them from as many rows as there
 /// are unknowns and one more.

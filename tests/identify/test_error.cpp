@@ -67,7 +67,8 @@ TEST_CASE("gradients of the measures agree with differences") {
     const Problem problem = problem_with(measure, offsets);
     const Eigen::VectorXd x = problem.start();
     Eigen::VectorXd gradient, unused;
-    const double error = error_and_gradient(problem, misfit_of(problem, evaluate(problem, x, false, true)), gradient);
+    const Misfit misfit = misfit_of(problem, evaluate(problem, x, false, true));
+    const double error = error_and_gradient(problem, misfit, gradient);
     CHECK(error == doctest::Approx(error_of(problem, evaluate(problem, x, false, false), Part::kFit)));
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const auto moved = [&](double h) {
