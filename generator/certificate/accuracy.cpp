@@ -225,16 +225,18 @@ class Measurement {
     eliminate_states(along, cv);
     ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, along, step_));
     ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, along, -step_));
-    Values matrix(at(n * n));  // N column by column
+    // |N|: its largest entry, column by column
+    double size_of_matrix = 0;
+    Values column(at(n));
     for (int j = 0; j < n; ++j) {
       RandomPoint unit = along;
       for (auto* list : {&unit.q, &unit.v, &unit.a}) std::fill(list->begin(), list->end(), 0.0);
       unit.q[at(j)] = cq, unit.v[at(j)] = cv, unit.a[at(j)] = ca;
       eliminate_states(unit, cv);
       const catena_point along_unit = unit.at();
-      table_.residual_tangent(&here, &along_unit, matrix.data() + j * n);
+      table_.residual_tangent(&here, &along_unit, column.data());
+      size_of_matrix = std::max(size_of_matrix, largest(column));
     }
-    const double size_of_matrix = largest_in_elimination(matrix, n);
     // y of N'y = left has y.(N x) = left.x.
     const Values left = direction_.v;
     Values y = left;
@@ -248,23 +250,6 @@ class Measurement {
     }
     note("newton_solve_transposed", transposed.to_double(),
          size_of_matrix * size_of_x * largest(y));
-  }
-
-  // The largest entry of N and of what is left of it as rows go, from the last up and without exchanges:
-  // what the roundings of such an elimination are relative to.
-  static double largest_in_elimination(Values matrix, int n) {
-    double size = largest(matrix);
-    for (int j = n - 1; j > 0; --j) {
-      for (int k = 0; k < j; ++k) {
-        const double factor = matrix[at(k * n + j)] / matrix[at(j * n + j)];
-        for (int i = 0; i < j; ++i) {
-          double& entry = matrix[at(k * n + i)];
-          entry -= factor * matrix[at(j * n + i)];
-          size = std::max(size, std::abs(entry));
-        }
-      }
-    }
-    return size;
   }
 
   // along.z as the rest of `along` moves it in N: cv (1 - cv df/dz)^-1 (df/dv dv + df/dq dq)

@@ -54,7 +54,8 @@ std::string header_text(const Description& description, const ModelFunctions& fu
     for (const Effect& effect : description.effects) out << " " << effect.id;
   }
   out << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
-         "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see directions.hpp.\n//\n// Structure found:\n"
+         "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
+         "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions)
       << "#pragma once\n\n#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include \"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";

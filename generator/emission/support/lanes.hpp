@@ -66,6 +66,9 @@ class Lanes {
   friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.values_ - b.values_); }
   friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.values_ * b.values_); }
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
+  friend Lanes operator*(double a, const Lanes& b) { return Lanes(a * b.values_); }
+  friend Lanes operator*(const Lanes& a, double b) { return Lanes(a.values_ * b); }
+  friend Lanes operator/(const Lanes& a, double b) { return Lanes(a.values_ / b); }
 
   /// Comparisons are of all lanes: a pivot is good if it is good in every set.
   friend bool operator>(const Lanes& a, const Lanes& b) { return all_greater(a.values_, b.values_); }
