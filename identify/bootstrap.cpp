@@ -19,7 +19,8 @@ MatrixXd drawn_again(const MatrixXd& residuals, Index block, std::mt19937_64& ge
   MatrixXd out(residuals.rows(), frames);
   for (Index begin = 0; begin < frames; begin += block) {
     const Index length = std::min(block, frames - begin);
-    const auto from = static_cast<Index>(generator() % static_cast<std::uint64_t>(frames - length + 1));
+    const auto from =
+        static_cast<Index>(generator() % static_cast<std::uint64_t>(frames - length + 1));
     out.middleCols(begin, length) = residuals.middleCols(from, length);
   }
   return out;

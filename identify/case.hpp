@@ -18,8 +18,8 @@ inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 /// The cable at rest in a table: lengths, masses, inertias of its links. What is empty or NaN
 /// follows from the rest: equal links, mass = density * length, inertia = mass * length^2 / 12.
 struct CableGeometry {
-  double length = kNotGiven;   ///< m
-  double density = kNotGiven;  ///< kg/m
+  double length = kNotGiven;          ///< m
+  double density = kNotGiven;         ///< kg/m
   std::vector<double> link_lengths;   ///< m, one per link
   std::vector<double> link_masses;    ///< kg
   std::vector<double> link_inertias;  ///< kg m^2, each about the link's own centre
@@ -32,10 +32,11 @@ enum class Scale { kLinear, kLogarithmic };
 /// One quantity that sets one or several parameters of the model:
 /// model value = factor * value (* what the quantity itself says, see ParameterMap).
 struct ParameterSpec {
-  std::string name;   ///< label in results
-  std::string sets;   ///< "stiffness_2..12", "stiffness", "air_drag_quadratic.normal", "bending_stiffness", ...
-  std::string unit;   ///< of `value`
-  double value = 0;   ///< starting value if free
+  std::string name;  ///< label in results
+  std::string sets;  ///< "stiffness_2..12", "stiffness", "air_drag_quadratic.normal",
+                     ///< "bending_stiffness", ...
+  std::string unit;  ///< of `value`
+  double value = 0;  ///< starting value if free
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double factor = 1;
@@ -58,14 +59,14 @@ enum class Shape {
 
 struct InitialSpec {
   Shape shape = Shape::kHanging;
-  int terms = 6;                     ///< kSmooth
-  std::vector<double> coefficients;  ///< empty: found from the first frames of the data
-  bool free = false;                 ///< the coefficients are unknowns
+  int terms = 6;                        ///< kSmooth
+  std::vector<double> coefficients;     ///< empty: found from the first frames of the data
+  bool free = false;                    ///< the coefficients are unknowns
   std::array<double, 2> held = {0, 0};  ///< kCatenary: side, down of the held point, m
-  bool ends_at_held = false;            ///< kCatenary: the end of the last link, not of the curve, is there
+  bool ends_at_held = false;  ///< kCatenary: the end of the last link, not of the curve, is there
 
-  bool at_rest = true;                        ///< no velocity at the start
-  Shape velocity_shape = Shape::kSmooth;      ///< kStraight, kAngles or kSmooth
+  bool at_rest = true;                    ///< no velocity at the start
+  Shape velocity_shape = Shape::kSmooth;  ///< kStraight, kAngles or kSmooth
   int velocity_terms = 3;
   std::vector<double> velocity_coefficients;  ///< rad/s; empty: from the first frames of the data
   bool velocity_free = false;
@@ -103,17 +104,18 @@ struct ExperimentSpec {
   double from = -std::numeric_limits<double>::infinity();  ///< s, first and last frame used
   double to = std::numeric_limits<double>::infinity();
   double fit_until = std::numeric_limits<double>::infinity();  ///< later frames only validate
-  double start = kNotGiven;   ///< model time at which the initial state holds; NaN: the first frame
-  double window = kNotGiven;  ///< s: cut into windows, each an experiment with its own initial state
-  bool joined = false;        ///< multiple shooting: each window must end where the next one starts
-  int every = 1;              ///< only every so many-th frame
-  double noise = kNotGiven;   ///< expected standard deviation, m or rad
+  double start = kNotGiven;  ///< model time at which the initial state holds; NaN: the first frame
+  double window =
+      kNotGiven;             ///< s: cut into windows, each an experiment with its own initial state
+  bool joined = false;       ///< multiple shooting: each window must end where the next one starts
+  int every = 1;             ///< only every so many-th frame
+  double noise = kNotGiven;  ///< expected standard deviation, m or rad
   std::vector<PointSpec> points;  ///< empty: all columns side_i_m, down_i_m or theta_i_rad
   std::optional<InitialSpec> initial;
   std::vector<SignalSpec> signals;
 
   // how the file says it
-  std::string time_column;  ///< empty: the first column
+  std::string time_column;        ///< empty: the first column
   std::string time_unit = "s";    ///< "s", "ms" or "frames"
   double frame_rate = kNotGiven;  ///< 1/s, for "frames"
   std::string length_unit = "m";  ///< "m", "cm", "mm" or "px"
@@ -121,26 +123,26 @@ struct ExperimentSpec {
   std::string angle_unit = "rad";  ///< "rad" or "deg"
   bool wrapped = false;            ///< angles jump by a turn
   bool upward = false;             ///< the vertical axis of the file points up
-  bool mirrored = false;           ///< the horizontal axis (or the angle) of the file points to -side
+  bool mirrored = false;  ///< the horizontal axis (or the angle) of the file points to -side
   std::array<double, 2> origin = {0, 0};  ///< the fixed point in the file's own axes and unit
   double likelihood_floor = 0.6;          ///< DeepLabCut: points less likely are not seen
   std::string where;
 };
 
 enum class Measure {
-  kLeastSquares,   ///< root mean square of the residuals, weighted by the noise where given
-  kMeanDistance,   ///< mean over frames and markers of the distance, (6.5), (6.6)
-  kMeanAbsolute,   ///< mean over channels of the mean absolute residual, (7.1)-(7.5)
-  kLikelihood,     ///< geometric mean of the channels' root mean squares: the likelihood with the noise
-                   ///< of every channel unknown
+  kLeastSquares,  ///< root mean square of the residuals, weighted by the noise where given
+  kMeanDistance,  ///< mean over frames and markers of the distance, (6.5), (6.6)
+  kMeanAbsolute,  ///< mean over channels of the mean absolute residual, (7.1)-(7.5)
+  kLikelihood,    ///< geometric mean of the channels' root mean squares: the likelihood with the
+                ///< noise of every channel unknown
 };
 
 enum class Loss { kNone, kHuber, kSoftL1, kCauchy };
 
 struct ErrorSpec {
   Measure measure = Measure::kLeastSquares;
-  Loss loss = Loss::kNone;      ///< least squares only
-  double loss_scale = 3;        ///< in units of the noise
+  Loss loss = Loss::kNone;  ///< least squares only
+  double loss_scale = 3;    ///< in units of the noise
 };
 
 enum class FitMethod { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };
@@ -172,7 +174,8 @@ struct Case {
   CableGeometry cable;
   std::vector<ParameterSpec> parameters;
   InitialSpec initial;
-  std::vector<SignalSpec> signals;  ///< of a simulation without data, and of experiments that give none
+  std::vector<SignalSpec>
+      signals;  ///< of a simulation without data, and of experiments that give none
   std::vector<ExperimentSpec> experiments;
   ErrorSpec error;
   OptimiserSpec optimiser;

@@ -89,19 +89,18 @@ ParameterSpec read_parameter(const TomlTable& table) {
   if (!std::isfinite(parameter.value))
     table.fail("value", shortest_number(parameter.value) + "; must be finite");
   if (parameter.lower > parameter.upper)
-    table.fail("lower", shortest_number(parameter.lower) + "; must not exceed upper = " +
-                            shortest_number(parameter.upper));
+    table.fail("lower", shortest_number(parameter.lower) +
+                            "; must not exceed upper = " + shortest_number(parameter.upper));
   if (parameter.free && parameter.lower == parameter.upper)
     table.fail("lower", shortest_number(parameter.lower) +
                             "; a free parameter needs room: lower must be below upper");
   if (parameter.value < parameter.lower || parameter.value > parameter.upper)
-    table.fail("value", shortest_number(parameter.value) + "; must lie within lower = " +
-                            shortest_number(parameter.lower) + " and upper = " +
-                            shortest_number(parameter.upper));
+    table.fail("value", shortest_number(parameter.value) +
+                            "; must lie within lower = " + shortest_number(parameter.lower) +
+                            " and upper = " + shortest_number(parameter.upper));
   const bool strictly_positive = parameter.lower > 0;
   parameter.scale = strictly_positive ? Scale::kLogarithmic : Scale::kLinear;
-  if (table.has("scale"))
-    parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
+  if (table.has("scale")) parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
   if (parameter.scale == Scale::kLogarithmic && parameter.free && !strictly_positive)
     table.fail("lower", shortest_number(parameter.lower) +
                             "; a logarithmic scale needs a positive lower bound");
@@ -241,16 +240,16 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
   experiment.every = count(table, "every", 1, 1);
   experiment.noise = optional_positive(table, "noise", kNotGiven);
   if (!(experiment.from < experiment.to))
-    table.fail("to", shortest_number(experiment.to) + "; must be after from = " +
-                         shortest_number(experiment.from));
+    table.fail("to", shortest_number(experiment.to) +
+                         "; must be after from = " + shortest_number(experiment.from));
   if (experiment.fit_until <= experiment.from)
-    table.fail("fit_until", shortest_number(experiment.fit_until) + "; must be after from = " +
-                                shortest_number(experiment.from));
+    table.fail("fit_until", shortest_number(experiment.fit_until) +
+                                "; must be after from = " + shortest_number(experiment.from));
   read_conventions(table, experiment);
   const std::string_view key = experiment.kind == DataKind::kMarkers ? "markers" : "angles";
   for (const TomlTable& point : table.tables(key))
-    experiment.points.push_back(read_point(
-        point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links));
+    experiment.points.push_back(
+        read_point(point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links));
   if (const auto initial = table.optional_table("initial"))
     experiment.initial = read_initial(*initial, links);
   experiment.signals = read_signals(table, directory);

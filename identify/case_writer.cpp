@@ -32,7 +32,9 @@ std::string list(const std::vector<double>& values) {
 class Writer {
  public:
   void header(const std::string& text) { out_ += "\n" + text + "\n"; }
-  void line(const std::string& key, const std::string& value) { out_ += key + " = " + value + "\n"; }
+  void line(const std::string& key, const std::string& value) {
+    out_ += key + " = " + value + "\n";
+  }
   void text(const std::string& key, const std::string& value, const std::string& absent = "") {
     if (value != absent) line(key, quoted(value));
   }
@@ -60,7 +62,8 @@ const std::string& word(const std::vector<std::string>& words, Word value) {
   return words[static_cast<std::size_t>(value)];
 }
 
-std::string relative_path(const std::filesystem::path& path, const std::filesystem::path& directory) {
+std::string relative_path(const std::filesystem::path& path,
+                          const std::filesystem::path& directory) {
   const std::filesystem::path base = directory.empty() ? "." : directory;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path))
       .lexically_relative(std::filesystem::weakly_canonical(std::filesystem::absolute(base)))

@@ -35,7 +35,8 @@ void for_each_seen(const Problem& problem, const Evaluation& evaluation, Part pa
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kLeastNoise = 1e-12;  // m or rad: perfect data leave nothing to weigh by
 
-/// Of every residual, its channel's place in a list of the channels of all recordings that have any.
+/// Of every residual, its channel's place in a list of the channels of all recordings that have
+/// any.
 std::vector<std::size_t> channel_places(const Problem& problem, const Residuals& residuals) {
   std::map<std::pair<int, int>, std::size_t> found;  // (recording, channel), in order of appearance
   std::vector<std::size_t> places;
@@ -97,7 +98,8 @@ Joints joints_of(const Problem& problem, const Evaluation& evaluation) {
   Joints joints;
   const Index size = 2 * problem.model().coordinates();
   Index count = 0;
-  for (const Experiment& experiment : problem.experiments()) count += experiment.meets >= 0 ? size : 0;
+  for (const Experiment& experiment : problem.experiments())
+    count += experiment.meets >= 0 ? size : 0;
   joints.value.resize(count);
   joints.weight.resize(count);
   if (evaluation.with_jacobian)
@@ -143,10 +145,12 @@ std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& r
     ChannelNoise& channel = channels[places[i]];
     const Experiment& experiment =
         problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)];
-    channel.name = problem.study().experiments[static_cast<std::size_t>(experiment.source)].name + ": " +
-                   experiment.recording.channels[static_cast<std::size_t>(residuals.index[i].channel)].name;
+    channel.name =
+        problem.study().experiments[static_cast<std::size_t>(experiment.source)].name + ": " +
+        experiment.recording.channels[static_cast<std::size_t>(residuals.index[i].channel)].name;
     ++channel.count;
-    channel.deviation += residuals.value[static_cast<Index>(i)] * residuals.value[static_cast<Index>(i)];
+    channel.deviation +=
+        residuals.value[static_cast<Index>(i)] * residuals.value[static_cast<Index>(i)];
   }
   for (ChannelNoise& channel : channels)
     channel.deviation = std::sqrt(channel.deviation / static_cast<double>(channel.count));
@@ -208,7 +212,8 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
 
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
   if (!evaluation.ok) return {false, {}, {}, kInfinite};
-  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit), joints_of(problem, evaluation), 0};
+  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit), joints_of(problem, evaluation),
+                0};
   misfit.error = error_of(problem, misfit.residuals, misfit.joints);
   return misfit;
 }

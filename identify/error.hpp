@@ -32,8 +32,8 @@ struct Distance {
 };
 std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
 
-/// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s), window
-/// by window. Nothing where none are joined.
+/// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s),
+/// window by window. Nothing where none are joined.
 struct Joints {
   Eigen::VectorXd value;
   Eigen::MatrixXd jacobian;  ///< joints x unknowns, empty if the evaluation had none
@@ -47,9 +47,9 @@ Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
 
 /// One channel of one recording, over all its windows.
 struct ChannelNoise {
-  std::string name;          ///< "recording: marker 3 side"
-  Eigen::Index count = 0;    ///< residuals
-  double deviation = 0;      ///< their root mean square, m or rad
+  std::string name;        ///< "recording: marker 3 side"
+  Eigen::Index count = 0;  ///< residuals
+  double deviation = 0;    ///< their root mean square, m or rad
 };
 std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& residuals);
 

@@ -63,7 +63,8 @@ FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
     return value;
   };
   const Minimum found = minimise(error, to_scaled(problem, start), settings);
-  return journal.result(found.stopped ? journal.why_stopped() : FitStatus::kConverged, found.message);
+  return journal.result(found.stopped ? journal.why_stopped() : FitStatus::kConverged,
+                        found.message);
 }
 
 }  // namespace
@@ -114,8 +115,8 @@ FitResult fit_once(const Problem& problem, const FitOptions& options,
              : fit_by_nlopt(problem, options);
 }
 
-// What a gap between joined windows costs at first: hardly anything, so that each window finds its own
-// best start; then more, up to the problem's own weight, with which it closes.
+// What a gap between joined windows costs at first: hardly anything, so that each window finds its
+// own best start; then more, up to the problem's own weight, with which it closes.
 constexpr double kLooseJoints[] = {0.1, 1, 10, 100, 1000};
 
 bool finished(const FitResult& result) {
@@ -155,7 +156,8 @@ void check_fittable(const Problem& problem) {
                      ": free parameters without data; add an [[experiment]] with use = \"fit\"");
 }
 
-FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares) {
+FitResult fit(const Problem& problem, const FitOptions& options,
+              const LeastSquares& least_squares) {
   check_fittable(problem);
   const OptimiserSpec& spec = problem.study().optimiser;
   if (spec.method == FitMethod::kLeastSquares && !least_squares)

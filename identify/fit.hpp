@@ -38,14 +38,14 @@ struct Failure {
 struct FitResult {
   FitStatus status = FitStatus::kNotRun;
   std::string message;
-  Eigen::VectorXd x;         ///< the best
-  double error = 0;          ///< its error, in the case's measure
+  Eigen::VectorXd x;  ///< the best
+  double error = 0;   ///< its error, in the case's measure
   double start_error = 0;
-  int evaluations = 0;       ///< simulations of all experiments
-  double work = 0;           ///< in simulations' worth of time: with sensitivities they cost more
+  int evaluations = 0;  ///< simulations of all experiments
+  double work = 0;      ///< in simulations' worth of time: with sensitivities they cost more
   int iterations = 0;
   double seconds = 0;
-  double cpu_seconds = 0;    ///< of this thread: what the fit cost, whatever else the machine does
+  double cpu_seconds = 0;  ///< of this thread: what the fit cost, whatever else the machine does
   std::vector<HistoryEntry> history;
   int failures = 0;
   std::vector<Failure> failed;  ///< the first hundred
@@ -57,8 +57,8 @@ struct Progress {
 };
 
 struct FitOptions {
-  Eigen::VectorXd start;          ///< empty: the case's
-  double time_limit = 0;          ///< s; 0: none
+  Eigen::VectorXd start;  ///< empty: the case's
+  double time_limit = 0;  ///< s; 0: none
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
   /// What an interrupted run found for exactly these unknowns; null if it did not come that far.
@@ -66,15 +66,15 @@ struct FitOptions {
   std::function<void(const HistoryEntry&)> record;
 };
 
-/// A fit by least squares, e.g. fit_least_squares of identify/ceres/least_squares.hpp: handed in, so
-/// that who does not want it need not link it.
+/// A fit by least squares, e.g. fit_least_squares of identify/ceres/least_squares.hpp: handed in,
+/// so that who does not want it need not link it.
 using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
 
-/// Fits the unknowns by the method the case names; where the case asks for growing windows, first the
-/// beginning of each experiment, then longer parts, each from where the one before ended; where it joins
-/// windows (multiple shooting), first with gaps between them that cost little, then ever more.
-/// Nelder-Mead and the bounded gradient methods are those of minimise.hpp. Throws InputError for least
-/// squares without a solver.
+/// Fits the unknowns by the method the case names; where the case asks for growing windows, first
+/// the beginning of each experiment, then longer parts, each from where the one before ended; where
+/// it joins windows (multiple shooting), first with gaps between them that cost little, then ever
+/// more. Nelder-Mead and the bounded gradient methods are those of minimise.hpp. Throws InputError
+/// for least squares without a solver.
 FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
 
 /// How a recording is taken: "whole", "growing windows", "separate windows", "multiple shooting".

@@ -39,7 +39,8 @@ struct FirstFrames {
   }
 
   /// The simulated value of one channel and its derivative by the angles of the links.
-  double value(const Channel& channel, const Eigen::VectorXd& theta, Eigen::VectorXd& by_angle) const {
+  double value(const Channel& channel, const Eigen::VectorXd& theta,
+               Eigen::VectorXd& by_angle) const {
     const PointSpec& point = recording.points[static_cast<std::size_t>(channel.point)];
     by_angle.setZero(theta.size());
     if (channel.component == Component::kAngle) {
@@ -104,7 +105,8 @@ Eigen::MatrixXd shape_basis(Shape shape, int links, int terms, const Eigen::Vect
 
 Eigen::VectorXd initial_angles(const InitialSpec& initial, const Eigen::VectorXd& lengths) {
   const int links = static_cast<int>(lengths.size());
-  return shape_basis(initial.shape, links, initial.terms, lengths) * as_vector(initial.coefficients);
+  return shape_basis(initial.shape, links, initial.terms, lengths) *
+         as_vector(initial.coefficients);
 }
 
 Eigen::VectorXd initial_rates(const InitialSpec& initial, const Eigen::VectorXd& lengths) {
@@ -129,8 +131,9 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
   const Eigen::Index n = links, unknowns = initial.at_rest ? n : 2 * n;
   const FirstFrames first{recording, lengths, used};
   if (recording.measured.leftCols(used).array().isNaN().all())
-    throw InputError("the first frames hold no measurement: the initial state cannot be found from "
-                     "them; give its coefficients, or another `from`");
+    throw InputError(
+        "the first frames hold no measurement: the initial state cannot be found from "
+        "them; give its coefficients, or another `from`");
   Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns);
   x.head(n).setConstant(common_angle(recording));
   if (angle_count > 0 && !find_angles) x.head(n) = initial_angles(initial, lengths);
@@ -149,7 +152,8 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
     };
     for (Eigen::Index k = 0; k < used; ++k) {
       const double t = recording.time[static_cast<std::size_t>(k)] - recording.time.front();
-      const Eigen::VectorXd theta = initial.at_rest ? x : Eigen::VectorXd(x.head(n) + t * x.tail(n));
+      const Eigen::VectorXd theta =
+          initial.at_rest ? x : Eigen::VectorXd(x.head(n) + t * x.tail(n));
       for (std::size_t c = 0; c < recording.channels.size(); ++c) {
         const double measured = recording.measured(static_cast<Eigen::Index>(c), k);
         if (std::isnan(measured)) continue;

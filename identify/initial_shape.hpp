@@ -20,9 +20,10 @@ Eigen::VectorXd initial_angles(const InitialSpec& initial, const Eigen::VectorXd
 /// Their rates, rad/s.
 Eigen::VectorXd initial_rates(const InitialSpec& initial, const Eigen::VectorXd& lengths);
 
-/// Finds the coefficients that are not given from the first frames of a recording: angles through the
-/// first frame (least squares on the positions, with the least bending that explains them), rates from
-/// a line through the first few frames. Throws InputError if the recording has nothing there.
+/// Finds the coefficients that are not given from the first frames of a recording: angles through
+/// the first frame (least squares on the positions, with the least bending that explains them),
+/// rates from a line through the first few frames. Throws InputError if the recording has nothing
+/// there.
 void complete_from_data(InitialSpec& initial, const Recording& recording,
                         const Eigen::VectorXd& lengths);
 

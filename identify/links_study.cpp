@@ -19,7 +19,8 @@ Case with_links(const Case& study, int links) {
     refuse("cable: gives numbers per link");
   for (const ParameterSpec& parameter : study.parameters)
     if (parameter.sets.find("..") != std::string::npos ||
-        (!parameter.sets.empty() && std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
+        (!parameter.sets.empty() &&
+         std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
       refuse("parameter \"" + parameter.name + "\": sets = \"" + parameter.sets + "\"");
   const auto check = [&](const InitialSpec& initial) {
     if (initial.shape == Shape::kAngles ||
@@ -29,7 +30,8 @@ Case with_links(const Case& study, int links) {
   check(study.initial);
   for (const ExperimentSpec& experiment : study.experiments) {
     if (experiment.initial) check(*experiment.initial);
-    if (experiment.kind == DataKind::kAngles) refuse(experiment.name + ": measures angles of links");
+    if (experiment.kind == DataKind::kAngles)
+      refuse(experiment.name + ": measures angles of links");
     for (const PointSpec& point : experiment.points)
       if (point.joint) refuse(experiment.name + ": " + point.name + " is at a joint");
   }
@@ -51,7 +53,8 @@ std::vector<LinksResult> links_study(const Case& study, const std::vector<int>& 
     if (std::isfinite(result.fit.error)) {
       const Evaluation evaluation = evaluate(problem, result.fit.x, true, false);
       const bool held_out = residuals_of(problem, evaluation, Part::kValidation).value.size() > 0;
-      result.validation_error = held_out ? error_of(problem, evaluation, Part::kValidation) : kNotGiven;
+      result.validation_error =
+          held_out ? error_of(problem, evaluation, Part::kValidation) : kNotGiven;
     }
     for (const Unknown& unknown : problem.unknowns()) result.names.push_back(unknown.name);
     results.push_back(std::move(result));

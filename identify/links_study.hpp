@@ -13,7 +13,7 @@ namespace catena {
 struct LinksResult {
   int links = 0;
   FitResult fit;
-  double validation_error = 0;  ///< in the case's measure; NaN without validation data
+  double validation_error = 0;     ///< in the case's measure; NaN without validation data
   std::vector<std::string> names;  ///< of the unknowns
 };
 
@@ -26,7 +26,8 @@ std::vector<LinksResult> links_study(const Case& study, const std::vector<int>& 
                                      const std::function<Model(const Case&)>& model_of,
                                      const FitOptions& options, const LeastSquares& least_squares);
 
-/// The fewest links whose error is within (1 + budget) of the least error of all; -1 if none succeeded.
+/// The fewest links whose error is within (1 + budget) of the least error of all; -1 if none
+/// succeeded.
 int recommended_links(const std::vector<LinksResult>& results, double budget);
 
 }  // namespace catena

@@ -56,7 +56,8 @@ struct Search {
 
 Minimum minimise(const Objective& objective, const Eigen::VectorXd& start,
                  const MinimiserOptions& options) {
-  Search search{objective, options,
+  Search search{objective,
+                options,
                 nlopt::opt(algorithm_of(options.method), static_cast<unsigned>(start.size())),
                 {start, std::numeric_limits<double>::infinity(), false, ""}};
   nlopt::opt& solver = search.solver;
@@ -66,7 +67,9 @@ Minimum minimise(const Objective& objective, const Eigen::VectorXd& start,
   solver.set_xtol_rel(options.x_tolerance);
   solver.set_ftol_rel(options.value_tolerance);
   const nlopt::vfunc evaluate = [](const std::vector<double>& x, std::vector<double>& slope,
-                                   void* data) { return static_cast<Search*>(data)->evaluate(x, slope); };
+                                   void* data) {
+    return static_cast<Search*>(data)->evaluate(x, slope);
+  };
   solver.set_min_objective(evaluate, &search);
   std::vector<double> x = plain(start);
   double value = 0;

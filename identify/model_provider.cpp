@@ -46,7 +46,8 @@ class WorkFolder {
     fs::create_directories(cache, error);
     std::string pattern = (cache / "work-XXXXXX").string();
     if (!mkdtemp(pattern.data()))
-      throw ModelError(cache.string() + ": the cache of models cannot be written; set CATENA_CACHE to a "
+      throw ModelError(cache.string() +
+                       ": the cache of models cannot be written; set CATENA_CACHE to a "
                        "folder of yours");
     path_ = pattern;
   }
@@ -77,7 +78,8 @@ std::string run(const std::vector<std::string>& command, const std::string& purp
   return result.output;
 }
 
-std::vector<std::string> derivation(const fs::path& derive, const fs::path& description, int links) {
+std::vector<std::string> derivation(const fs::path& derive, const fs::path& description,
+                                    int links) {
   std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
   if (!description.empty()) {
     command.push_back("--description");
@@ -109,8 +111,9 @@ fs::path find_derive_program() {
        {here / name, here / ".." / "libexec" / "catena" / name, here / ".." / "bin" / name})
     if (can_run(candidate)) return candidate.lexically_normal();
   if (const fs::path found = find_in_path(name); !found.empty()) return found;
-  throw ModelError("catena-derive was not found beside this program, in ../libexec/catena or in PATH; it "
-                   "derives models that are not built in");
+  throw ModelError(
+      "catena-derive was not found beside this program, in ../libexec/catena or in PATH; it "
+      "derives models that are not built in");
 }
 
 std::string derived_equations(const fs::path& description, int links) {
@@ -132,8 +135,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       options.derive_program.empty() ? find_derive_program() : options.derive_program;
   std::string compiler = options.compiler;
   if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
-  const std::vector<std::string> flags = {"-std=c++20", "-O2", "-shared", "-fPIC",
-                                          "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
+  const std::vector<std::string> flags = {
+      "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         identity_of(derive) + "\n" + "interface " +
                         std::to_string(CATENA_MODEL_ABI) + ", " +

@@ -17,9 +17,10 @@ class ModelError : public std::runtime_error {
 };
 
 struct ProviderOptions {
-  std::filesystem::path derive_program;   ///< empty: beside this program, in its libexec, or in PATH
-  std::filesystem::path cache_directory;  ///< empty: $CATENA_CACHE, $XDG_CACHE_HOME/catena, ~/.cache/catena
-  std::string compiler;                   ///< empty: $CXX, else c++
+  std::filesystem::path derive_program;  ///< empty: beside this program, in its libexec, or in PATH
+  std::filesystem::path
+      cache_directory;   ///< empty: $CATENA_CACHE, $XDG_CACHE_HOME/catena, ~/.cache/catena
+  std::string compiler;  ///< empty: $CXX, else c++
   std::function<void(const std::string&)> notice;  ///< one line before something takes its time
 };
 
@@ -31,7 +32,8 @@ Model provide_model(const std::filesystem::path& description, int links,
                     const ProviderOptions& options = {});
 
 /// The equations that the derivation finds for the model with so many links, at most 3, as
-/// `catena-derive derive --equations` prints them (JSON). Empty where catena-derive is not to be had.
+/// `catena-derive derive --equations` prints them (JSON). Empty where catena-derive is not to be
+/// had.
 std::string derived_equations(const std::filesystem::path& description, int links);
 
 /// catena-derive: beside this program, in ../libexec/catena, or in PATH. Throws ModelError.

@@ -133,8 +133,8 @@ std::string energy_csv(const Model& model, const Motion& motion) {
 std::string residuals_csv(const Problem& problem, const Evaluation& evaluation) {
   static const char* const kComponents[] = {"side_m", "down_m", "angle_rad"};
   Csv csv;
-  for (const char* name : {"experiment", "part", "point", "component", "time_s", "measured",
-                           "simulated", "residual"})
+  for (const char* name :
+       {"experiment", "part", "point", "component", "time_s", "measured", "simulated", "residual"})
     csv.name(name);
   csv.end_line();
   for (std::size_t e = 0; e < problem.experiments().size(); ++e) {

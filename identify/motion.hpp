@@ -9,7 +9,8 @@
 
 namespace catena {
 
-/// A simulation with the positions of its points: support, far end of each link, load, one row each.
+/// A simulation with the positions of its points: support, far end of each link, load, one row
+/// each.
 struct Motion {
   Simulation simulation;
   Eigen::MatrixXd side, down;  ///< (links + 2) x times, m

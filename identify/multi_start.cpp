@@ -23,7 +23,8 @@ std::vector<std::size_t> shuffled(std::size_t count, std::mt19937_64& generator)
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = count; i > 1; --i)
-    std::swap(order[i - 1], order[static_cast<std::size_t>(uniform(generator) * static_cast<double>(i))]);
+    std::swap(order[i - 1],
+              order[static_cast<std::size_t>(uniform(generator) * static_cast<double>(i))]);
   return order;
 }
 
@@ -32,7 +33,8 @@ std::vector<std::size_t> shuffled(std::size_t count, std::mt19937_64& generator)
 std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, unsigned seed) {
   std::mt19937_64 generator(seed);
   const auto drawn = static_cast<std::size_t>(count - 1);
-  std::vector<Eigen::VectorXd> points(static_cast<std::size_t>(count), to_scaled(problem, problem.start()));
+  std::vector<Eigen::VectorXd> points(static_cast<std::size_t>(count),
+                                      to_scaled(problem, problem.start()));
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     const std::vector<std::size_t> cell = shuffled(drawn, generator);
@@ -40,7 +42,8 @@ std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, uns
     const double lower = logarithmic ? std::log(unknown.lower) : unknown.lower;
     const double upper = logarithmic ? std::log(unknown.upper) : unknown.upper;
     for (std::size_t i = 0; i < drawn; ++i) {
-      const double place = (static_cast<double>(cell[i]) + uniform(generator)) / static_cast<double>(drawn);
+      const double place =
+          (static_cast<double>(cell[i]) + uniform(generator)) / static_cast<double>(drawn);
       if (std::isfinite(lower) && std::isfinite(upper))
         points[i + 1][static_cast<Eigen::Index>(j)] = lower + place * (upper - lower);
     }

@@ -89,8 +89,8 @@ Target find_target(const ParameterSpec& parameter, const Model& model) {
   target.last = links;
   if (parse_range(parameter.sets, target.stem, target.first, target.last) &&
       (target.first < 1 || target.last > links || target.first > target.last))
-    fail(parameter, "sets = \"" + parameter.sets + "\": a range must lie within 1.." +
-                        std::to_string(links));
+    fail(parameter,
+         "sets = \"" + parameter.sets + "\": a range must lie within 1.." + std::to_string(links));
   for (const PerLength& entry : kPerLength)
     if (target.stem == entry.name) target.per_length = &entry;
   target.indices = family(model, target.per_length ? target.per_length->family : target.stem,
@@ -150,7 +150,8 @@ ParameterMap::ParameterMap(const Case& study, const Model& model) : links_(model
       check_unit(parameter, is_length ? "m" : "kg/m");
       assignment.kind = is_length ? Kind::kLength : Kind::kDensity;
       if (!is_length && masses_given_)
-        fail(parameter, "sets = \"cable.density\": [cable] gives link_masses; give density instead");
+        fail(parameter,
+             "sets = \"cable.density\": [cable] gives link_masses; give density instead");
       if (std::exchange(is_length ? length_set : density_set, true))
         fail(parameter, "sets = \"" + parameter.sets + "\": set twice");
       if (!(parameter.factor * parameter.value > 0))
@@ -200,7 +201,8 @@ Eigen::Vector<T, Eigen::Dynamic> ParameterMap::map(
   }
   Vector p = base_.template cast<T>();
   const Vector lengths = relative_lengths_.template cast<T>() * length;
-  const Vector masses = masses_given_ ? Vector(masses_.template cast<T>()) : Vector(lengths * density);
+  const Vector masses =
+      masses_given_ ? Vector(masses_.template cast<T>()) : Vector(lengths * density);
   p.segment(length_index_, links_) = lengths;
   p.segment(mass_index_, links_) = masses;
   if (inertias_given_)

@@ -20,9 +20,9 @@ namespace catena {
 ///   "cable.length" (m)                     all lengths in proportion; masses, inertias follow
 ///   "cable.density" (kg/m)                 masses, and inertias in proportion
 ///
-/// spacing_i is the length of cable whose bending joint i stands for: from the middle of link i-1 to
-/// that of link i, for joint 1 from the clamp to the middle of link 1. (A cable on a hinge has no
-/// bending stiffness at joint 1: use a range from 2 on.)
+/// spacing_i is the length of cable whose bending joint i stands for: from the middle of link i-1
+/// to that of link i, for joint 1 from the clamp to the middle of link 1. (A cable on a hinge has
+/// no bending stiffness at joint 1: use a range from 2 on.)
 class ParameterMap {
  public:
   /// Throws InputError naming line and key for an unknown name, a wrong unit, a value outside the

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Where a point is on the chain. Material points keep their place when the cable bends; those given
-/// by arc length also move along a link whose length changes.
+/// Where a point is on the chain. Material points keep their place when the cable bends; those
+/// given by arc length also move along a link whose length changes.
 struct Place {
   MaterialPoint point;
   bool at_arc_length = false;
@@ -65,7 +65,8 @@ VectorXd or_zero(const VectorXd& vector, Index size) {
   return vector.size() ? vector : VectorXd::Zero(size);
 }
 
-/// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link (rad).
+/// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link
+/// (rad).
 using Sight = std::array<double, 3>;
 
 /// Reads a simulation as the sensors of one experiment do.
@@ -89,9 +90,9 @@ class Observer {
     for (const Seed& seed : seeds_) {
       std::vector<double>& moved = moved_.emplace_back();
       for (const Place& place : places_)
-        moved.push_back(place.at_arc_length ? fraction_tangent(model, parameters, seed.parameters,
-                                                               place.point)
-                                            : 0);
+        moved.push_back(place.at_arc_length
+                            ? fraction_tangent(model, parameters, seed.parameters, place.point)
+                            : 0);
     }
     true_.resize(places_.size());
     seen_.resize(places_.size());
@@ -224,8 +225,8 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
     static_cast<Simulation&>(simulation) =
         simulate(model, parameters, initial, clock.times, options, experiment.signals);
   else
-    simulation = simulate_with_sensitivities(model, parameters, initial, seeds, clock.times, options,
-                                             experiment.signals);
+    simulation = simulate_with_sensitivities(model, parameters, initial, seeds, clock.times,
+                                             options, experiment.signals);
   Prediction prediction;
   prediction.status = simulation.status;
   prediction.message = simulation.message;

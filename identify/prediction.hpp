@@ -7,9 +7,9 @@ namespace catena {
 
 /// Simulates one experiment from its start and reads off what its sensors would have seen:
 ///
-///   model time of frame k      tau_k = clock(t_k); before the start, the start itself (held until then)
-///   marker at arc length s     on the chord of the link it lies on, at its share of the link's length
-///   sensor effects             observe(), if the model has any
+///   model time of frame k      tau_k = clock(t_k); before the start, the start itself (held until
+///   then) marker at arc length s     on the chord of the link it lies on, at its share of the
+///   link's length sensor effects             observe(), if the model has any
 ///
 /// and the derivatives of all that along the directions given.
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,

@@ -37,7 +37,8 @@ void cut_windows(const ExperimentSpec& spec, const Recording& whole, std::vector
   const double begin = whole.time.front();
   Eigen::Index first = 0;
   while (first < frames) {
-    const double number = std::floor((whole.time[static_cast<std::size_t>(first)] - begin) / spec.window + 1e-9);
+    const double number =
+        std::floor((whole.time[static_cast<std::size_t>(first)] - begin) / spec.window + 1e-9);
     const double end = begin + (number + 1) * spec.window;
     Eigen::Index last = first;
     while (last < frames && whole.time[static_cast<std::size_t>(last)] < end - 1e-9) ++last;
@@ -80,7 +81,8 @@ Problem::Problem(Case study, Model model, std::vector<Recording> recordings)
       experiments_.back().spec = spec;
       experiments_.back().recording = std::move(recording);
     }
-    for (auto window = experiments_.rbegin(); window != experiments_.rend() && window->source < 0; ++window)
+    for (auto window = experiments_.rbegin(); window != experiments_.rend() && window->source < 0;
+         ++window)
       window->source = static_cast<int>(e);
   }
   prepare();
@@ -96,10 +98,11 @@ void Problem::join(std::size_t first) {
     refuse("multiple shooting needs method and measure least_squares");
   if (!study_.optimiser.growing_windows.empty())
     refuse("and growing_windows; choose one of the two");
-  if (!initial.free || initial.shape != Shape::kAngles || initial.at_rest || !initial.velocity_free ||
-      initial.velocity_shape != Shape::kAngles)
-    refuse("every window needs a start of its own that can be any: initial with shape = \"angles\", "
-           "free = true and velocity = { shape = \"angles\", free = true }");
+  if (!initial.free || initial.shape != Shape::kAngles || initial.at_rest ||
+      !initial.velocity_free || initial.velocity_shape != Shape::kAngles)
+    refuse(
+        "every window needs a start of its own that can be any: initial with shape = \"angles\", "
+        "free = true and velocity = { shape = \"angles\", free = true }");
   for (std::size_t e = first; e + 1 < experiments_.size(); ++e)
     if (experiments_[e].fitted() && experiments_[e + 1].fitted()) {
       experiments_[e].meets = static_cast<int>(e) + 1;
@@ -126,10 +129,11 @@ void Problem::prepare() {
   for (Experiment& experiment : experiments_) {
     experiment.initial = experiment.spec.initial.value_or(study_.initial);
     complete_from_data(experiment.initial, experiment.recording, lengths);
-    if (std::isnan(experiment.spec.start)) experiment.spec.start = experiment.recording.time.front();
-    experiment.signals = read_signals(
-        experiment.spec.signals.empty() ? study_.signals : experiment.spec.signals, model_,
-        experiment.spec.where);
+    if (std::isnan(experiment.spec.start))
+      experiment.spec.start = experiment.recording.time.front();
+    experiment.signals =
+        read_signals(experiment.spec.signals.empty() ? study_.signals : experiment.spec.signals,
+                     model_, experiment.spec.where);
   }
   for (int e = -1; e < static_cast<int>(experiments_.size()); ++e) check_start(e);
   const auto add = [&](Unknown unknown) { unknowns_.push_back(std::move(unknown)); };
@@ -152,7 +156,8 @@ void Problem::prepare() {
   }
   for (std::size_t e = 0; e < experiments_.size(); ++e) {
     const Experiment& experiment = experiments_[e];
-    if (!experiment.fitted()) continue;  // no data may move its start: it comes from the first frames
+    if (!experiment.fitted())
+      continue;  // no data may move its start: it comes from the first frames
     const auto add_coefficients = [&](const std::vector<double>& values, const char* what,
                                       const char* unit, std::size_t offset) {
       for (std::size_t k = 0; k < values.size(); ++k) {
@@ -222,8 +227,8 @@ Eigen::VectorXd Problem::parameter_values(const Eigen::VectorXd& x, int experime
 }
 
 InitialSpec Problem::initial_of(const Eigen::VectorXd& x, int experiment) const {
-  InitialSpec initial = experiment < 0 ? study_.initial
-                                       : experiments_[static_cast<std::size_t>(experiment)].initial;
+  InitialSpec initial =
+      experiment < 0 ? study_.initial : experiments_[static_cast<std::size_t>(experiment)].initial;
   const std::size_t angles = initial.coefficients.size();
   for (std::size_t j = 0; j < unknowns_.size(); ++j) {
     const Unknown& unknown = unknowns_[j];
@@ -254,7 +259,8 @@ State Problem::state_of(int experiment, const InitialSpec& initial,
   } else if (initial.shape == Shape::kHanging) {
     const bool known = experiment >= 0;
     const Equilibrium equilibrium = hanging_equilibrium(
-        model_, parameters, known ? experiments_[static_cast<std::size_t>(experiment)].spec.start : 0,
+        model_, parameters,
+        known ? experiments_[static_cast<std::size_t>(experiment)].spec.start : 0,
         known ? experiments_[static_cast<std::size_t>(experiment)].signals : Signals());
     if (equilibrium.status != Status::kSuccess)
       throw std::runtime_error("hanging equilibrium: " + equilibrium.message);
@@ -319,7 +325,8 @@ Prediction Problem::predict(const Eigen::VectorXd& x, int experiment, bool all_f
     failed.status = Status::kNotFinite;
     failed.message = error.what();
     failed.simulated.setConstant(static_cast<Eigen::Index>(chosen.recording.channels.size()),
-                                 static_cast<Eigen::Index>(chosen.recording.time.size()), kNotGiven);
+                                 static_cast<Eigen::Index>(chosen.recording.time.size()),
+                                 kNotGiven);
     return failed;
   }
 }
@@ -387,9 +394,9 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, 
     if (!all && !experiment.fitted()) continue;
     const int index = static_cast<int>(e);
     Prediction& prediction = evaluation.predictions[e];
-    prediction = problem.predict(
-        x, index, all, jacobian ? problem.directions(x, index) : std::vector<Direction>{},
-        keep_going);
+    prediction = problem.predict(x, index, all,
+                                 jacobian ? problem.directions(x, index) : std::vector<Direction>{},
+                                 keep_going);
     if (prediction.ok()) continue;
     evaluation.ok = false;
     evaluation.message = experiment.spec.name + ": " + prediction.message;

@@ -25,20 +25,20 @@ struct Unknown {
   double start = 0, lower = 0, upper = 0;
   Scale scale = Scale::kLinear;
   Group group = Group::kPhysics;
-  int experiment = -1;  ///< the one experiment it belongs to; -1: all
-  int parameter = -1;   ///< index into Case::parameters; -1: a coefficient of the initial state
-  int coefficient = -1; ///< index into the angle, then the rate coefficients of the experiment
+  int experiment = -1;   ///< the one experiment it belongs to; -1: all
+  int parameter = -1;    ///< index into Case::parameters; -1: a coefficient of the initial state
+  int coefficient = -1;  ///< index into the angle, then the rate coefficients of the experiment
 };
 
 /// One experiment of the case (windows are cut already) with its data.
 struct Experiment {
   ExperimentSpec spec;
   Recording recording;
-  InitialSpec initial;  ///< its own or the case's, with all coefficients found
-  Signals signals;      ///< in the order of the model
-  int source = -1;           ///< index into Case::experiments: several windows may be of one
-  int meets = -1;            ///< multiple shooting: the experiment that starts where this one ends
-  double ends = kNotGiven;   ///< s: when it does, if there is one
+  InitialSpec initial;      ///< its own or the case's, with all coefficients found
+  Signals signals;          ///< in the order of the model
+  int source = -1;          ///< index into Case::experiments: several windows may be of one
+  int meets = -1;           ///< multiple shooting: the experiment that starts where this one ends
+  double ends = kNotGiven;  ///< s: when it does, if there is one
   bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }
 };
 
@@ -49,13 +49,14 @@ struct Prediction {
   Eigen::MatrixXd simulated;                 ///< channels x frames
   std::vector<Eigen::MatrixXd> sensitivity;  ///< one per direction, channels x frames
   Trajectory trajectory;                     ///< at the frames
-  Eigen::VectorXd first, last;  ///< joined windows: q and v at the start, and where the next one starts
-  Eigen::MatrixXd first_along, last_along;   ///< their derivatives, one column per direction
+  Eigen::VectorXd first,
+      last;  ///< joined windows: q and v at the start, and where the next one starts
+  Eigen::MatrixXd first_along, last_along;  ///< their derivatives, one column per direction
   bool ok() const { return status == Status::kSuccess; }
 };
 
-/// A direction in which a prediction is differentiated: of the model's parameters and of the initial
-/// angles and rates of one experiment. Empty vectors are zero.
+/// A direction in which a prediction is differentiated: of the model's parameters and of the
+/// initial angles and rates of one experiment. Empty vectors are zero.
 struct Direction {
   Eigen::VectorXd parameters, q, v;
 };
@@ -88,8 +89,8 @@ class Problem {
   /// The derivatives of both by every unknown; unknowns of other experiments give empty vectors.
   std::vector<Direction> directions(const Eigen::VectorXd& x, int experiment) const;
 
-  /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities along
-  /// `along` (model parameters and initial state: e.g. directions(), or any other).
+  /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities
+  /// along `along` (model parameters and initial state: e.g. directions(), or any other).
   Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
                      const std::vector<Direction>& along = {},
                      const std::function<bool()>& keep_going = {}) const;

@@ -16,8 +16,8 @@ VectorXd without(const VectorXd& x, Eigen::Index j) {
   return rest;
 }
 
-/// Twice the negative logarithm of the likelihood but for a constant: the sum of squared residuals over
-/// their noise, or, where the noise is found from them, what its sizes leave of it.
+/// Twice the negative logarithm of the likelihood but for a constant: the sum of squared residuals
+/// over their noise, or, where the noise is found from them, what its sizes leave of it.
 double minus_log_likelihood(const Problem& problem, const Residuals& residuals) {
   const VectorXd noise = noise_of(problem, residuals);
   if (problem.study().error.measure == Measure::kLikelihood) return 2 * noise.array().log().sum();

@@ -23,7 +23,8 @@ std::vector<double> read_times(const ExperimentSpec& experiment, const Table& ta
                       : experiment.time_unit == "frames" ? 1 / experiment.frame_rate
                                                          : 1;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    const std::string where = table.file + ":" + std::to_string(table.lines[i]) + ": column \"" + name + "\"";
+    const std::string where =
+        table.file + ":" + std::to_string(table.lines[i]) + ": column \"" + name + "\"";
     if (std::isnan(time[i])) throw InputError(where + ": empty; every row needs its time");
     time[i] *= unit;
     if (i && !(time[i] > time[i - 1]))
@@ -46,7 +47,8 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
       if (!table.has(point.angle_column)) break;
       if (i > links)
         throw InputError(table.file + ": column \"" + point.angle_column + "\"; the model has " +
-                         std::to_string(links) + " links; say which angles to use in [[experiment]]");
+                         std::to_string(links) +
+                         " links; say which angles to use in [[experiment]]");
     } else if (experiment.source != DataSource::kCatena) {
       const auto column = static_cast<std::size_t>(2 * i - 1);  // after the time: x and y of each
       if (column + 1 >= table.names.size()) break;

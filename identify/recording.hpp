@@ -40,9 +40,9 @@ struct Channel {
 struct Recording {
   std::vector<double> time;  ///< s, increasing: the experiment's window
   std::vector<PointSpec> points;
-  std::vector<Channel> channels;  ///< markers: side and down of point 1, of point 2, ...
-  Eigen::MatrixXd measured;       ///< channels x frames; NaN: not seen
-  Eigen::Index fit_frames = 0;    ///< the first so many are to be fitted, the rest validates
+  std::vector<Channel> channels;      ///< markers: side and down of point 1, of point 2, ...
+  Eigen::MatrixXd measured;           ///< channels x frames; NaN: not seen
+  Eigen::Index fit_frames = 0;        ///< the first so many are to be fitted, the rest validates
   std::vector<std::string> warnings;  ///< e.g. motion out of the plane
 };
 

@@ -52,7 +52,8 @@ Json head(const Problem& problem, const char* command) {
   json["status"] = "success";
   json["message"] = "";
   json["versions"] = {{"catena", CATENA_VERSION}};
-  json["case"] = {{"file", study.file.filename().string()}, {"text", text}, {"sha256", sha256_hex(text)}};
+  json["case"] = {
+      {"file", study.file.filename().string()}, {"text", text}, {"sha256", sha256_hex(text)}};
   Json& model = json["model"];
   model["id"] = problem.model().table().id;
   model["links"] = problem.model().links();
@@ -66,8 +67,10 @@ Json head(const Problem& problem, const char* command) {
     for (const Effect& effect : read_description(study.description).effects) {
       Json formulas_of = Json::array();
       for (const Formula& formula : formulas(effect))
-        formulas_of.push_back({{"what", formula.what}, {"latex", formula.latex}, {"mathml", formula.mathml}});
-      model["effects"].push_back({{"id", effect.id}, {"title", effect.title}, {"formulas", formulas_of}});
+        formulas_of.push_back(
+            {{"what", formula.what}, {"latex", formula.latex}, {"mathml", formula.mathml}});
+      model["effects"].push_back(
+          {{"id", effect.id}, {"title", effect.title}, {"formulas", formulas_of}});
     }
   }
   return json;
@@ -104,7 +107,8 @@ Json motion_json(const Problem& problem, const Motion& motion) {
 }
 
 /// Rows of one component, one per point.
-Json component_rows(const Recording& recording, const Eigen::MatrixXd& values, Component component) {
+Json component_rows(const Recording& recording, const Eigen::MatrixXd& values,
+                    Component component) {
   Json out = Json::array();
   for (std::size_t c = 0; c < recording.channels.size(); ++c)
     if (recording.channels[c].component == component)
@@ -124,9 +128,8 @@ void put_values(Json& json, const Recording& recording, const Eigen::MatrixXd& v
 double arc_of(const Problem& problem, const PointSpec& point) {
   if (!std::isnan(point.arc_length)) return point.arc_length;
   const Model& model = problem.model();
-  const Eigen::VectorXd lengths =
-      problem.model_parameters(problem.start(), -1)
-          .segment(model.parameter_index("length_1"), model.links());
+  const Eigen::VectorXd lengths = problem.model_parameters(problem.start(), -1)
+                                      .segment(model.parameter_index("length_1"), model.links());
   return point.joint ? lengths.head(point.joint).sum() : lengths.sum();
 }
 
@@ -199,11 +202,11 @@ Json measure_json(const Problem& problem, const Evaluation& evaluation) {
     }
     for (std::size_t c = 0; c < sum.size(); ++c)
       if (count[c] > 0)
-        parts.push_back({{"name", (problem.experiments().size() > 1
-                                       ? problem.experiments()[e].spec.name + ": "
-                                       : std::string()) +
-                                      recording.channels[c].name},
-                         {"value", sum[c] / count[c]}});
+        parts.push_back(
+            {{"name", (problem.experiments().size() > 1 ? problem.experiments()[e].spec.name + ": "
+                                                        : std::string()) +
+                          recording.channels[c].name},
+             {"value", sum[c] / count[c]}});
   }
   bool noise_given = false, angles = false;
   for (const Experiment& experiment : problem.experiments()) {
@@ -213,7 +216,9 @@ Json measure_json(const Problem& problem, const Evaluation& evaluation) {
   const Measure measure = problem.study().error.measure;
   const bool in_noise = noise_given && measure == Measure::kLeastSquares;
   return {{"name", kMeasureWords[static_cast<std::size_t>(measure)]},
-          {"unit", in_noise ? "1" : angles ? "rad" : "m"},
+          {"unit", in_noise ? "1"
+                   : angles ? "rad"
+                            : "m"},
           {"value", number(error_of(problem, evaluation, Part::kFit))},
           {"validation", residuals_of(problem, evaluation, Part::kValidation).value.size()
                              ? number(error_of(problem, evaluation, Part::kValidation))
@@ -270,7 +275,8 @@ void put_uncertainty(Json& json, const Problem& problem, const Identification& f
       Eigen::VectorXd column = found.bootstrap.col(j);
       std::sort(column.begin(), column.end());
       const auto at = [&](double share) {
-        return column[static_cast<Eigen::Index>(share * static_cast<double>(column.size() - 1) + 0.5)];
+        return column[static_cast<Eigen::Index>(share * static_cast<double>(column.size() - 1) +
+                                                0.5)];
       };
       parameters[static_cast<std::size_t>(j)]["bootstrap_interval"] = {at(0.025), at(0.975)};
     }
@@ -305,12 +311,13 @@ void put_uncertainty(Json& json, const Problem& problem, const Identification& f
 Json starts_json(const std::vector<FitResult>& starts) {
   Json out = Json::array();
   for (const FitResult& start : starts)
-    out.push_back({{"error", number(start.error)},
-                   {"status", name_of(start.status)},
-                   {"start", start.history.empty() ? Json::array() : numbers(start.history.front().x)},
-                   {"start_error", number(start.start_error)},
-                   {"evaluations", start.evaluations},
-                   {"parameters", numbers(start.x)}});
+    out.push_back(
+        {{"error", number(start.error)},
+         {"status", name_of(start.status)},
+         {"start", start.history.empty() ? Json::array() : numbers(start.history.front().x)},
+         {"start_error", number(start.start_error)},
+         {"evaluations", start.evaluations},
+         {"parameters", numbers(start.x)}});
   return out;
 }
 
@@ -387,7 +394,8 @@ std::string links_study_result_text(const Case& study, const std::vector<LinksRe
 
 std::string identification_result_text(const Problem& problem, const Identification& found) {
   Json json = head(problem, "identify");
-  json["status"] = found.fit.status == FitStatus::kConverged ? "success" : name_of(found.fit.status);
+  json["status"] =
+      found.fit.status == FitStatus::kConverged ? "success" : name_of(found.fit.status);
   json["message"] = found.fit.message;
   json["experiments"] = experiments_json(problem, &found.before, found.after, found.motions);
   json["measure"] = measure_json(problem, found.after);

@@ -16,8 +16,8 @@ namespace catena {
 /// Everything a result file of `catena identify` says, see docs/file-formats.md.
 struct Identification {
   FitResult fit;
-  Evaluation before, after;      ///< all frames, at the start and at the best
-  std::vector<Motion> motions;   ///< one per experiment, at the best
+  Evaluation before, after;                ///< all frames, at the start and at the best
+  std::vector<Motion> motions;             ///< one per experiment, at the best
   std::vector<FitResult> starts;           ///< of a multi-start, in their order
   std::optional<Uncertainty> uncertainty;  ///< nothing where it could not be had
   std::vector<Profile> profiles;
@@ -28,7 +28,8 @@ struct Identification {
 std::string simulation_result_text(const Problem& problem, const Motion& motion);
 /// result.json of `catena simulate` where the case has data: motions and comparison at x.
 std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd& x,
-                                   const Evaluation& evaluation, const std::vector<Motion>& motions);
+                                   const Evaluation& evaluation,
+                                   const std::vector<Motion>& motions);
 /// result.json of `catena identify`.
 std::string identification_result_text(const Problem& problem, const Identification& found);
 /// links_study.json of `catena identify --links-study`.

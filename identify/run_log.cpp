@@ -20,7 +20,9 @@ namespace {
 
 constexpr char kHead[] = "catena run log 1 ";
 
-std::string exact(double value) { return std::isfinite(value) ? exact_number_text(value) : "failed"; }
+std::string exact(double value) {
+  return std::isfinite(value) ? exact_number_text(value) : "failed";
+}
 
 std::string exact(const Eigen::VectorXd& x) {
   std::string text;
@@ -81,9 +83,10 @@ std::size_t RunLog::read(const std::filesystem::path& file, const std::string& k
     const std::string line = text.substr(begin, end - begin);
     if (begin == 0) {
       if (line == kHead + key) continue;
-      throw InputError(file.string() +
-                       ": belongs to another case, other data or another model; run without --resume "
-                       "to begin anew");
+      throw InputError(
+          file.string() +
+          ": belongs to another case, other data or another model; run without --resume "
+          "to begin anew");
     }
     const std::vector<std::string> cells = cells_of(line);
     if (cells[0] == "e" && cells.size() == 5) {

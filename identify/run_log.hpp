@@ -17,14 +17,14 @@ namespace catena {
 /// start, appended and handed to the system at once, so that a run that is killed at any moment can
 /// be taken up again. Numbers are written exactly; a line that was cut off is not believed.
 ///
-/// A start that was finished is taken from the log. One that was not is begun again: it asks for the
-/// same points in the same order, and those that were evaluated without derivatives are recalled. So
-/// a resumed run ends where it would have ended undisturbed.
+/// A start that was finished is taken from the log. One that was not is begun again: it asks for
+/// the same points in the same order, and those that were evaluated without derivatives are
+/// recalled. So a resumed run ends where it would have ended undisturbed.
 class RunLog {
  public:
   /// `key` identifies case, data and model. With `resume` an existing log is read and continued;
-  /// throws InputError if it belongs to another key. Otherwise the log begins anew. Throws InputError
-  /// if it cannot be written.
+  /// throws InputError if it belongs to another key. Otherwise the log begins anew. Throws
+  /// InputError if it cannot be written.
   RunLog(const std::filesystem::path& file, const std::string& key, bool resume);
   ~RunLog();
   RunLog(const RunLog&) = delete;
@@ -43,9 +43,9 @@ class RunLog {
 
  private:
   struct Start {
-    std::vector<HistoryEntry> entries;         // as read
-    std::map<std::string, std::size_t> by_x;   // exact unknowns -> index of their first entry
-    std::size_t replayed = 0;                  // how many of them this run asked for again
+    std::vector<HistoryEntry> entries;        // as read
+    std::map<std::string, std::size_t> by_x;  // exact unknowns -> index of their first entry
+    std::size_t replayed = 0;                 // how many of them this run asked for again
     std::optional<FitResult> result;
   };
 

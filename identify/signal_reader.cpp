@@ -16,8 +16,8 @@ Signals read_signals(const std::vector<SignalSpec>& specs, const Model& model,
     const auto spec = std::find_if(specs.begin(), specs.end(),
                                    [&](const SignalSpec& s) { return s.name == wanted.name; });
     if (spec == specs.end())
-      throw InputError(where + ": the model needs the signal \"" + wanted.name + "\" (" + wanted.unit +
-                       "); add a [[signal]] with name, data, time and column");
+      throw InputError(where + ": the model needs the signal \"" + wanted.name + "\" (" +
+                       wanted.unit + "); add a [[signal]] with name, data, time and column");
     const Table table = read_table(spec->data);
     try {
       signals.add(wanted.name, table.column(spec->time_column), table.column(spec->column));

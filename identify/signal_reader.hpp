@@ -10,8 +10,8 @@
 
 namespace catena {
 
-/// Reads what the model asks for as functions of time, in the model's order. Throws InputError naming
-/// a signal that is not given (at `where`), a file, a line or a column.
+/// Reads what the model asks for as functions of time, in the model's order. Throws InputError
+/// naming a signal that is not given (at `where`), a file, a line or a column.
 Signals read_signals(const std::vector<SignalSpec>& specs, const Model& model,
                      const std::string& where);
 

@@ -57,8 +57,8 @@ Table read_table(const std::filesystem::path& path) {
       continue;
     }
     if (fields.size() != table.names.size())
-      throw InputError(where + ": " + std::to_string(fields.size()) + " fields; the first line names " +
-                       std::to_string(table.names.size()));
+      throw InputError(where + ": " + std::to_string(fields.size()) +
+                       " fields; the first line names " + std::to_string(table.names.size()));
     for (std::size_t i = 0; i < fields.size(); ++i) {
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!fields[i].empty()) {
@@ -73,7 +73,8 @@ Table read_table(const std::filesystem::path& path) {
     }
     table.lines.push_back(number);
   }
-  if (table.names.empty()) throw InputError(table.file + ": empty; a line of column names is wanted");
+  if (table.names.empty())
+    throw InputError(table.file + ": empty; a line of column names is wanted");
   return table;
 }
 

@@ -44,7 +44,8 @@ std::vector<std::string> split(const std::string& line, char separator) {
   return cells;
 }
 
-double to_number(std::string text, bool decimal_comma, const std::filesystem::path& file, int line) {
+double to_number(std::string text, bool decimal_comma, const std::filesystem::path& file,
+                 int line) {
   if (text.empty() || text == "NaN" || text == "nan") return kNotSeen;
   if (decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
   double value = 0;
@@ -69,7 +70,8 @@ Table import_tracker(const std::filesystem::path& path) {
   const char separator = lines[1].find('\t') != std::string::npos  ? '\t'
                          : lines[1].find(';') != std::string::npos ? ';'
                                                                    : ',';
-  std::vector<std::string> tracks = split(lines[0], separator), columns = split(lines[1], separator);
+  std::vector<std::string> tracks = split(lines[0], separator),
+                           columns = split(lines[1], separator);
   if (columns.empty() || columns[0] != "t")
     fail(path, 2, "the second line of an export of Tracker begins with t");
   if (tracks.size() == 1) tracks = {"", tracks[0]};  // one track: its name stands alone
@@ -181,8 +183,9 @@ Table import_deeplabcut(const std::filesystem::path& path, double likelihood_flo
     const int number = static_cast<int>(l) + 1;
     const std::vector<std::string> cells = split(lines[l], ',');
     if (cells.size() != coordinates.size())
-      fail(path, number, std::to_string(cells.size()) + " fields; " +
-                             std::to_string(coordinates.size()) + " are wanted");
+      fail(path, number,
+           std::to_string(cells.size()) + " fields; " + std::to_string(coordinates.size()) +
+               " are wanted");
     table.columns[0].push_back(to_number(cells[0], false, path, number));
     for (std::size_t i = 1; i + 2 < cells.size(); i += 3) {
       const double likelihood = to_number(cells[i + 2], false, path, number);

@@ -8,7 +8,8 @@ namespace catena {
 /// Reads what tracker programs export, as it is, into a table: first the column "time", then
 /// "NAME x", "NAME y" for every point, in the file's own units and axes:
 ///
-///   Tracker     a line with the names of the tracks over their columns, then a line t, x, y, x, y, ...;
+///   Tracker     a line with the names of the tracks over their columns, then a line t, x, y, x, y,
+///   ...;
 ///               further columns (speeds) are passed over. Comma, semicolon or tabulator between
 ///               cells; decimal commas where the separator is not a comma
 ///   Kinovea     its text export: "#Kinovea Trajectory data export", then for every track "# NAME"

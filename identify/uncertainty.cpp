@@ -56,7 +56,8 @@ std::pair<double, Index> lag_one(const Residuals& residuals, const VectorXd& r) 
 }
 
 /// J'WJ for residuals that follow AR(1) in every channel: W_kl = colour^|k - l|.
-MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacobian, double colour) {
+MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacobian,
+                               double colour) {
   const Index unknowns = jacobian.cols();
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
   struct Tail {
@@ -87,7 +88,7 @@ MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacob
 
 /// J'WJ: the covariance of the sums J'r over frames, with Bartlett's weights.
 MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
-                         double colour) {
+                       double colour) {
   const Index unknowns = jacobian.cols();
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
   std::vector<std::vector<VectorXd>> scores;  // by experiment and frame
@@ -152,8 +153,8 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   MatrixXd jacobian = weights.asDiagonal() * residuals.jacobian * range.asDiagonal();
   const Index count = residuals.value.size(), unknowns = x.size();
   if (count <= unknowns)
-    throw std::runtime_error("fewer measured values (" + std::to_string(count) + ") than unknowns (" +
-                             std::to_string(unknowns) + ")");
+    throw std::runtime_error("fewer measured values (" + std::to_string(count) +
+                             ") than unknowns (" + std::to_string(unknowns) + ")");
   const VectorXd r = residuals.value.cwiseProduct(weights);
   const Joints joints = joints_of(problem, evaluation);  // of joined windows: they bind the starts
 
@@ -165,7 +166,8 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   if (!(out.noise > 0)) out.noise = std::numeric_limits<double>::min();
   jacobian /= out.noise;
   MatrixXd with_joints(count + joints.value.size(), unknowns);
-  with_joints << jacobian, joints.weight.asDiagonal() * joints.jacobian * range.asDiagonal() / out.noise;
+  with_joints << jacobian,
+      joints.weight.asDiagonal() * joints.jacobian * range.asDiagonal() / out.noise;
   const Eigen::BDCSVD<MatrixXd> svd(with_joints, Eigen::ComputeThinU | Eigen::ComputeThinV);
   out.singular_values = svd.singularValues();
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
@@ -189,21 +191,24 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
       covariance = inverse * autoregressive_middle(residuals, jacobian, rho) * inverse;
       const VectorXd robust =
           (inverse * robust_middle(residuals, jacobian, r / out.noise, rho) * inverse).diagonal();
-      // The robust estimate scatters; where it is far above, markers are correlated or the colour lasts
-      // longer than AR(1) knows.
+      // The robust estimate scatters; where it is far above, markers are correlated or the colour
+      // lasts longer than AR(1) knows.
       constexpr double kFarAbove = 2;
       VectorXd stretch = VectorXd::Ones(unknowns);
       for (Index j = 0; j < unknowns; ++j)
-        if (robust[j] > kFarAbove * covariance(j, j)) stretch[j] = std::sqrt(robust[j] / covariance(j, j));
+        if (robust[j] > kFarAbove * covariance(j, j))
+          stretch[j] = std::sqrt(robust[j] / covariance(j, j));
       covariance = stretch.asDiagonal() * covariance * stretch.asDiagonal();
     }
   }
 
   const MatrixXd null = svd.matrixV().rightCols(unknowns - rank);
   VectorXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  out.correlation = MatrixXd::Constant(unknowns, unknowns, std::numeric_limits<double>::quiet_NaN());
+  out.correlation =
+      MatrixXd::Constant(unknowns, unknowns, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> lost(static_cast<std::size_t>(unknowns), false);
-  constexpr double kPart = 0.02;  // of a direction of unit length: less than that takes no part in it
+  constexpr double kPart =
+      0.02;  // of a direction of unit length: less than that takes no part in it
   for (Index j = 0; j < unknowns; ++j)
     lost[static_cast<std::size_t>(j)] = null.cols() > 0 && null.row(j).norm() > kPart;
   for (Index j = 0; j < unknowns; ++j) {
@@ -239,7 +244,8 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     weak.text = describe(problem, weak.direction);
     Index largest;
     weak.direction.cwiseAbs().maxCoeff(&largest);
-    out.suggestions.push_back("fix \"" + problem.unknowns()[static_cast<std::size_t>(largest)].name +
+    out.suggestions.push_back("fix \"" +
+                              problem.unknowns()[static_cast<std::size_t>(largest)].name +
                               "\", or measure what tells it from the others");
     out.weak.push_back(std::move(weak));
   }
@@ -248,7 +254,8 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
 
 Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty) {
   // The squares of an AR(1) process are correlated by the square of its correlation.
-  const double square = uncertainty.coloured ? std::min(uncertainty.colour * uncertainty.colour, 0.94) : 0;
+  const double square =
+      uncertainty.coloured ? std::min(uncertainty.colour * uncertainty.colour, 0.94) : 0;
   const double relative =
       std::sqrt((1 + square) / (1 - square) / (2 * static_cast<double>(channel.count)));
   return {channel.deviation * relative, channel.deviation * std::exp(-kQuantile * relative),

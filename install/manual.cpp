@@ -14,11 +14,13 @@ using Commands = std::vector<const CLI::App*>;
 using Options = std::vector<const CLI::Option*>;
 
 Commands commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+  return program.get_subcommands(
+      [](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 Options options_of(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+  return command.get_options(
+      [](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
 /// Whether catena-derive does the work: there is nothing but --help.
@@ -71,8 +73,10 @@ void write_options(std::ostream& page, const CLI::App& command) {
 std::string manual_page(const CLI::App& program) {
   const std::string name = program.get_name();
   std::ostringstream page;
-  page << ".TH " << roff(replaced(name, "\"", "")) << " 1 \"\" \"catena " << CATENA_VERSION << "\"\n"
-       << ".SH NAME\n" << roff(name) << " \\- " << roff(program.get_description()) << "\n"
+  page << ".TH " << roff(replaced(name, "\"", "")) << " 1 \"\" \"catena " << CATENA_VERSION
+       << "\"\n"
+       << ".SH NAME\n"
+       << roff(name) << " \\- " << roff(program.get_description()) << "\n"
        << ".SH SYNOPSIS\n\\fB" << roff(name) << "\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n"
        << ".SH OPTIONS\n";
   write_options(page, program);
@@ -85,7 +89,8 @@ std::string manual_page(const CLI::App& program) {
     write_footer(page, command->get_footer());
   }
   page << ".SH EXIT STATUS\n"
-          "0 for success, 1 for a computation that failed, 2 for wrong usage or input (then nothing\n"
+          "0 for success, 1 for a computation that failed, 2 for wrong usage or input (then "
+          "nothing\n"
           "has been written), 130 after Ctrl\\-C.\n"
           ".SH ENVIRONMENT\n"
           ".TP\n\\fBCATENA_CACHE\\fR\n"
@@ -126,14 +131,16 @@ std::string bash_completion(const CLI::App& program) {
          << "    -*) COMPREPLY=($(compgen -W \"$words\" -- \"$current\")) ;;\n"
          << "    *) COMPREPLY=($(compgen -f -- \"$current\")) ;;\n"
          << "  esac\n}\n"
-         << "complete -o filenames -F " << function_name(program) << " " << program.get_name() << "\n";
+         << "complete -o filenames -F " << function_name(program) << " " << program.get_name()
+         << "\n";
   return script.str();
 }
 
 /// Inside single quotes of the shell, with what _arguments takes for itself escaped.
 std::string zsh(const std::string& text) {
   std::string out = replaced(text, "'", "'\\''");
-  for (const char* special : {"[", "]", ":"}) out = replaced(out, special, std::string("\\") + special);
+  for (const char* special : {"[", "]", ":"})
+    out = replaced(out, special, std::string("\\") + special);
   return replaced(out, "\n", " ");
 }
 

@@ -3,6 +3,8 @@
 // catena._core: models and simulation for Python. Arrays that come out are views of the C++ memory,
 // one row per time; the interpreter's lock is released while something is computed, and Ctrl-C is
 // looked at a few times a second.
+#include "python/core.hpp"
+
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -13,7 +15,6 @@
 
 #include "generator/description/input_error.hpp"
 #include "identify/model_provider.hpp"
-#include "python/core.hpp"
 #include "runtime/initial_shape.hpp"
 #include "runtime/model.hpp"
 #include "runtime/positions.hpp"
@@ -44,8 +45,7 @@ py::array read_only(py::array array) {
 }
 
 py::array rows_per_time(const Eigen::MatrixXd& matrix, py::handle owner) {
-  return read_only(
-      py::array_t<double>({matrix.cols(), matrix.rows()}, matrix.data(), owner));
+  return read_only(py::array_t<double>({matrix.cols(), matrix.rows()}, matrix.data(), owner));
 }
 
 namespace {
@@ -101,10 +101,10 @@ SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::Vect
   SensitiveSimulation simulation;
   {
     py::gil_scoped_release unlock;
-    simulation = simulate_with_sensitivities(
-        model, parameters, initial, seeds, times,
-        options_of(relative_tolerance, absolute_tolerance_position, absolute_tolerance_velocity,
-                   max_steps, check));
+    simulation =
+        simulate_with_sensitivities(model, parameters, initial, seeds, times,
+                                    options_of(relative_tolerance, absolute_tolerance_position,
+                                               absolute_tolerance_velocity, max_steps, check));
   }
   require_success(simulation, check);
   return simulation;
@@ -130,15 +130,13 @@ py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& paramet
 
 std::vector<std::string> parameter_names(const Model& model) {
   std::vector<std::string> names;
-  for (int i = 0; i < model.parameters(); ++i)
-    names.emplace_back(model.table().parameter[i].name);
+  for (int i = 0; i < model.parameters(); ++i) names.emplace_back(model.table().parameter[i].name);
   return names;
 }
 
 std::vector<std::string> energy_names(const Model& model) {
   std::vector<std::string> names;
-  for (int i = 0; i < model.energies(); ++i)
-    names.emplace_back(model.table().energy_item[i].name);
+  for (int i = 0; i < model.energies(); ++i) names.emplace_back(model.table().energy_item[i].name);
   return names;
 }
 
@@ -152,9 +150,9 @@ Eigen::VectorXd parameters_from(const Model& model, const py::kwargs& values) {
     std::vector<int> targets;
     for (int i = 0; i < model.parameters(); ++i) {
       const std::string_view parameter = model.table().parameter[i].name;
-      const bool member = parameter.starts_with(name + "_") &&
-                          parameter.find_first_not_of("0123456789", name.size() + 1) ==
-                              std::string_view::npos;
+      const bool member =
+          parameter.starts_with(name + "_") &&
+          parameter.find_first_not_of("0123456789", name.size() + 1) == std::string_view::npos;
       if (parameter == name || member) targets.push_back(i);
     }
     if (targets.empty()) model.parameter_index(name);  // throws, naming the nearest
@@ -163,17 +161,18 @@ Eigen::VectorXd parameters_from(const Model& model, const py::kwargs& values) {
                                   " values; one is expected, or one for each of the " +
                                   std::to_string(targets.size()));
     for (std::size_t i = 0; i < targets.size(); ++i)
-      parameters[targets[i]] = numbers.data()[numbers.size() == 1 ? 0 : static_cast<py::ssize_t>(i)];
+      parameters[targets[i]] =
+          numbers.data()[numbers.size() == 1 ? 0 : static_cast<py::ssize_t>(i)];
   }
   return parameters;
 }
 
 void add_model(py::module_& module) {
-  py::class_<Model>(module, "Model",
-                    "An emitted model of a chain of links. Model(12) is the plain chain of 12 links.")
+  py::class_<Model>(
+      module, "Model",
+      "An emitted model of a chain of links. Model(12) is the plain chain of 12 links.")
       .def(py::init(&Model::built_in), "links"_a)
-      .def_static("load", &Model::load, "shared_library"_a,
-                  "A model compiled as a shared library.")
+      .def_static("load", &Model::load, "shared_library"_a, "A model compiled as a shared library.")
       .def_static("built_in_links", &Model::built_in_links,
                   "The link counts for which Model(links) works without a compiler.")
       .def_property_readonly("links", &Model::links)
@@ -187,7 +186,8 @@ void add_model(py::module_& module) {
            "Defaults in the order of parameter_names; NaN where a value must be given.")
       .def("parameters", &parameters_from,
            "The parameter array from values by name. A family such as stiffness sets stiffness_1, "
-           "stiffness_2, ... to one value or to one value each; what is not named keeps its default.")
+           "stiffness_2, ... to one value or to one value each; what is not named keeps its "
+           "default.")
       .def("__repr__", [](const Model& model) {
         return "catena.Model(" + std::to_string(model.links()) + " links, " +
                std::to_string(model.parameters()) + " parameters)";
@@ -239,8 +239,8 @@ void add_simulation(py::module_& module) {
       .def_readonly("statistics", &Simulation::statistics)
       .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
                     "Largest |stored + dissipated - supplied - initial| over the times, J.");
-  py::class_<SensitiveSimulation, Simulation>(
-      module, "SensitiveSimulation", "A simulation with its derivatives along the seeds.")
+  py::class_<SensitiveSimulation, Simulation>(module, "SensitiveSimulation",
+                                              "A simulation with its derivatives along the seeds.")
       .def_readonly("sensitivity", &SensitiveSimulation::sensitivity);
   py::class_<Seed>(module, "Seed", "A direction in parameters and initial state.")
       .def(py::init(&Seed::zero), "model"_a)
@@ -252,13 +252,14 @@ void add_simulation(py::module_& module) {
       .def_readwrite("z", &Seed::z);
 
   const SimulationOptions defaults;
-  module.def("simulate", &run, "model"_a, "parameters"_a, "initial"_a, "times"_a, py::kw_only(),
-             "relative_tolerance"_a = defaults.relative_tolerance,
-             "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
-             "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
-             "max_steps"_a = defaults.max_steps,
-             "The motion from `initial` at times[0], reported at every time (s, increasing). Raises "
-             "ComputationError, naming state and time, where the integration fails.");
+  module.def(
+      "simulate", &run, "model"_a, "parameters"_a, "initial"_a, "times"_a, py::kw_only(),
+      "relative_tolerance"_a = defaults.relative_tolerance,
+      "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
+      "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
+      "max_steps"_a = defaults.max_steps,
+      "The motion from `initial` at times[0], reported at every time (s, increasing). Raises "
+      "ComputationError, naming state and time, where the integration fails.");
   module.def("simulate_with_sensitivities", &run_with_sensitivities, "model"_a, "parameters"_a,
              "initial"_a, "seeds"_a, "times"_a, py::kw_only(),
              "relative_tolerance"_a = defaults.relative_tolerance,
@@ -266,8 +267,9 @@ void add_simulation(py::module_& module) {
              "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
              "max_steps"_a = defaults.max_steps,
              "simulate, with the derivative of the motion along each seed.");
-  module.def("positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
-             "side and down (m), times x (links + 2): the support, the far end of each link, the load.");
+  module.def(
+      "positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
+      "side and down (m), times x (links + 2): the support, the far end of each link, the load.");
 }
 
 }  // namespace

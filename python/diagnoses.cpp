@@ -152,15 +152,16 @@ void add_diagnoses(py::module_& module) {
   py::class_<FinishedDiagnosis, Shared>(module, "Diagnosis",
                                         "What a model lacks; str() is the table that the program "
                                         "prints.")
-      .def_property_readonly("verdict",
-                             [](const Shared& d) { return name_of(d->found.verdict); },
-                             "none, named, ambiguous or unexplained.")
+      .def_property_readonly(
+          "verdict", [](const Shared& d) { return name_of(d->found.verdict); },
+          "none, named, ambiguous or unexplained.")
       .def_property_readonly("sentence", [](const Shared& d) { return d->found.sentence; })
       .def_property_readonly("notes", [](const Shared& d) { return d->found.notes; })
-      .def_property_readonly("effects", [](const Shared& d) { return d->found.effects; },
-                             "Those of the final model.")
-      .def_property_readonly("links", [](const Shared& d) { return d->found.stages.back().links; },
-                             "Of the final model.")
+      .def_property_readonly(
+          "effects", [](const Shared& d) { return d->found.effects; }, "Those of the final model.")
+      .def_property_readonly(
+          "links", [](const Shared& d) { return d->found.stages.back().links; },
+          "Of the final model.")
       .def_property_readonly("parameters", [](const Shared& d) { return d->found.parameters; })
       .def_property_readonly("gap_before",
                              [](const Shared& d) {
@@ -168,31 +169,33 @@ void add_diagnoses(py::module_& module) {
                                return gaps_of(first.fit, first.held_out);
                              })
       .def_property_readonly(
-          "gap", [](const Shared& d) { return gaps_of(d->found.final_fit, d->found.final_held_out); })
-      .def_property_readonly("undecided",
-                             [](const Shared& d) {
-                               return others(d->found.alternatives, d->findings.telling);
-                             },
-                             "Effects that explain the same data as well.")
-      .def_property_readonly("forms", [](const Shared& d) { return others(d->found.forms); },
-                             "Other laws of the effect that is named, undecided too.")
-      .def_property_readonly("runners_up",
-                             [](const Shared& d) { return others(d->found.runners_up); },
-                             "Effects that the data decide against.")
-      .def("document", [](const Shared& d) { return document(*d); },
-           "Everything, as diagnosis.json has it.")
-      .def("write",
-           [](const Shared& d, const std::filesystem::path& folder) {
-             py::gil_scoped_release unlock;
-             UnfinishedFolder output(folder);
-             write_diagnosis(d->found, d->findings, *d->workshop, output.path());
-             output.publish();
-           },
-           "folder"_a,
-           "Writes what catena diagnose writes: diagnosis.json, the results of the rounds, the case "
-           "with what was found, and the new model.")
-      .def("__str__",
-           [](const Shared& d) { return diagnosis_table(d->found, d->findings); });
+          "gap",
+          [](const Shared& d) { return gaps_of(d->found.final_fit, d->found.final_held_out); })
+      .def_property_readonly(
+          "undecided",
+          [](const Shared& d) { return others(d->found.alternatives, d->findings.telling); },
+          "Effects that explain the same data as well.")
+      .def_property_readonly(
+          "forms", [](const Shared& d) { return others(d->found.forms); },
+          "Other laws of the effect that is named, undecided too.")
+      .def_property_readonly(
+          "runners_up", [](const Shared& d) { return others(d->found.runners_up); },
+          "Effects that the data decide against.")
+      .def(
+          "document", [](const Shared& d) { return document(*d); },
+          "Everything, as diagnosis.json has it.")
+      .def(
+          "write",
+          [](const Shared& d, const std::filesystem::path& folder) {
+            py::gil_scoped_release unlock;
+            UnfinishedFolder output(folder);
+            write_diagnosis(d->found, d->findings, *d->workshop, output.path());
+            output.publish();
+          },
+          "folder"_a,
+          "Writes what catena diagnose writes: diagnosis.json, the results of the rounds, the case "
+          "with what was found, and the new model.")
+      .def("__str__", [](const Shared& d) { return diagnosis_table(d->found, d->findings); });
   const DiagnosisOptions defaults;
   module.def("diagnose", &diagnose_case, "case"_a, py::kw_only(),
              "effects"_a = std::vector<std::filesystem::path>{},

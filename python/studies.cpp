@@ -56,8 +56,7 @@ struct Study {
     Prediction prediction;
     {
       py::gil_scoped_release unlock;
-      prediction =
-          problem->predict(at, experiment(index), true, {}, [&check] { return check(); });
+      prediction = problem->predict(at, experiment(index), true, {}, [&check] { return check(); });
     }
     check.rethrow();
     if (!prediction.ok()) throw ComputationError(prediction.message);
@@ -148,9 +147,11 @@ void add_studies(py::module_& module) {
   py::class_<Experiment>(module, "Experiment", "One recording of a study.")
       .def_property_readonly("name", [](const Experiment& e) { return e.spec.name; })
       .def_property_readonly("fitted", &Experiment::fitted)
-      .def_property_readonly("fit_frames", [](const Experiment& e) { return e.recording.fit_frames; },
-                             "The first so many frames are fitted, the rest validates.")
-      .def_property_readonly("channels", [](const Experiment& e) { return channel_names(e.recording); })
+      .def_property_readonly(
+          "fit_frames", [](const Experiment& e) { return e.recording.fit_frames; },
+          "The first so many frames are fitted, the rest validates.")
+      .def_property_readonly("channels",
+                             [](const Experiment& e) { return channel_names(e.recording); })
       .def_property_readonly("time",
                              [](py::object self) {
                                const auto& time = self.cast<const Experiment&>().recording.time;
@@ -169,35 +170,36 @@ void add_studies(py::module_& module) {
       .def_property_readonly("title", [](const Study& s) { return s.problem->study().title; })
       .def_property_readonly("model", [](const Study& s) { return s.problem->model(); })
       .def_property_readonly("unknowns", &unknown_names, "Names of what is to be found.")
-      .def_property_readonly("start", [](const Study& s) { return s.problem->start(); },
-                             "Their starting values.")
+      .def_property_readonly(
+          "start", [](const Study& s) { return s.problem->start(); }, "Their starting values.")
       .def_property_readonly(
           "experiments", [](const Study& s) -> const auto& { return s.problem->experiments(); },
           py::return_value_policy::reference_internal)
-      .def("model_parameters",
-           [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
-             return s.problem->model_parameters(s.unknowns(x), s.experiment(experiment));
-           },
-           "x"_a = py::none(), "experiment"_a = 0, "The model's parameter array.")
-      .def("initial_state",
-           [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
-             return s.problem->initial_state(s.unknowns(x), s.experiment(experiment));
-           },
-           "x"_a = py::none(), "experiment"_a = 0, "The state at the first frame.")
+      .def(
+          "model_parameters",
+          [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+            return s.problem->model_parameters(s.unknowns(x), s.experiment(experiment));
+          },
+          "x"_a = py::none(), "experiment"_a = 0, "The model's parameter array.")
+      .def(
+          "initial_state",
+          [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+            return s.problem->initial_state(s.unknowns(x), s.experiment(experiment));
+          },
+          "x"_a = py::none(), "experiment"_a = 0, "The state at the first frame.")
       .def("predict", &Study::predict, "x"_a = py::none(), "experiment"_a = 0,
            "What the model says at every frame, frames x channels as Experiment.measured.")
       .def("error", &Study::error, "x"_a = py::none(),
            "The case's error measure over what is fitted.")
-      .def("identify", &identify, "progress"_a = py::none(),
-           "Finds the unknowns by the method the case names. progress(evaluations, limit, error) is "
-           "called on the way; what it raises ends the search and is raised again.");
+      .def(
+          "identify", &identify, "progress"_a = py::none(),
+          "Finds the unknowns by the method the case names. progress(evaluations, limit, error) is "
+          "called on the way; what it raises ends the search and is raised again.");
 
   py::class_<Gap>(module, "Gap", "How far model and measurement are apart, m or rad.")
       .def_readonly("experiment", &Gap::experiment)
-      .def_property_readonly("part",
-                             [](const Gap& gap) {
-                               return gap.part == Part::kFit ? "fit" : "validate";
-                             })
+      .def_property_readonly(
+          "part", [](const Gap& gap) { return gap.part == Part::kFit ? "fit" : "validate"; })
       .def_readonly("rms", &Gap::rms)
       .def_readonly("mean_absolute", &Gap::mean_absolute)
       .def_readonly("mean_distance", &Gap::mean_distance)

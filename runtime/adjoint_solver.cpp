@@ -48,8 +48,8 @@ void AdjointSolver::begin(double t, const Trajectory& slope) {
   const double largest = std::max({slope.q.size() > 0 ? slope.q.cwiseAbs().maxCoeff() : 0.0,
                                    slope.v.cwiseAbs().maxCoeff(),
                                    slope.z.size() > 0 ? slope.z.cwiseAbs().maxCoeff() : 0.0});
-  const double absolute = std::max(1e-2 * options_.relative_tolerance * largest,
-                                   std::numeric_limits<double>::min());
+  const double absolute =
+      std::max(1e-2 * options_.relative_tolerance * largest, std::numeric_limits<double>::min());
   require(CVodeCreateB(cvodes_, options_.method == Method::kBdf ? CV_BDF : CV_ADAMS, &which_),
           "CVodeCreateB");
   require(CVodeInitB(cvodes_, which_, &AdjointSolver::rates, t, lambda_.get()), "CVodeInitB");
@@ -87,9 +87,9 @@ void AdjointSolver::run(const std::vector<double>& times, const Trajectory& slop
     if (flag >= 0) flag = CVodeGetQuadB(cvodes_, which_, &t, integral_.get());
     if (flag < 0) {
       result.status = Status::kStepFailure;
-      result.message = "the adjoint equations cannot be integrated from t = " +
-                       number_text(times[k]) + " s back to " + number_text(times[k - 1]) + " s (" +
-                       CVodeGetReturnFlagName(flag) + ")";
+      result.message =
+          "the adjoint equations cannot be integrated from t = " + number_text(times[k]) +
+          " s back to " + number_text(times[k - 1]) + " s (" + CVodeGetReturnFlagName(flag) + ")";
       return;
     }
     if (options_.keep_going && !options_.keep_going(times[k - 1])) {
@@ -163,7 +163,8 @@ int AdjointSolver::rates(double t, N_Vector y, N_Vector lambda, N_Vector rate, v
   }
   double* const out = elements(rate);
   std::copy_n(self.dq_.data(), n, out);
-  for (int i = 0; i < n; ++i) out[n + i] = self.dv_[static_cast<std::size_t>(i)] - elements(lambda)[i];
+  for (int i = 0; i < n; ++i)
+    out[n + i] = self.dv_[static_cast<std::size_t>(i)] - elements(lambda)[i];
   std::copy_n(self.dz_.data(), states, out + 2 * n);
   return 0;
 }

@@ -9,9 +9,9 @@
 
 namespace catena {
 
-/// The adjoint equations (adjoint.hpp) back from the last time to the first, after an Integrator that
-/// keeps check points has run. They are linear: each step is solved at once, with the transpose of
-/// the Newton matrix at the motion.
+/// The adjoint equations (adjoint.hpp) back from the last time to the first, after an Integrator
+/// that keeps check points has run. They are linear: each step is solved at once, with the
+/// transpose of the Newton matrix at the motion.
 class AdjointSolver {
  public:
   AdjointSolver(Integrator& forward, const Model& model, const Eigen::VectorXd& parameters,

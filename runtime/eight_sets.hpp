@@ -9,10 +9,11 @@
 
 namespace catena {
 
-/// The forward dynamics of eight parameter sets and states at once, for studies that evaluate many: the
-/// processor's vector registers hold a number of several sets each (8 with AVX-512, 4 with AVX2, else
-/// 2), chosen when the program runs. Every set gets the bits that Model::table().acceleration gives it
-/// alone. Allocates when made, not when used; not to be shared between threads.
+/// The forward dynamics of eight parameter sets and states at once, for studies that evaluate many:
+/// the processor's vector registers hold a number of several sets each (8 with AVX-512, 4 with
+/// AVX2, else 2), chosen when the program runs. Every set gets the bits that
+/// Model::table().acceleration gives it alone. Allocates when made, not when used; not to be shared
+/// between threads.
 class EightSets {
  public:
   static constexpr int kSets = 8;
@@ -20,19 +21,19 @@ class EightSets {
   /// All parameters, states and signals are zero until set.
   explicit EightSets(const Model& model);
 
-  /// Of set k = 0..7. Throws std::invalid_argument if there is no such set or the model does not take
-  /// the parameters (Model::check_parameters).
+  /// Of set k = 0..7. Throws std::invalid_argument if there is no such set or the model does not
+  /// take the parameters (Model::check_parameters).
   void set_parameters(int k, const Eigen::VectorXd& p);
 
-  /// Entry i, from 0, of set k, to be read and written: coordinates, velocities, extra states, and u of
-  /// catena_model.h (value, first and second derivative of each signal). Not checked.
+  /// Entry i, from 0, of set k, to be read and written: coordinates, velocities, extra states, and
+  /// u of catena_model.h (value, first and second derivative of each signal). Not checked.
   double& q(int k, int i) { return q_.of(k, i); }
   double& v(int k, int i) { return v_.of(k, i); }
   double& z(int k, int i) { return z_.of(k, i); }
   double& u(int k, int i) { return u_.of(k, i); }
 
-  /// Solves r(t, q, v, a, z) = 0, (3.4), for a in all eight sets. Returns 0, or the 1-based coordinate
-  /// whose pivot is not positive in some set: then no acceleration is to be used.
+  /// Solves r(t, q, v, a, z) = 0, (3.4), for a in all eight sets. Returns 0, or the 1-based
+  /// coordinate whose pivot is not positive in some set: then no acceleration is to be used.
   int evaluate(double t);
 
   /// d2q_i/dt2, i from 0, of set k: rad/s^2 for angles.

@@ -268,7 +268,8 @@ void Integrator::record(double t, std::size_t column, SensitiveSimulation& resul
   copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.trajectory);
   if (options_.energy) record_energy(t, column, result);
   if (seeds_.empty()) return;
-  require(CVodeGetSensDky1(cvodes_.get(), t, 0, 0, sensitivities_output_.get()), "CVodeGetSensDky1");
+  require(CVodeGetSensDky1(cvodes_.get(), t, 0, 0, sensitivities_output_.get()),
+          "CVodeGetSensDky1");
   record_sensitivities(column, elements(sensitivities_output_.get()), result);
 }
 

@@ -55,7 +55,8 @@ class Integrator {
 
   void start_quadratures();
   void start_sensitivities();
-  void record_sensitivities(std::size_t column, const double* values, SensitiveSimulation& result) const;
+  void record_sensitivities(std::size_t column, const double* values,
+                            SensitiveSimulation& result) const;
   int step(long number, double last, double& t);
   void record(double t, std::size_t column, SensitiveSimulation& result);
   void record_energy(double t, std::size_t column, SensitiveSimulation& result);

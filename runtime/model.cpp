@@ -45,8 +45,8 @@ std::string fault_of(const catena_model* table) {
     return "its counts of links, coordinates, states, signals, parameters, terms or energies are "
            "impossible";
   const bool complete = table->residual && table->residual_tangent && table->residual_term &&
-                        table->mass_matrix && table->bias && table->acceleration && table->accelerations &&
-                        table->sets >= 1 && table->energy &&
+                        table->mass_matrix && table->bias && table->acceleration &&
+                        table->accelerations && table->sets >= 1 && table->energy &&
                         table->positions && table->positions_tangent && table->velocities &&
                         (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
                         (table->structured == 0 || (table->newton_factor && table->newton_solve));

@@ -27,7 +27,8 @@ class NewtonMatrix {
   virtual int factor(Dynamics& dynamics, const catena_point& at, double gamma) = 0;
   /// Overwrites the right-hand side (coordinates, then states) with the solution.
   virtual void solve(double* x) const = 0;
-  /// The same for CATENA_DIRECTIONS right-hand sides: that many numbers for each entry, aligned as Several.
+  /// The same for CATENA_DIRECTIONS right-hand sides: that many numbers for each entry, aligned as
+  /// Several.
   virtual void solve_several(double* x) const;
   /// The same with the transpose of the matrix.
   virtual void solve_transposed(double* x) const = 0;
@@ -36,9 +37,9 @@ class NewtonMatrix {
   mutable std::vector<double> column_;  // one of several right-hand sides
 };
 
-/// By the emitted factorisation, O(links). Extra states are eliminated: with D = 1 - gamma dzdot/dz,
-/// a diagonal, and C the rest of their rows, the emitted N is what is left for v, and two products
-/// with tangents of the model, O(links) too, lead there and back.
+/// By the emitted factorisation, O(links). Extra states are eliminated: with D = 1 - gamma
+/// dzdot/dz, a diagonal, and C the rest of their rows, the emitted N is what is left for v, and two
+/// products with tangents of the model, O(links) too, lead there and back.
 class StructuredNewtonMatrix : public NewtonMatrix {
  public:
   explicit StructuredNewtonMatrix(const Model& model);

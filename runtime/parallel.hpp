@@ -9,8 +9,8 @@
 
 namespace catena {
 
-/// Calls work(0) .. work(count - 1), each once, on up to `threads` threads. Each must write only what is
-/// its own. The first exception is thrown again when all have ended.
+/// Calls work(0) .. work(count - 1), each once, on up to `threads` threads. Each must write only
+/// what is its own. The first exception is thrown again when all have ended.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
@@ -26,7 +26,8 @@ void in_parallel(std::size_t count, int threads, const Work& work) {
       }
   };
   std::vector<std::thread> helpers;
-  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t) helpers.emplace_back(run);
+  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
+    helpers.emplace_back(run);
   run();
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);

@@ -10,12 +10,12 @@
 namespace catena {
 
 /// The sensitivities along all seeds as one vector, which CVODES carries as one sensitivity:
-/// CATENA_DIRECTIONS seeds make a block, in which each element of (sq, sv, sz) has that many numbers
-/// side by side. The last block is filled with zeros.
+/// CATENA_DIRECTIONS seeds make a block, in which each element of (sq, sv, sz) has that many
+/// numbers side by side. The last block is filled with zeros.
 ///
-/// The equations of a step, solved after StepSolver has solved for the state, are the linearisation of
-/// the step's own equations: with (sq, sv, sz) the derivative of the state along a seed and
-/// a = (e_v + rl1 zn1_v) / gamma as there, dr along (sq, sv, sa, sz, dp) = 0. The Newton matrix is
+/// The equations of a step, solved after StepSolver has solved for the state, are the linearisation
+/// of the step's own equations: with (sq, sv, sz) the derivative of the state along a seed and a =
+/// (e_v + rl1 zn1_v) / gamma as there, dr along (sq, sv, sa, sz, dp) = 0. The Newton matrix is
 /// factored anew at the solution, once for all seeds; no iteration is needed.
 class SensitivitySolver {
  public:
@@ -29,8 +29,8 @@ class SensitivitySolver {
   int size() const { return blocks_ * block_size(); }
   /// The vector at the start.
   void start(double* s) const;
-  /// ds/dt at (t, y), where the accelerations are `a`. Returns 0, or the 1-based coordinate whose pivot
-  /// vanished. The matrix has other factors afterwards.
+  /// ds/dt at (t, y), where the accelerations are `a`. Returns 0, or the 1-based coordinate whose
+  /// pivot vanished. The matrix has other factors afterwards.
   int rates(double t, const double* y, const double* a, const double* s, double* sdot);
   /// Element `element` of (q, v, z) along seed number `seed`, in such a vector.
   double element(const double* s, std::size_t seed, int element) const;

@@ -7,7 +7,8 @@
 
 namespace catena {
 
-/// One entry of an array that holds CATENA_DIRECTIONS numbers for each: those of as many directions.
+/// One entry of an array that holds CATENA_DIRECTIONS numbers for each: those of as many
+/// directions.
 struct alignas(CATENA_DIRECTIONS * sizeof(double)) Several {
   double of[CATENA_DIRECTIONS];
 };
@@ -15,8 +16,8 @@ struct alignas(CATENA_DIRECTIONS * sizeof(double)) Several {
 inline const double* numbers(const std::vector<Several>& several) { return several.data()->of; }
 inline double* numbers(std::vector<Several>& several) { return several.data()->of; }
 
-/// Tangents of a model along CATENA_DIRECTIONS directions at once: by its own functions for that, or
-/// one direction at a time where it has none.
+/// Tangents of a model along CATENA_DIRECTIONS directions at once: by its own functions for that,
+/// or one direction at a time where it has none.
 class SeveralTangents {
  public:
   explicit SeveralTangents(const Dynamics& dynamics);

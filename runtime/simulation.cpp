@@ -138,8 +138,7 @@ SensitiveSimulation simulate_with_sensitivities(
 AdjointSimulation simulate_with_gradient(const Model& model, const Eigen::VectorXd& parameters,
                                          const State& initial, const std::vector<double>& times,
                                          const MotionObjective& objective,
-                                         const SimulationOptions& options,
-                                         const Signals& signals) {
+                                         const SimulationOptions& options, const Signals& signals) {
   check_run(model, parameters, initial, times, options, signals);
   Integrator forward(model, parameters, initial, times.front(), options, signals, {});
   forward.keep_check_points();

@@ -77,8 +77,8 @@ int main() {
     if (k % 5000 == 0) {
       double side[chain::kLinks + 2], down[chain::kLinks + 2];
       chain::positions(point(state), side, down);
-      std::printf("%.1f s: load at side %7.4f m, down %.4f m\n", k * step,
-                  side[chain::kLinks + 1], down[chain::kLinks + 1]);
+      std::printf("%.1f s: load at side %7.4f m, down %.4f m\n", k * step, side[chain::kLinks + 1],
+                  down[chain::kLinks + 1]);
     }
     state = advanced(state, step);
   }

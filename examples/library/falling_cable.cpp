@@ -23,7 +23,7 @@ int main() {
   set("mass", mass);
   set("inertia", mass * length * length / 12);
   set("stiffness", 0.5);  // N m/rad
-  set("damping", 1e-3);  // N m s/rad
+  set("damping", 1e-3);   // N m s/rad
   parameters[model.parameter_index("load_mass")] = 1.47;
 
   // One seed: all joint stiffnesses together.
@@ -32,8 +32,8 @@ int main() {
     stiffness.parameters[model.parameter_index("stiffness_" + std::to_string(i))] = 1.0;
 
   const catena::State start = catena::catenary(model, parameters, {1.5, 2.5});
-  const catena::SensitiveSimulation simulation = catena::simulate_with_sensitivities(
-      model, parameters, start, {stiffness}, {0.0, 0.5, 1.0});
+  const catena::SensitiveSimulation simulation =
+      catena::simulate_with_sensitivities(model, parameters, start, {stiffness}, {0.0, 0.5, 1.0});
   if (simulation.status != catena::Status::kSuccess) {
     std::fprintf(stderr, "%s\n", simulation.message.c_str());
     return 1;

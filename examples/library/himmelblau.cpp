@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::identify: Nelder and Mead's simplex on Himmelblau's function (5.4), which has four equally
-// good minimisers: where the search begins decides which is found, and not always the nearest.
+// catena::identify: Nelder and Mead's simplex on Himmelblau's function (5.4), which has four
+// equally good minimisers: where the search begins decides which is found, and not always the
+// nearest.
 //
 //   himmelblau [FILE]    every evaluation of the first search to FILE, for a plot
 #include <cstdio>
@@ -39,8 +40,8 @@ int main(int argc, char** argv) {
     options.first_steps = Eigen::Vector2d(1, 1);
     options.x_tolerance = options.value_tolerance = 1e-12;
     const catena::Minimum found = catena::minimise(value, start, options);
-    std::printf("from (%2.0f, %2.0f): f(%9.6f, %9.6f) = %.1e after %d evaluations\n", start[0], start[1],
-                found.x[0], found.x[1], found.value, step);
+    std::printf("from (%2.0f, %2.0f): f(%9.6f, %9.6f) = %.1e after %d evaluations\n", start[0],
+                start[1], found.x[0], found.x[1], found.value, step);
     if (history.is_open()) {
       history.close();
       if (!history) {

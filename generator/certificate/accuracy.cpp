@@ -147,7 +147,8 @@ class Measurement {
     subtract(dq, along.q), subtract(dv, along.v), subtract(dz, along.z), subtract(dp, along.p);
     const auto add = [&](const std::vector<ex>& values, const Values& factors) {
       for (std::size_t i = 0; i < values.size(); ++i) {
-        error = error + numeric(factors[i]) * (ahead.of(values[i]) - behind.of(values[i])) / (2 * step_);
+        error = error +
+                numeric(factors[i]) * (ahead.of(values[i]) - behind.of(values[i])) / (2 * step_);
       }
     };
     add(chain_.residual(), weights), add(chain_.state_rates(), rate_weights);
@@ -246,7 +247,8 @@ class Measurement {
       const ex& r = chain_.residual()[at(i)];
       const numeric product = (ahead.of(r) - behind.of(r)) / (2 * step_) * numeric(size_of_x);
       note("newton_solve", difference(right[at(i)], product), size_of_matrix * size_of_x);
-      transposed = transposed + numeric(y[at(i)]) * product - numeric(left[at(i)]) * numeric(x[at(i)]);
+      transposed =
+          transposed + numeric(y[at(i)]) * product - numeric(left[at(i)]) * numeric(x[at(i)]);
     }
     note("newton_solve_transposed", transposed.to_double(),
          size_of_matrix * size_of_x * largest(y));

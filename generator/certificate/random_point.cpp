@@ -63,8 +63,8 @@ RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) 
   for (int i = table.links; i < table.coordinates; ++i) point.q[static_cast<std::size_t>(i)] /= 5;
   point.v = uniform_list(table.coordinates, 3, generator);
   point.a = uniform_list(table.coordinates, 5, generator);
-  // Extra states (slips) stay below what makes a joint give way: beyond it no motion leads, and Newton
-  // matrices, factored without exchanges of rows, need not have pivots.
+  // Extra states (slips) stay below what makes a joint give way: beyond it no motion leads, and
+  // Newton matrices, factored without exchanges of rows, need not have pivots.
   point.z = uniform_list(table.states, 0.2, generator);
   point.u = uniform_list(3 * table.signals, 1, generator);
   for (int i = 0; i < table.parameters; ++i) {

@@ -23,9 +23,9 @@ struct RandomPoint {
 /// Of order one, within the parameter's bounds.
 double random_parameter(const catena_parameter& parameter, std::mt19937_64& generator);
 
-/// Angles up to 1.5 rad, rates up to 3/s, accelerations up to 5/s^2, extra states up to 0.2; parameters of order one,
-/// within their bounds and different from one another. The same generator state gives the same
-/// point on every machine.
+/// Angles up to 1.5 rad, rates up to 3/s, accelerations up to 5/s^2, extra states up to 0.2;
+/// parameters of order one, within their bounds and different from one another. The same generator
+/// state gives the same point on every machine.
 RandomPoint random_point(const catena_model& table, std::mt19937_64& generator);
 
 /// All entries between -1 and 1.

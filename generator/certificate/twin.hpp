@@ -17,8 +17,8 @@ std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int p
                                                 unsigned seed);
 
 /// The parameters, in the order of the table, of the 3.39 m cable of chapter 6 (0.1424 kg/m, load
-/// 1.47 kg, k_i = 47.448 N m/rad) without damping or torque; every effect's at its neutral value, or
-/// its default where it has none.
+/// 1.47 kg, k_i = 47.448 N m/rad) without damping or torque; every effect's at its neutral value,
+/// or its default where it has none.
 std::vector<double> cable_parameters(const catena_model& table);
 
 /// Undamped natural frequencies, rad/s, ascending, of cable_parameters' cable hanging at

@@ -66,8 +66,7 @@ std::vector<Combination> possible_combinations(const ex& hand, const ChainSymbol
     set(by_stiffness, j, stiffness_sum);
   }
   std::vector<Combination> result{by_torque, by_inertia, by_damping, by_stiffness};
-  if (chain.links <= kMostSolvedLinks)
-    result.push_back(from_accelerations(hand, chain, model));
+  if (chain.links <= kMostSolvedLinks) result.push_back(from_accelerations(hand, chain, model));
   std::erase_if(result, [](const Combination& combination) { return combination.factors.empty(); });
   return result;
 }

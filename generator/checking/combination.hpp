@@ -21,8 +21,8 @@ struct Combination {
 };
 
 /// What h may be, to be proved or refuted by the caller: read off where only r_j has a symbol (T_j,
-/// I_j thetaddot_j), where r_j and r_{j-1} share it (c_j, k_j), and for up to kMostSolvedLinks links
-/// from the accelerations, M f = dh/dthetaddot.
+/// I_j thetaddot_j), where r_j and r_{j-1} share it (c_j, k_j), and for up to kMostSolvedLinks
+/// links from the accelerations, M f = dh/dthetaddot.
 std::vector<Combination> possible_combinations(const GiNaC::ex& hand, const ChainSymbols& chain,
                                                const FlatDerivation& model);
 

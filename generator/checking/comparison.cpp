@@ -55,7 +55,7 @@ template <class Factors>
 std::string listed(const Factors& by_number) {
   std::string result;
   for (auto entry = by_number.begin(); entry != by_number.end(); ++entry)
-    result += (entry == by_number.begin()              ? ""
+    result += (entry == by_number.begin()            ? ""
                : std::next(entry) == by_number.end() ? " and "
                                                      : ", ") +
               std::to_string(entry->first);
@@ -95,9 +95,7 @@ class Comparison {
 
  private:
   ex given(const ex& expression) const {
-    return derivation_.given.empty()
-               ? expression
-               : Replacement(derivation_.given)(expression);
+    return derivation_.given.empty() ? expression : Replacement(derivation_.given)(expression);
   }
 
   Contributions model_parts(const Entry& entry) const {
@@ -212,7 +210,8 @@ class Comparison {
       finding.combination = numbers_in(*proved);
       return finding;
     }
-    if (std::optional<Finding> finding = by_motion(hand, solved, fraction.denominator)) return *finding;
+    if (std::optional<Finding> finding = by_motion(hand, solved, fraction.denominator))
+      return *finding;
     // Whichever combination leaves least is how it was meant.
     std::optional<Finding> best;
     for (const Combination& candidate : candidates) {
@@ -248,9 +247,7 @@ class Comparison {
     return result;
   }
 
-  bool is_too_long(const ex& expression) const {
-    return expanded_size(expression) > kMostExpanded;
-  }
+  bool is_too_long(const ex& expression) const { return expanded_size(expression) > kMostExpanded; }
 
   /// The k for which h = 0 reads thetaddot_k = ... with no other acceleration; 0 if there is none,
   /// or none other.
@@ -282,10 +279,9 @@ class Comparison {
 
   bool has_constant_factors(const Combination& combination) const {
     return combination.divisor == 1 &&
-           std::all_of(combination.factors.begin(), combination.factors.end(),
-                       [&](const auto& entry) {
-                         return derivation_.chain->is_constant(entry.second);
-                       });
+           std::all_of(
+               combination.factors.begin(), combination.factors.end(),
+               [&](const auto& entry) { return derivation_.chain->is_constant(entry.second); });
   }
 
   /// Saves proofs that must fail.
@@ -309,15 +305,17 @@ class Comparison {
       NormalForm form({factor});
       const std::string text = text_of(form(factor), form);
       is_short = is_short && text.size() < kShortFactor;
-      parts.push_back(text == "1"    ? equation
-                      : text == "-1" ? "-" + equation
-                                     : (is_sum(text) ? "(" + text + ")" : text) + "*(" + equation + ")");
+      parts.push_back(text == "1" ? equation
+                      : text == "-1"
+                          ? "-" + equation
+                          : (is_sum(text) ? "(" + text + ")" : text) + "*(" + equation + ")");
       if (combination.factors.size() == 1 && number == row && is_short)
         return text == "1" ? "" : "multiplied by " + text;
     }
     if (parts.size() == 1 && !is_short)
-      return combination.factors.begin()->first == row ? "multiplied by a factor"
-                                                       : "equation " + listed(combination.factors) + " times a factor";
+      return combination.factors.begin()->first == row
+                 ? "multiplied by a factor"
+                 : "equation " + listed(combination.factors) + " times a factor";
     if (is_short) return (parts.size() == 1 ? "it is " : "the sum ") + joined_by_signs(parts);
     return "a combination of equations " + listed(combination.factors);
   }
@@ -337,24 +335,25 @@ class Comparison {
   NumericState common_state() const {
     const ChainSymbols& chain = *derivation_.chain;
     std::vector<ex> all{chain.load_mass, chain.gravity};
-    for (const auto* family : {&chain.angle, &chain.rate, &chain.acceleration, &chain.length,
-                               &chain.mass, &chain.inertia, &chain.stiffness, &chain.damping,
-                               &chain.torque})
+    for (const auto* family :
+         {&chain.angle, &chain.rate, &chain.acceleration, &chain.length, &chain.mass,
+          &chain.inertia, &chain.stiffness, &chain.damping, &chain.torque})
       all.insert(all.end(), family->begin() + 1, family->end());
     return random_state(symbols_in(all), seed_);
   }
 
-  /// What is not proved is held against the chain's motion. Nothing is said of equations that do not
-  /// hold and whose difference is worth writing out.
+  /// What is not proved is held against the chain's motion. Nothing is said of equations that do
+  /// not hold and whose difference is worth writing out.
   std::optional<Finding> by_motion(const ex& hand, int solved, const ex& denominator) {
     const ChainSymbols& chain = *derivation_.chain;
-    const bool must_be_judged = solved != 0 || expanded_size(hand) > kMostWritten ||
-                                !chain.is_constant(denominator);
+    const bool must_be_judged =
+        solved != 0 || expanded_size(hand) > kMostWritten || !chain.is_constant(denominator);
     Finding finding;
     if (chain.links > kMostCompared) {
       if (!must_be_judged) return std::nullopt;
       finding.remark =
-          "solved equations and those too long to be expanded are compared with the motion of up to " +
+          "solved equations and those too long to be expanded are compared with the motion of up "
+          "to " +
           std::to_string(kMostCompared) + " links";
       return finding;
     }
@@ -491,10 +490,9 @@ int independent_equations(const std::vector<Finding>& findings, int links) {
       const numeric factor = row[pivots[r]] / rows[r][pivots[r]];
       for (std::size_t j = 0; j < row.size(); ++j) row[j] = row[j] - factor * rows[r][j];
     }
-    const auto largest =
-        std::max_element(row.begin(), row.end(), [](const numeric& a, const numeric& b) {
-          return GiNaC::abs(a) < GiNaC::abs(b);
-        });
+    const auto largest = std::max_element(
+        row.begin(), row.end(),
+        [](const numeric& a, const numeric& b) { return GiNaC::abs(a) < GiNaC::abs(b); });
     if (GiNaC::abs(*largest) <= closeness()) continue;
     pivots.push_back(static_cast<std::size_t>(largest - row.begin()));
     rows.push_back(row);

@@ -18,8 +18,8 @@ namespace catena::checking {
 
 /// The chain's motion in numbers: the accelerations a that solve M a + rest = 0 at a point. Nothing
 /// is eliminated in symbols, which has too many terms from four links on. M is regular: it is the
-/// matrix of the kinetic energy, which is positive for any rates but zero, as all masses and lengths
-/// are. (What is given may make it singular; then there are no accelerations.)
+/// matrix of the kinetic energy, which is positive for any rates but zero, as all masses and
+/// lengths are. (What is given may make it singular; then there are no accelerations.)
 class Motion {
  public:
   using Vector = std::vector<GiNaC::numeric>;
@@ -37,7 +37,8 @@ class Motion {
   /// thetaddot_1..n at a state.
   const std::optional<Vector>& accelerations(const NumericState& state);
 
-  /// The f_j that are not 0, of h = sum_j f_j (equation j), at a state: M f = slope = dh/dthetaddot.
+  /// The f_j that are not 0, of h = sum_j f_j (equation j), at a state: M f = slope =
+  /// dh/dthetaddot.
   [[nodiscard]] std::map<int, GiNaC::numeric> factors(const Vector& slope,
                                                       const GiNaC::exmap& values) const;
 

@@ -12,8 +12,8 @@
 namespace catena::checking {
 
 /// What an expression that should be thetaddot_k (k = 0: that should be 0) comes to along the
-/// chain's motion. Completes a finding with a state where it differs, both values there and where the
-/// difference comes from; where none does, with a remark.
+/// chain's motion. Completes a finding with a state where it differs, both values there and where
+/// the difference comes from; where none does, with a remark.
 void compare_with_motion(const GiNaC::ex& expression, int k, Motion& motion,
                          const ChainSymbols& chain, std::uint64_t seed, Finding& finding);
 

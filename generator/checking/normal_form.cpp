@@ -4,8 +4,8 @@
 // the common divisor with which b occurs anywhere. With s = sin(b/d), c = cos(b/d) or E = exp(b/d):
 //   cos(a) + i sin(a) = prod_b (c_b + i s_b)^k_b,   exp(a) = prod_b E_b^k_b.
 // sin and exp of arguments that are linearly independent over the rationals are algebraically
-// independent (Ax 1971); distinct Laurent monomials b are. Products of powers p^(e/d), 0 <= e < d, of
-// distinct primes are linearly independent over the rationals (Besicovitch 1940). That is why a
+// independent (Ax 1971); distinct Laurent monomials b are. Products of powers p^(e/d), 0 <= e < d,
+// of distinct primes are linearly independent over the rationals (Besicovitch 1940). That is why a
 // non-zero numerator disproves.
 #include "generator/checking/normal_form.hpp"
 
@@ -72,8 +72,7 @@ bool is_positive_rational(const ex& e) {
 }
 
 bool is_fractional(const ex& exponent) {
-  return exponent.info(GiNaC::info_flags::rational) &&
-         !exponent.info(GiNaC::info_flags::integer);
+  return exponent.info(GiNaC::info_flags::rational) && !exponent.info(GiNaC::info_flags::integer);
 }
 
 bool is_laurent_monomial(const ex& e) {

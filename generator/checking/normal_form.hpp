@@ -22,9 +22,10 @@ struct Fraction {
 ///
 /// Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic
 /// angles b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1 with s_b at most to the
-/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots of positive rational numbers
-/// become products of p^(1/d), p prime, d common to all; other roots become generators r with r^q =
-/// radicand, perfect powers of manifestly positive radicands are drawn. Everything else (log, abs,
+/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots of positive rational
+/// numbers become products of p^(1/d), p prime, d common to all; other roots become generators r
+/// with r^q = radicand, perfect powers of manifestly positive radicands are drawn. Everything else
+/// (log, abs,
 /// ...) is a generator of its own.
 ///
 /// A zero numerator always proves equality. A non-zero one disproves it as long as `decides()`: the

@@ -126,9 +126,10 @@ std::string report(const std::string& file, const Derivation& derivation,
       remarks += matrix_remarks(derivation, findings, quantity);
   if (derivation.chain) remarks += equations_remark(derivation, findings);
   if (evaluated > 0)
-    remarks += "equal by evaluation: too long to be expanded; the exact values at a random point are "
-               "the same, which for\ndifferent expressions has a chance below 2^-" +
-               std::to_string(kCertainty) + "\n";
+    remarks +=
+        "equal by evaluation: too long to be expanded; the exact values at a random point are "
+        "the same, which for\ndifferent expressions has a chance below 2^-" +
+        std::to_string(kCertainty) + "\n";
   for (const std::string& note : derivation.notes) remarks += note + "\n";
   if (!remarks.empty()) text += "\n" + remarks;
   return text + "\n" + std::to_string(findings.size()) +

@@ -62,8 +62,7 @@ class Clearing {
       for (const ex& factor : e) {
         const Parts& parts = (*this)(factor);
         numerators.push_back(parts.numerator);
-        for (const auto& [base, exponent] : parts.denominator)
-          result.denominator[base] += exponent;
+        for (const auto& [base, exponent] : parts.denominator) result.denominator[base] += exponent;
       }
       result.numerator = GiNaC::mul(numerators);
     } else if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {

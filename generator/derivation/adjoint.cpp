@@ -28,7 +28,8 @@ void Adjoint::accumulate() {
       const ex angle = symbol.value.op(0);
       const ex other = sine ? ex(definitions_.define("cosine", symbol.index, GiNaC::cos(angle)))
                             : ex(definitions_.define("sine", symbol.index, GiNaC::sin(angle)));
-      open_[definitions_.number_of(angle)][symbol.index] += sine ? arrived * other : -arrived * other;
+      open_[definitions_.number_of(angle)][symbol.index] +=
+          sine ? arrived * other : -arrived * other;
     } else {
       pass_on(symbol.value, arrived, symbol.index);
     }

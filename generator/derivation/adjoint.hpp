@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The gradient of a sum of weighted expressions with respect to everything they are made of, by
-// reverse accumulation: each definition passes what arrives at it on to the symbols in its value, so
-// that all derivatives together cost a small multiple of the expressions.
+// reverse accumulation: each definition passes what arrives at it on to the symbols in its value,
+// so that all derivatives together cost a small multiple of the expressions.
 #pragma once
 
 #include <functional>
@@ -31,8 +31,8 @@ class Adjoint {
 
   Definitions& definitions_;
   std::string prefix_;
-  // Number of a symbol -> link -> what arrives from there; the latest symbols first, since a symbol's
-  // users come after it.
+  // Number of a symbol -> link -> what arrives from there; the latest symbols first, since a
+  // symbol's users come after it.
   std::map<int, std::map<int, GiNaC::ex>, std::greater<>> open_;
   std::map<int, GiNaC::ex> done_;
 };

@@ -191,7 +191,8 @@ void Chain::make_kinematics() {
   load_mass_ += kinematic(&Kinematics::load_mass, "kg", Place::kLoad, 0);
   load_inertia_ = kinematic(&Kinematics::load_inertia, "kg m^2", Place::kLoad, 0);
   const ex tilt = kinematic(&Kinematics::gravity_tilt, "rad", Place::kLoad, 0);
-  cos_tilt_ = tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
+  cos_tilt_ =
+      tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
 
   for (Link i = 0; i <= links_; ++i) {
@@ -306,9 +307,7 @@ void Chain::add_chain_terms() {
 }
 
 // The length of cable whose bending joint i stands for.
-ex Chain::spacing(Link i) const {
-  return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2;
-}
+ex Chain::spacing(Link i) const { return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2; }
 
 void Chain::pull_back() {
   std::vector<ex> cut_side(static_cast<size_t>(links_) + 2), cut_down(cut_side);
@@ -323,8 +322,8 @@ void Chain::pull_back() {
     const auto found = covector_.find(number);
     if (definitions_[number].is_input || found == covector_.end()) continue;
     const Symbol symbol = definitions_[number];
-    const ex covector = definitions_.define(covector_family(symbol.family), covector_index(symbol),
-                                            found->second);
+    const ex covector =
+        definitions_.define(covector_family(symbol.family), covector_index(symbol), found->second);
     found->second = covector;
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       const Symbol below = definitions_[argument];
@@ -348,10 +347,9 @@ void Chain::pull_back() {
     keep(cut_down, joint_down_[i - 1], i);
     keep(moment, joint_angle_[i], i);
     const ex above = i == 1 ? ex(0) : theta_[i - 1];
-    curvatures_.push_back(
-        definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
-    tensions_.push_back(definitions_.named(-(cut_side[i] * sine_[i] + cut_down[i] * cosine_[i]),
-                                           "tension", i));
+    curvatures_.push_back(definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
+    tensions_.push_back(
+        definitions_.named(-(cut_side[i] * sine_[i] + cut_down[i] * cosine_[i]), "tension", i));
     moments_.push_back(definitions_.named(-moment[i], "moment", i));
   }
   support_force_side_ = cut_side[1];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The chain: its kinematics (2.24)-(2.27), energies (2.3)-(2.9) with the load's potential, dissipation
-// (3.2)-(3.14) and effects; and its equations of motion by Euler-Lagrange,
+// The chain: its kinematics (2.24)-(2.27), energies (2.3)-(2.9) with the load's potential,
+// dissipation (3.2)-(3.14) and effects; and its equations of motion by Euler-Lagrange,
 //
 //     r_i = d/dt(dL/dqdot_i) - dL/dq_i + dD/dqdot_i - Q_i = 0,     L = T - V.
 //
@@ -119,7 +119,7 @@ class Chain {
   std::vector<ex> length_, mass_, inertia_, stiffness_, damping_, torque_;
   ex load_mass_, gravity_, time_symbol_;
   ex load_inertia_;
-  std::vector<ex> reach_;  ///< length of link i with its extension
+  std::vector<ex> reach_;                      ///< length of link i with its extension
   std::vector<ex> joint_side_, joint_down_;    ///< far end of link i; 0 is the support
   std::vector<ex> centre_side_, centre_down_;  ///< mass centre of link i
   std::vector<ex> middle_side_, middle_down_;  ///< middle of link i, where effects act

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an effect's declared physics adds to the chain: its expressions are parsed with the symbols of
-// the place they stand at, and enter as potentials, dissipation functions, forces and torques (virtual
-// work), kinetic energies, extra states and sensor expressions.
+// What an effect's declared physics adds to the chain: its expressions are parsed with the symbols
+// of the place they stand at, and enter as potentials, dissipation functions, forces and torques
+// (virtual work), kinetic energies, extra states and sensor expressions.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -101,8 +101,8 @@ ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge
   if (!expression.given()) return 0;
   ExpressionContext symbols = context(effect, knowledge, place, i);
   for (const Definition& definition : effect.definitions) {
-    const bool here = definition.at == place ||
-                      (definition.at == Place::kJoint && place == Place::kPivot);
+    const bool here =
+        definition.at == place || (definition.at == Place::kJoint && place == Place::kPivot);
     if (definition.at != Place::kAnywhere && (!here || knowledge == kShape)) continue;
     add_definition(definition, symbols);
   }

@@ -21,11 +21,13 @@ namespace {
 struct WriteOutDifferences : GiNaC::map_function {
   ex operator()(const ex& e) override {
     const bool sine = GiNaC::is_the_function<GiNaC::sin_SERIAL>(e);
-    if ((sine || GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) && GiNaC::is_a<GiNaC::add>(e.op(0))) {
+    if ((sine || GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) &&
+        GiNaC::is_a<GiNaC::add>(e.op(0))) {
       ex a = 0, b = 0;
       for (size_t i = 0; i < e.op(0).nops(); ++i) {
         const ex term = e.op(0).op(i);
-        (GiNaC::is_a<GiNaC::symbol>(term) ? a : b) = GiNaC::is_a<GiNaC::symbol>(term) ? term : -term;
+        (GiNaC::is_a<GiNaC::symbol>(term) ? a : b) =
+            GiNaC::is_a<GiNaC::symbol>(term) ? term : -term;
       }
       return sine ? GiNaC::sin(a) * GiNaC::cos(b) - GiNaC::cos(a) * GiNaC::sin(b)
                   : GiNaC::cos(a) * GiNaC::cos(b) + GiNaC::sin(a) * GiNaC::sin(b);
@@ -89,7 +91,7 @@ ChainSymbols::ChainSymbols(int links) {
 }
 
 std::vector<Proof> compare_with_closed_form(const ChainSymbols& s, const ChainInSymbols& model) {
-  const reference::Chain<ex> chain{s.length,    s.mass,    s.inertia, s.stiffness,
+  const reference::Chain<ex> chain{s.length,  s.mass,      s.inertia, s.stiffness,
                                    s.damping, s.load_mass, s.gravity};
   const size_t n = s.theta.size();
   const auto index = [](size_t i) { return "(" + std::to_string(i + 1) + ")"; };

@@ -33,7 +33,8 @@ struct Proof {
 };
 
 /// M, F, G, K theta, C thetadot, T, in this order.
-std::vector<Proof> compare_with_closed_form(const ChainSymbols& symbols, const ChainInSymbols& model);
+std::vector<Proof> compare_with_closed_form(const ChainSymbols& symbols,
+                                            const ChainInSymbols& model);
 
 /// Derives the plain chain and compares.
 std::vector<Proof> prove_closed_form(int links);

@@ -91,8 +91,8 @@ ex Definitions::make(const std::string& family, int index, bool is_input, const 
   if (!number_by_name_.emplace(name, number).second) {
     throw std::logic_error("defined twice: " + name);
   }
-  symbols_.push_back({family, index, rank.first->second, is_input,
-                      NumberedSymbol(name, number), value});
+  symbols_.push_back(
+      {family, index, rank.first->second, is_input, NumberedSymbol(name, number), value});
   return symbols_.back().symbol;
 }
 
@@ -172,8 +172,7 @@ ex Definitions::named(const ex& expression, const std::string& family, int index
   }
   if (GiNaC::is_a<GiNaC::function>(e) && e.nops() == 1) {
     const auto& function = GiNaC::ex_to<GiNaC::function>(e);
-    const ex argument =
-        symbol_of(family + "_argument", index, named(e.op(0), family, index));
+    const ex argument = symbol_of(family + "_argument", index, named(e.op(0), family, index));
     const ex applied = GiNaC::function(function.get_serial(), argument);
     if (!GiNaC::is_a<GiNaC::function>(applied)) return named(applied, family, index);
     return name_of(family + "_" + function.get_name(), index, applied);

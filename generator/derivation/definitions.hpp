@@ -30,7 +30,8 @@ struct Symbol {
   int family_rank;     ///< order of the family's first appearance
   bool is_input;       ///< given from outside: no right-hand side
   GiNaC::ex symbol;
-  GiNaC::ex value;     ///< polynomial in symbols (negative powers of symbols allowed), or one function of a symbol
+  GiNaC::ex value;  ///< polynomial in symbols (negative powers of symbols allowed), or one function
+                    ///< of a symbol
 };
 
 class Definitions {
@@ -46,7 +47,8 @@ class Definitions {
   /// The same, but under a name of its own even where the value is a number, a symbol or named.
   GiNaC::ex define_always(const std::string& family, int index, const GiNaC::ex& value);
 
-  /// The expression with functions, roots and quotients named, expanded; family and index name them.
+  /// The expression with functions, roots and quotients named, expanded; family and index name
+  /// them.
   GiNaC::ex named(const GiNaC::ex& expression, const std::string& family, int index);
 
   /// Numbers of the symbols in an expression, ascending (order of creation).

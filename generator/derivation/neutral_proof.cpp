@@ -44,8 +44,7 @@ class AtNeutral {
   }
 
   ex of(const ex& expression) {
-    return written_out_.of(neutral_.of(expression))
-        .subs(shared_, GiNaC::subs_options::no_pattern);
+    return written_out_.of(neutral_.of(expression)).subs(shared_, GiNaC::subs_options::no_pattern);
   }
 
  private:

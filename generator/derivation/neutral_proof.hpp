@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an effect must not do: with its parameters at their neutral values a model is the plain chain.
+// What an effect must not do: with its parameters at their neutral values a model is the plain
+// chain.
 #pragma once
 
 #include <string>
@@ -16,10 +17,10 @@ struct NeutralProofs {
   std::string why_not;        ///< nothing is proved, because ...; else empty
 };
 
-/// Derives the model and the plain chain, puts the neutral values in and compares, all other symbols
-/// kept (parameters without a neutral value, states and signals too). With the closed forms of the
-/// plain chain that proves those of the model. Not to be had where a neutral value is a limit, or
-/// where there are coordinates that the plain chain does not have.
+/// Derives the model and the plain chain, puts the neutral values in and compares, all other
+/// symbols kept (parameters without a neutral value, states and signals too). With the closed forms
+/// of the plain chain that proves those of the model. Not to be had where a neutral value is a
+/// limit, or where there are coordinates that the plain chain does not have.
 NeutralProofs prove_neutral(const Description& description, int links);
 
 }  // namespace catena

@@ -15,7 +15,8 @@ struct NotOfThisForm : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A linear form over perturbations u_i and over definitions that carry perturbations along the chain.
+// A linear form over perturbations u_i and over definitions that carry perturbations along the
+// chain.
 struct Basis {
   enum Kind { kPerturbation, kCarriedDown, kCarriedUp } kind;
   std::string family;  // empty for u
@@ -58,7 +59,8 @@ class Linearisation {
     for (const auto& family : down_) {
       if (up_.count(family)) throw NotOfThisForm(family + " depends on both neighbouring links");
     }
-    // From the first on: a sum along thousands of links, asked for at its end, would overflow the stack.
+    // From the first on: a sum along thousands of links, asked for at its end, would overflow the
+    // stack.
     for (const int k : reached_) change_of_symbol(k);
   }
 
@@ -68,8 +70,9 @@ class Linearisation {
     for (bool changed = true; changed;) {
       changed = false;
       for (const auto& [basis, coefficient] : form) {
-        const bool expand = (basis.kind == Basis::kCarriedDown && (basis.index >= i || basis.index == 0)) ||
-                            (basis.kind == Basis::kCarriedUp && (basis.index <= i || i == links_));
+        const bool expand =
+            (basis.kind == Basis::kCarriedDown && (basis.index >= i || basis.index == 0)) ||
+            (basis.kind == Basis::kCarriedUp && (basis.index <= i || i == links_));
         if (!expand) continue;
         const ex factor = coefficient;
         const Form inner = definition_of(basis);
@@ -81,7 +84,7 @@ class Linearisation {
     }
     for (const auto& [basis, coefficient] : form) {
       const int reach = basis.index - i;
-      const bool allowed = basis.kind == Basis::kPerturbation ? reach >= -1 && reach <= 1
+      const bool allowed = basis.kind == Basis::kPerturbation  ? reach >= -1 && reach <= 1
                            : basis.kind == Basis::kCarriedDown ? reach == -1
                                                                : reach == 1;
       if (!allowed) {
@@ -128,8 +131,10 @@ class Linearisation {
       for (const int k : reached_) {
         const Symbol& symbol = definitions_[k];
         if (symbol.is_input) continue;
-        if (down_.count(symbol.family)) numbers_[{Basis::kCarriedDown, symbol.family, symbol.index}] = k;
-        if (up_.count(symbol.family)) numbers_[{Basis::kCarriedUp, symbol.family, symbol.index}] = k;
+        if (down_.count(symbol.family))
+          numbers_[{Basis::kCarriedDown, symbol.family, symbol.index}] = k;
+        if (up_.count(symbol.family))
+          numbers_[{Basis::kCarriedUp, symbol.family, symbol.index}] = k;
       }
     }
     return numbers_;
@@ -165,10 +170,12 @@ class Linearisation {
       add(form, {Basis::kPerturbation, "", symbol.index}, weights_.acceleration);
     } else if (symbol.family == "sine") {
       add(form, {Basis::kPerturbation, "", symbol.index},
-          weights_.position * definitions_.define("cosine", symbol.index, GiNaC::cos(symbol.value.op(0))));
+          weights_.position *
+              definitions_.define("cosine", symbol.index, GiNaC::cos(symbol.value.op(0))));
     } else if (symbol.family == "cosine") {
       add(form, {Basis::kPerturbation, "", symbol.index},
-          -weights_.position * definitions_.define("sine", symbol.index, GiNaC::sin(symbol.value.op(0))));
+          -weights_.position *
+              definitions_.define("sine", symbol.index, GiNaC::sin(symbol.value.op(0))));
     } else if (!symbol.is_input) {
       const Form inner = change_of(symbol.value);
       if (inner.empty()) {
@@ -214,7 +221,7 @@ class Linearisation {
   Weights weights_;
   int links_;
   std::map<int, ex> state_rates_;  // of extra states, by the state's number
-  std::set<int> reached_;  // definitions that the residual needs
+  std::set<int> reached_;          // definitions that the residual needs
   std::set<std::string> down_, up_;
   std::map<Basis, int> numbers_;
   std::map<int, Form> known_;
@@ -328,7 +335,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
     for (int i = 1; i < n; ++i) column = column || !B[i][f].is_zero();
     keep_lower[f] = keep_lower[f] && column;
   }
-  for (auto* list : {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {
+  for (auto* list :
+       {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {
     list->resize(links);
   }
   result.symmetric = true;
@@ -356,7 +364,9 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
     }
     const auto equal = [&](const ex& a, const ex& b) {
       return (a.subs(values, GiNaC::subs_options::no_pattern) -
-              b.subs(values, GiNaC::subs_options::no_pattern)).expand().is_zero();
+              b.subs(values, GiNaC::subs_options::no_pattern))
+          .expand()
+          .is_zero();
     };
     bool same = result.lower_row[i].size() == result.upper_row[i].size();
     for (size_t r = 0; same && r < result.lower_row[i].size(); ++r) {

@@ -21,9 +21,9 @@
 // and e_i, f_i on the two neighbouring diagonals besides: tridiagonal plus semiseparable. Whether
 // the definitions are of this form is decided exactly, coefficient by coefficient, for each link.
 //
-// Extra states with rates f(q, v, z), each of which depends on no other state, change with the links
-// as an implicit step makes them, delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz) with
-// wa = 1: they are eliminated, and N is what is left.
+// Extra states with rates f(q, v, z), each of which depends on no other state, change with the
+// links as an implicit step makes them, delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv
+// df/dz) with wa = 1: they are eliminated, and N is what is left.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -38,7 +38,7 @@ namespace catena {
 /// N = T + (upper part of U V') + (lower part of P Q'), T tridiagonal; links are counted from 1.
 struct Quasiseparable {
   bool found = false;
-  std::string reason;  ///< if not found: what stands in the way
+  std::string reason;      ///< if not found: what stands in the way
   bool symmetric = false;  ///< proved: P = V, Q = U, e = f
   int upper_rank = 0, lower_rank = 0;
   // entry [i][r], i = 1..links (entry 0 unused)

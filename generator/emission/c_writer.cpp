@@ -25,7 +25,8 @@ static void sines_and_cosines(const double* angle, double* sine, double* cosine)
 }
 )";
 
-// A_ij = row_i . column_j for j < i, symmetric, positive definite: rows are eliminated from the last up.
+// A_ij = row_i . column_j for j < i, symmetric, positive definite: rows are eliminated from the
+// last up.
 const char* const kSemiseparable = R"(
 typedef struct {
   double row[kLinks][kRank], column[kLinks][kRank], diagonal[kLinks];
@@ -141,7 +142,8 @@ std::string source_text(const Description& description, const ModelFunctions& fu
     for (const std::string argument : {"t", "p", "dp", "in", "rate_weights", "dz"}) {
       for (const std::string type : {"const T* ", "const T& ", "T* "}) {
         for (const char* end : {",", ")"}) {
-          if (function.signature.find("[[maybe_unused]] " + type + argument + end) != std::string::npos)
+          if (function.signature.find("[[maybe_unused]] " + type + argument + end) !=
+              std::string::npos)
             out << "  (void)" << argument << ";\n";
         }
       }
@@ -159,8 +161,8 @@ std::string header_text(const ModelSummary& s) {
   std::ostringstream out;
   out << kBanner << "#ifndef CATENA_MODEL_" << s.name << "\n#define CATENA_MODEL_" << s.name
       << "\n\n#include \"catena_model.h\"\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
-      << "/* The functions of a hanging chain of " << s.links << " link" << (s.links == 1 ? "" : "s")
-      << "; see catena_model.h. */\nconst catena_model* " << s.name
+      << "/* The functions of a hanging chain of " << s.links << " link"
+      << (s.links == 1 ? "" : "s") << "; see catena_model.h. */\nconst catena_model* " << s.name
       << "(void);\n\n#ifdef __cplusplus\n}\n#endif\n#endif\n";
   return out.str();
 }

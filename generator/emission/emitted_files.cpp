@@ -12,8 +12,9 @@ namespace catena {
 
 namespace {
 
-// Measured on n = 2..60 (docs/scale.md): up to here both are of one size and speed, and straight lines
-// are easier to read; beyond it loops are several times smaller for about a fifth of the residual's speed.
+// Measured on n = 2..60 (docs/scale.md): up to here both are of one size and speed, and straight
+// lines are easier to read; beyond it loops are several times smaller for about a fifth of the
+// residual's speed.
 constexpr int kLongestStraight = 4;
 
 std::string summary_text(const Description& description, const ModelSummary& s) {
@@ -29,9 +30,8 @@ std::string summary_text(const Description& description, const ModelSummary& s) 
   json["parameters"] = s.parameters;
   json["layout"] = s.layout == Layout::kStraight ? "straight" : "loops";
   auto& structure = json["structure"];
-  structure["mass_matrix"] = {{"semiseparable", s.mass_structured},
-                              {"symmetric", s.mass_symmetric},
-                              {"rank", s.mass_rank}};
+  structure["mass_matrix"] = {
+      {"semiseparable", s.mass_structured}, {"symmetric", s.mass_symmetric}, {"rank", s.mass_rank}};
   structure["newton_matrix"] = {{"tridiagonal_plus_semiseparable", s.structured},
                                 {"rank_above", s.newton_upper_rank},
                                 {"rank_below", s.newton_lower_rank}};
@@ -52,22 +52,26 @@ std::string summary_text(const Description& description, const ModelSummary& s) 
 
 std::string look_up_header() {
   return "// SPDX-License-Identifier: BSD-3-Clause\n"
-         "// Written by catena-derive. Do not edit: change the model description and derive again.\n"
+         "// Written by catena-derive. Do not edit: change the model description and derive "
+         "again.\n"
          "#pragma once\n\n#include \"catena_model.h\"\n\nnamespace catena {\n\n"
-         "/// The models compiled into this library, by ascending number of links; *count of them.\n"
+         "/// The models compiled into this library, by ascending number of links; *count of "
+         "them.\n"
          "const catena_model* const* built_in_models(int* count);\n\n}  // namespace catena\n";
 }
 
 std::string look_up_source(const std::vector<std::string>& names) {
   std::ostringstream out;
   out << "// SPDX-License-Identifier: BSD-3-Clause\n"
-         "// Written by catena-derive. Do not edit: change the model description and derive again.\n"
+         "// Written by catena-derive. Do not edit: change the model description and derive "
+         "again.\n"
          "#include \"models.hpp\"\n\n";
   for (const std::string& name : names) out << "#include \"" << name << ".hpp\"\n";
   out << "\nnamespace catena {\n\nconst catena_model* const* built_in_models(int* count) {\n"
          "  static const catena_model* const models[] = {\n";
   for (const std::string& name : names) out << "      &" << name << "::table(),\n";
-  out << "  };\n  *count = " << names.size() << ";\n  return models;\n}\n\n}  // namespace catena\n";
+  out << "  };\n  *count = " << names.size()
+      << ";\n  return models;\n}\n\n}  // namespace catena\n";
   return out.str();
 }
 
@@ -101,7 +105,8 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
   for (const int n : links) {
     const auto start = std::chrono::steady_clock::now();
     const Layout chosen = layout.value_or(layout_for(n));
-    EmittedModel model = c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen);
+    EmittedModel model =
+        c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen);
     const std::string name = model.summary.name;
     names.push_back(name);
     files.merge(model.files);

@@ -80,7 +80,8 @@ void FunctionBuilder::state_rates() {
       "                          double* dzdot) {\n"
       "  state_rate_tangent(point(at), point(along), dzdot);\n}\n"
       "CATENA_EACH_PROCESSOR void c_state_rate_tangents(const catena_point* at,\n"
-      "                                                 const catena_point* along, double* dzdot) {\n"
+      "                                                 const catena_point* along, double* dzdot) "
+      "{\n"
       "  state_rate_tangent(point(at), directions(along), directions(dzdot));\n}\n");
 }
 

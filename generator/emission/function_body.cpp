@@ -28,12 +28,12 @@ struct Dependency {
 
 struct Family {
   std::string name;
-  std::map<int, Item> items;           // by index
-  std::set<Dependency> dependencies;   // on other definitions; inputs are left out
+  std::map<int, Item> items;          // by index
+  std::set<Dependency> dependencies;  // on other definitions; inputs are left out
   bool is_output = false;
   bool along = false;  // depends on a differential
   int sweep = -1;
-  bool local = true;  // read only at the same link in the same sweep
+  bool local = true;     // read only at the same link in the same sweep
   bool carried = false;  // or at the one before, and elsewhere at the sweep's last: see carry()
 };
 
@@ -108,7 +108,8 @@ class Body {
     }
     for (const int number : needed) {  // a symbol's number is larger than those its value reads
       const Symbol& symbol = definitions_[number];
-      if (given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value)) along_.insert(number);
+      if (given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value))
+        along_.insert(number);
     }
     std::map<std::string, size_t> position;
     const auto family_of = [&](const std::string& name) -> Family& {
@@ -156,7 +157,8 @@ class Body {
       }
     }
     for (Family& family : families_) {
-      for (const auto& [index, item] : family.items) family.along = family.along || along(item.value);
+      for (const auto& [index, item] : family.items)
+        family.along = family.along || along(item.value);
     }
     position_ = std::move(position);
   }
@@ -213,9 +215,9 @@ class Body {
     sweeps_.push_back({direction, std::move(members)});
   }
 
-  // A sweep as up to three: what needs no neighbour's result, what does, and what follows from that.
-  // Only the middle one has to go link by link; of the others, upwards in memory, the compiler makes
-  // vectors.
+  // A sweep as up to three: what needs no neighbour's result, what does, and what follows from
+  // that. Only the middle one has to go link by link; of the others, upwards in memory, the
+  // compiler makes vectors.
   void add_sweeps(int direction, const std::vector<size_t>& members) {
     std::map<size_t, std::set<size_t>> needs;  // within the sweep, directly or not
     for (const size_t k : members) {
@@ -290,8 +292,8 @@ class Body {
     if (layout_ == Layout::kWholeSweeps) carry();
   }
 
-  // What is read at the same link and the one before, and after the sweep at its last link, needs no
-  // array: `name` and `name_last` do.
+  // What is read at the same link and the one before, and after the sweep at its last link, needs
+  // no array: `name` and `name_last` do.
   void carry() {
     std::set<size_t> stored;
     for (const Family& reader : families_) {
@@ -302,7 +304,8 @@ class Body {
           const size_t k = position_.at(symbol.family);
           const Family& family = families_[k];
           const int direction = sweeps_[static_cast<size_t>(family.sweep)].direction;
-          const int last = direction > 0 ? family.items.rbegin()->first : family.items.begin()->first;
+          const int last =
+              direction > 0 ? family.items.rbegin()->first : family.items.begin()->first;
           const bool near = reader.sweep == family.sweep
                                 ? symbol.index == index || symbol.index == index - direction
                                 : symbol.index == last;
@@ -328,8 +331,8 @@ class Body {
       if (text[k + 1] == '*') product = k;
     }
     return sum != std::string::npos && sum > from + width / 3 ? sum
-           : product != std::string::npos                      ? product
-                                                               : sum;
+           : product != std::string::npos                     ? product
+                                                              : sum;
   }
 
   // Lines are broken before an operator where they would be longer than a page is wide.
@@ -369,8 +372,8 @@ class Body {
   std::string statement(const Item& item, const std::string& index, const SymbolText& text,
                         bool straight) {
     const auto value = [&] {
-      const std::string plain =
-          expression_text(definitions_, item.value, item.index, text, language_, &result_.operations);
+      const std::string plain = expression_text(definitions_, item.value, item.index, text,
+                                                language_, &result_.operations);
       // In a function of differentials what depends on none is a constant, mostly zero.
       const bool constant = item.output != nullptr && result_.along && !along(item.value);
       return constant && language_ == Language::kCpp ? differential_ + "(" + plain + ")" : plain;
@@ -383,8 +386,9 @@ class Body {
         if (number) {
           place += std::to_string(std::stoi(index) + shift);
         } else {
-          place += index + (shift == 0 ? "" : shift > 0 ? " + " + std::to_string(shift)
-                                                        : " - " + std::to_string(-shift));
+          place += index + (shift == 0  ? ""
+                            : shift > 0 ? " + " + std::to_string(shift)
+                                        : " - " + std::to_string(-shift));
         }
       }
       return place + item.output->after + " = " + value() + ";";
@@ -461,13 +465,15 @@ class Body {
       if (family.carried) {
         line(type_of(family) + " " + family.name + "_last;", 1);
       } else if (!family.is_output && !family.local) {
-        line(type_of(family) + " " + family.name + "[" + std::to_string(family.items.rbegin()->first + 1) + "];", 1);
+        line(type_of(family) + " " + family.name + "[" +
+                 std::to_string(family.items.rbegin()->first + 1) + "];",
+             1);
       }
     }
     bool any_local = false;
     for (const size_t k : sweep.families) {
-      any_local = any_local || families_[k].carried ||
-                  (!families_[k].is_output && families_[k].local);
+      any_local =
+          any_local || families_[k].carried || (!families_[k].is_output && families_[k].local);
     }
     const int step = sweep.direction;
     for (int link = step > 0 ? first : last; link >= first && link <= last;) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From definitions to the statements of a C++ (or C99) function: what the outputs do not need is left out,
-// definitions are put in sweeps over the links (towards the tip, or towards the support), and
-// links whose statements read the same become one loop.
+// From definitions to the statements of a C++ (or C99) function: what the outputs do not need is
+// left out, definitions are put in sweeps over the links (towards the tip, or towards the support),
+// and links whose statements read the same become one loop.
 #pragma once
 
 #include <map>
@@ -33,8 +33,9 @@ struct InputDeclaration {
 using InputDeclarations = std::map<std::string, InputDeclaration>;  ///< by family
 
 enum class Layout {
-  kStraight,    ///< one statement a definition
-  kLoops,       ///< loops over links where they read the same, cut so that compilers make vectors of links
+  kStraight,  ///< one statement a definition
+  kLoops,     ///< loops over links where they read the same, cut so that compilers make vectors of
+              ///< links
   kWholeSweeps  ///< such loops uncut: less is stored between them, for scalars that are vectors
 };
 

@@ -20,9 +20,11 @@ constexpr std::size_t kNarrower = 6;    // by what the name of an effect takes o
 
 // What formulas (description/formula.hpp) write for what effects are made of
 const char* const kLettersOfEffects =
-    "In the formulas of effects, $\\varphi$ is the angle of a joint, the difference of those of its\n"
+    "In the formulas of effects, $\\varphi$ is the angle of a joint, the difference of those of "
+    "its\n"
     "links; $r$, $v$, $f$ and $F$ are position, velocity, force per length and force of the point\n"
-    "named, with index $s$ towards side, $d$ downwards, $n$ across and $t$ along the link; $\\tau$ is a\n"
+    "named, with index $s$ towards side, $d$ downwards, $n$ across and $t$ along the link; $\\tau$ "
+    "is a\n"
     "torque, $V$ a potential, $D$ a dissipation function, $T$ a kinetic energy, $s$ the length of\n"
     "cable from the support, $\\Delta$ the length a joint stands for, $r_g$ the depth along\n"
     "gravity, $t$ the time. All else carries its effect's own name.\n";
@@ -118,8 +120,10 @@ class Document {
     for (const Effect& effect : description.effects) {
       const auto name = [&](const std::string& own, const std::string& ending) {
         const bool once = ending == "_dot" || ending == "_rate";
-        names_[effect.id + "_" + own + ending] =
-            shown(effect, own, ending.empty() ? "" : once ? "\\dot" : "\\ddot");
+        names_[effect.id + "_" + own + ending] = shown(effect, own,
+                                                       ending.empty() ? ""
+                                                       : once         ? "\\dot"
+                                                                      : "\\ddot");
       };
       for (const EffectParameter& parameter : effect.parameters) name(parameter.name, "");
       for (const ExtraState& state : effect.states) name(state.name, "");
@@ -150,9 +154,8 @@ class Document {
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < chain.residual().size(); ++i) {
-      equations.push_back(
-          equation(generalised_force(effect, i), latex.terms(-chain.residual()[i]),
-                   kLineWidth - kNarrower));
+      equations.push_back(equation(generalised_force(effect, i), latex.terms(-chain.residual()[i]),
+                                   kLineWidth - kNarrower));
     }
     std::vector<LatexEquations> found = {
         {"The generalised forces of " + effect.id + " are", display(equations)}};
@@ -305,10 +308,10 @@ class Document {
     Chain chain(description_, links_, "kinetic");
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const std::size_t n = chain.coordinates().size();
-    found.push_back({"with the symmetric inertia matrix",
-                     matrix("I", n, n, [](std::size_t i, std::size_t j) {
-                       return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
-                     })});
+    found.push_back(
+        {"with the symmetric inertia matrix", matrix("I", n, n, [](std::size_t i, std::size_t j) {
+           return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
+         })});
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < n; ++i) {
       const ex row = latex.written_out(chain.residual()[i]);
@@ -394,9 +397,11 @@ class Document {
       for (const ex& q : chain.coordinates()) straight[q] = 0;
       rows.push_back(-latex.written_out(row).subs(straight, GiNaC::subs_options::no_pattern));
     }
-    const bool any = std::any_of(rows.begin(), rows.end(), [](const ex& e) { return !e.is_zero(); });
+    const bool any =
+        std::any_of(rows.begin(), rows.end(), [](const ex& e) { return !e.is_zero(); });
     if (!any) return;
-    rest_ = {{"those of the moments of the joints' rest angles", column(chain, rows, latex, "e", {})}};
+    rest_ = {
+        {"those of the moments of the joints' rest angles", column(chain, rows, latex, "e", {})}};
     append(rest_, with());
   }
 
@@ -415,11 +420,10 @@ class Document {
         {"those of the vector of gravity", column(chain, chain.residual(), latex, "g", {})});
     append(found, with());
     append(found, rest_);
-    found.push_back({"and the external torques",
-                     matrix("\\vec{T}", chain.coordinates().size(), 1,
-                            [&](std::size_t i, std::size_t) {
-                              return torque(i).empty() ? "0" : torque(i);
-                            })});
+    found.push_back(
+        {"and the external torques",
+         matrix("\\vec{T}", chain.coordinates().size(), 1,
+                [&](std::size_t i, std::size_t) { return torque(i).empty() ? "0" : torque(i); })});
   }
 
   std::string effect_text(const Effect& effect) {

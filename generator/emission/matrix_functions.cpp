@@ -142,8 +142,8 @@ void FunctionBuilder::mass_and_acceleration() {
   if (in_c() || layout_ != Layout::kLoops) return;
   result_.accelerations = "accelerations";
   add("accelerations", "The same, bit for bit, in the order that suits a T of several numbers.",
-      "int accelerations(const Point<T>& at, T* a)", body(all, at_, Layout::kWholeSweeps), "", matrix,
-      solve);
+      "int accelerations(const Point<T>& at, T* a)", body(all, at_, Layout::kWholeSweeps), "",
+      matrix, solve);
 }
 
 void FunctionBuilder::newton() {

@@ -32,8 +32,8 @@ struct ModelFunctions {
   std::string accelerations;           ///< the function for a T of several numbers; empty: none
   bool uses_time = false, observes = false;
 
-  /// Whether the table has accelerations of several points at once: not where their arrays would not
-  /// fit a thread's stack.
+  /// Whether the table has accelerations of several points at once: not where their arrays would
+  /// not fit a thread's stack.
   bool several_at_once() const;
   /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
   std::vector<std::string> table_entries(Language language) const;

@@ -34,7 +34,8 @@ std::string structure_text(const ModelFunctions& functions) {
   }
   if (s.structured) {
     out << "//   ca dr/da + cv dr/dv + cq dr/dq: tridiagonal plus semiseparable, ranks "
-        << s.newton_upper_rank << " (above) and " << s.newton_lower_rank << " (below the diagonal)\n";
+        << s.newton_upper_rank << " (above) and " << s.newton_lower_rank
+        << " (below the diagonal)\n";
   } else {
     out << "//   Newton matrix: general form: " << s.why_not << "\n";
   }
@@ -57,7 +58,8 @@ std::string header_text(const Description& description, const ModelFunctions& fu
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions)
-      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include \"quasiseparable.hpp\"\n"
+      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include "
+         "\"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
   out << "extern \"C\" {\nstruct catena_model;\n}\n\n";
   out << "namespace catena::" << s.name << " {\n\n";
@@ -97,20 +99,24 @@ std::string several_at_once_text(const std::string& accelerations) {
          "  const auto numbers = [](const double* first) {\n"
          "    return reinterpret_cast<const Number*>(first);\n"
          "  };\n"
-         "  const Point<Number> points{Number(at->t),  numbers(at->q), numbers(at->v), numbers(at->a),\n"
+         "  const Point<Number> points{Number(at->t),  numbers(at->q), numbers(at->v), "
+         "numbers(at->a),\n"
          "                             numbers(at->z), numbers(at->u), numbers(at->p)};\n"
          "  return " +
          accelerations +
          "(points, reinterpret_cast<Number*>(a));\n}\n"
          "#ifdef CATENA_PROCESSORS\n"
-         "__attribute__((target(\"arch=x86-64-v4\"), flatten)) int32_t eight(const catena_point* at,\n"
+         "__attribute__((target(\"arch=x86-64-v4\"), flatten)) int32_t eight(const catena_point* "
+         "at,\n"
          "                                                                double* a) {\n"
          "  return several<8>(at, a);\n}\n"
-         "__attribute__((target(\"avx2\"), flatten)) int32_t four(const catena_point* at, double* a) {\n"
+         "__attribute__((target(\"avx2\"), flatten)) int32_t four(const catena_point* at, double* "
+         "a) {\n"
          "  return several<4>(at, a);\n}\n"
          "bool has_avx512() {  // what arch=x86-64-v4 stands for\n"
          "  return __builtin_cpu_supports(\"avx512f\") && __builtin_cpu_supports(\"avx512bw\") &&\n"
-         "         __builtin_cpu_supports(\"avx512cd\") && __builtin_cpu_supports(\"avx512dq\") &&\n"
+         "         __builtin_cpu_supports(\"avx512cd\") && __builtin_cpu_supports(\"avx512dq\") "
+         "&&\n"
          "         __builtin_cpu_supports(\"avx512vl\");\n}\n"
          "int32_t sets_at_once() {\n"
          "  return has_avx512() ? 8 : __builtin_cpu_supports(\"avx2\") ? 4 : 2;\n}\n"
@@ -119,25 +125,31 @@ std::string several_at_once_text(const std::string& accelerations) {
          "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"
          "#elif defined(__GNUC__)\n"
          "int32_t sets_at_once() { return 2; }\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); }\n"
+         "int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); "
+         "}\n"
          "#else\n"
          "int32_t sets_at_once() { return 1; }\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, a); }\n"
+         "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, "
+         "a); }\n"
          "#endif\n";
 }
 
 std::string source_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
-  out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "#include \"" << s.name
-      << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::" << s.name
-      << " {\n\nnamespace {\n\n";
+  out << "// SPDX-License-Identifier: BSD-3-Clause\n"
+      << kBanner << "#include \"" << s.name
+      << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::"
+      << s.name << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
-  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)\n"
-         "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give\n"
+  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && "
+         "!defined(__SANITIZE_ADDRESS__)\n"
+         "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both "
+         "give\n"
          "// the same bits.\n"
          "#define CATENA_PROCESSORS\n"
-         "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), flatten))\n"
+         "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), "
+         "flatten))\n"
          "#else\n#define CATENA_EACH_PROCESSOR\n#endif\n\n";
   out << "Point<double> point(const catena_point* p) {\n"
          "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";

@@ -22,12 +22,12 @@ struct FunctionSummary {
 struct ModelSummary {
   std::string name;  ///< "chain_12"
   int links = 0, coordinates = 0, states = 0, signals = 0, parameters = 0;
-  bool structured = false;         ///< Newton matrix: tridiagonal plus semiseparable
-  bool mass_structured = false;    ///< mass matrix: semiseparable
-  bool mass_symmetric = false;     ///< proved from its rows and columns
+  bool structured = false;       ///< Newton matrix: tridiagonal plus semiseparable
+  bool mass_structured = false;  ///< mass matrix: semiseparable
+  bool mass_symmetric = false;   ///< proved from its rows and columns
   int mass_rank = 0, newton_upper_rank = 0, newton_lower_rank = 0;
   bool stiffness_tridiagonal = false, damping_tridiagonal = false;
-  std::string why_not;             ///< what stands in the way of a structure
+  std::string why_not;  ///< what stands in the way of a structure
   Layout layout = Layout::kLoops;
   std::vector<FunctionSummary> functions;
 };

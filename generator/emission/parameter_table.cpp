@@ -57,11 +57,10 @@ ModelTable model_table(const Description& description, int links) {
     for (const EffectParameter& parameter : effect.parameters) {
       const int count = copies(parameter, links);
       for (int i = 1; i <= count; ++i) {
-        const std::string suffix =
-            parameter.scope == Scope::kModel ? "" : "_" + std::to_string(i);
+        const std::string suffix = parameter.scope == Scope::kModel ? "" : "_" + std::to_string(i);
         table.parameters.push_back({effect.id + "." + parameter.name + suffix, parameter.unit,
-                                    parameter.description, parameter.default_value,
-                                    parameter.lower, parameter.upper, parameter.neutral});
+                                    parameter.description, parameter.default_value, parameter.lower,
+                                    parameter.upper, parameter.neutral});
       }
     }
     for (const Coordinate& coordinate : effect.coordinates) {
@@ -72,7 +71,8 @@ ModelTable model_table(const Description& description, int links) {
     }
     for (const ExtraState& state : effect.states) {
       for (int i = 1; i <= copies(state, links); ++i) {
-        table.states.push_back({effect.id + "." + state.name + "_" + std::to_string(i), state.unit});
+        table.states.push_back(
+            {effect.id + "." + state.name + "_" + std::to_string(i), state.unit});
       }
     }
     for (const SignalChannel& signal : effect.signals) {

@@ -76,7 +76,8 @@ class Writer {
  private:
   Key key(int number) const {
     const Symbol& symbol = definitions_[number];
-    return {symbol.family_rank, symbol.index == kNoIndex ? 1'000'000 : symbol.index - link_, number};
+    return {symbol.family_rank, symbol.index == kNoIndex ? 1'000'000 : symbol.index - link_,
+            number};
   }
 
   Monomial read_product(const ex& e) const {
@@ -158,7 +159,8 @@ class Writer {
       Sum with, without;
       for (Monomial& term : sum) {
         const auto found = term.powers.find(*best);
-        (found != term.powers.end() && found->second > 0 ? with : without).push_back(std::move(term));
+        (found != term.powers.end() && found->second > 0 ? with : without)
+            .push_back(std::move(term));
       }
       std::string text = write(std::move(without), false);
       std::string drawn = write(std::move(with), false);
@@ -168,9 +170,8 @@ class Writer {
       return drawn[0] == '-' ? text + " - " + drawn.substr(1) : text + " + " + drawn;
     }
     // A positive term first, so that no text begins with a minus needlessly.
-    const auto positive = std::find_if(sum.begin(), sum.end(), [](const Monomial& m) {
-      return m.coefficient.is_positive();
-    });
+    const auto positive = std::find_if(
+        sum.begin(), sum.end(), [](const Monomial& m) { return m.coefficient.is_positive(); });
     if (positive != sum.end()) std::rotate(sum.begin(), positive, positive + 1);
     std::string text;
     for (const Monomial& term : sum) {

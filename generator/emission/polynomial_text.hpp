@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Expressions as C++ text in an order that is ours, not GiNaC's: the same on every run, and the same
-// relative to the link for every link, so that equal work at each link becomes a loop.
+// Expressions as C++ text in an order that is ours, not GiNaC's: the same on every run, and the
+// same relative to the link for every link, so that equal work at each link becomes a loop.
 #pragma once
 
 #include <ginac/ginac.h>

@@ -71,13 +71,11 @@ std::string table_arrays(const Description& description, const ModelFunctions& f
              [&](const ParameterRow& row) {
                out << quoted(row.name) << ", " << quoted(row.unit) << ", "
                    << quoted(row.description) << ", " << number(row.default_value) << ", "
-                   << number(row.lower) << ", " << number(row.upper) << ", "
-                   << number(row.neutral);
+                   << number(row.lower) << ", " << number(row.upper) << ", " << number(row.neutral);
              });
-  table_rows(out, "catena_energy", "kEnergyTable", functions.energies,
-             [&](const EnergyItem& item) {
-               out << quoted(item.name) << ", " << kind_text(item.kind);
-             });
+  table_rows(out, "catena_energy", "kEnergyTable", functions.energies, [&](const EnergyItem& item) {
+    out << quoted(item.name) << ", " << kind_text(item.kind);
+  });
   return out.str();
 }
 

@@ -75,7 +75,8 @@ bool certify(const Options& options, const Description& description, int links) 
       description, {links}, false, [](const ModelSummary&, double) {}, std::nullopt, language);
   const Json now = make_certificate(description, links, files, language);
   const std::string model = now.at("model");
-  const std::filesystem::path folder = options.folder, path = folder / certificate_name(model, language);
+  const std::filesystem::path folder = options.folder,
+                              path = folder / certificate_name(model, language);
   std::vector<std::string> problems = failures(now);
   for (const std::string& changed : changed_files(now, files, folder)) problems.push_back(changed);
   if (!options.write) {
@@ -112,9 +113,8 @@ bool certify_library(const Options& options, const Description& description) {
 
 void add_certify_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "certify",
-      "Hold emitted models against their certificates");
+  CLI::App* command =
+      app.add_subcommand("certify", "Hold emitted models against their certificates");
   add_model_options(*command, options->model);
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();
@@ -124,11 +124,13 @@ void add_certify_command(CLI::App& app, int& status) {
   command->add_flag("--write", options->write, "write the certificates instead of comparing");
   command->footer(
       "Exit status 1 if a byte of the emitted code differs, a proof fails or a number\n"
-      "is out of its tolerance.\nExample: catena certify --description generator/models.toml --folder generated");
+      "is out of its tolerance.\nExample: catena certify --description generator/models.toml "
+      "--folder generated");
   command->callback([options, &status] {
     const Description description = description_of(options->model);
     if (options->library && options->format == "c") {
-      throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
+      throw InputError(
+          "--library with --format c: the look-up of the models is C++; leave one away");
     }
     for (const int n : description.links) {
       if (!certify(*options, description, n)) status = 1;

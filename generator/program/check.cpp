@@ -53,8 +53,7 @@ int check(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app, int& status) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Check a hand derivation, or scalar identities");
+  CLI::App* command = app.add_subcommand("check", "Check a hand derivation, or scalar identities");
   command->add_option("DERIVATION", options->file, "text file, see docs/checking.md")->required();
   command->add_option("--links", options->links, "number of links, instead of the file's");
   command->add_option("--seed", options->seed, "selects the numeric states shown")

@@ -88,21 +88,18 @@ void derive(const Options& options) {
 
 void add_derive_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "derive", "Derive a model's equations and write them as C++");
+  CLI::App* command =
+      app.add_subcommand("derive", "Derive a model's equations and write them as C++");
   add_model_options(*command, options->model);
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
-  CLI::Option* library = command->add_flag(
-      "--library", options->library, "write the models' look-up and CMake's list too");
+  CLI::Option* library = command->add_flag("--library", options->library,
+                                           "write the models' look-up and CMake's list too");
   CLI::Option* format = add_format_option(*command, options->format);
   CLI::Option* layout =
       command
-          ->add_option("--layout", options->layout,
-                       "straight lines or loops; default: the faster")
+          ->add_option("--layout", options->layout, "straight lines or loops; default: the faster")
           ->check(CLI::IsMember({"straight", "loops"}));
-  command
-      ->add_flag("--latex", options->latex,
-                 "write the equations as LaTeX instead, for reading")
+  command->add_flag("--latex", options->latex, "write the equations as LaTeX instead, for reading")
       ->excludes(library)
       ->excludes(format)
       ->excludes(layout);

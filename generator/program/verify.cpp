@@ -12,13 +12,14 @@ namespace catena {
 
 void add_verify_command(CLI::App& app, int& status) {
   auto links = std::make_shared<std::vector<int>>(std::vector<int>{2, 3, 4, 12, 60});
-  CLI::App* command = app.add_subcommand(
-      "verify", "Derive the plain chain, compare with closed forms");
+  CLI::App* command =
+      app.add_subcommand("verify", "Derive the plain chain, compare with closed forms");
   command->add_option("--links", *links, "link counts")->capture_default_str();
   command->footer("Example: catena-derive verify --links 2 3 4 12 60");
   command->callback([links, &status] {
     for (const int n : *links) {
-      if (n < 1) throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
+      if (n < 1)
+        throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
       const auto start = std::chrono::steady_clock::now();
       const std::vector<Proof> proofs = prove_closed_form(n);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

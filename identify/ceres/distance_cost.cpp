@@ -11,9 +11,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStillFar = 0.5;    // the error fell by more than this share of itself
-constexpr double kNear = 1e-3;       // the error fell by less
-constexpr double kNarrower = 0.3;    // the width is, then
+constexpr double kStillFar = 0.5;       // the error fell by more than this share of itself
+constexpr double kNear = 1e-3;          // the error fell by less
+constexpr double kNarrower = 0.3;       // the width is, then
 constexpr double kNoCurvature = 1e-14;  // of the largest, unknowns scaled alike: rounding
 
 }  // namespace

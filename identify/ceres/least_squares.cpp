@@ -25,7 +25,11 @@ class Block : public ceres::CostFunction {
  public:
   Block(const SimulatedResiduals& simulated, const Eigen::VectorXd& values,
         const Eigen::MatrixXd& jacobian, Index place, double weight)
-      : simulated_(simulated), values_(values), jacobian_(jacobian), place_(place), weight_(weight) {
+      : simulated_(simulated),
+        values_(values),
+        jacobian_(jacobian),
+        place_(place),
+        weight_(weight) {
     set_num_residuals(1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(jacobian.cols()));
   }
@@ -41,26 +45,31 @@ class Block : public ceres::CostFunction {
 
  private:
   const SimulatedResiduals& simulated_;
-  const Eigen::VectorXd& values_;    // of simulated_
+  const Eigen::VectorXd& values_;  // of simulated_
   const Eigen::MatrixXd& jacobian_;
   Index place_;
   double weight_;
 };
 
-// A first step that promises this share of the cost, of which less than the second share is ever kept:
-// the sensitivities describe a slope too short to walk on.
+// A first step that promises this share of the cost, of which less than the second share is ever
+// kept: the sensitivities describe a slope too short to walk on.
 constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
 
 // At a minimum on kinks, as sums of distances have, so many steps in a row fail.
 constexpr int kFailedSteps = 2;
 
-/// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by no
-/// more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep failing.
+/// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by
+/// no more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep
+/// failing.
 class Watch : public ceres::IterationCallback {
  public:
   /// `promised`: by a first step that is too short, of which Ceres does not tell.
   Watch(FitJournal& journal, double tolerance, double offset, bool kinks, double promised)
-      : journal_(journal), tolerance_(tolerance), offset_(offset), kinks_(kinks), promised_(promised) {}
+      : journal_(journal),
+        tolerance_(tolerance),
+        offset_(offset),
+        kinks_(kinks),
+        promised_(promised) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     journal_.count_iteration();
@@ -115,8 +124,8 @@ VectorXd reach_of(const Problem& problem) {
 }
 
 /// From y on, where `simulated` is, to the best y; the weights are those of the start.
-FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals& simulated, VectorXd& y,
-                std::string& message) {
+FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals& simulated,
+                VectorXd& y, std::string& message) {
   const OptimiserSpec& spec = problem.study().optimiser;
   const ErrorSpec& error = problem.study().error;
   const int unknowns = static_cast<int>(y.size());
@@ -135,8 +144,9 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
       solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
                               loss_of(error), y.data());
     for (Index i = 0; i < joints.value.size(); ++i)
-      solver.AddResidualBlock(new Block(simulated, joints.value, joints.jacobian, i, joints.weight[i]),
-                              nullptr, y.data());
+      solver.AddResidualBlock(
+          new Block(simulated, joints.value, joints.jacobian, i, joints.weight[i]), nullptr,
+          y.data());
   } else {
     // In units of the start's error, as if each were over its noise.
     const double scale = static_cast<double>(first.value.size()) / simulated.error();
@@ -149,8 +159,8 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
       const VectorXd weights = scale * channel_weights(problem, first);
       for (Index i = 0; i < weights.size(); ++i) terms.push_back({i, 1, weights[i]});
     }
-    auto* distances =
-        new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), reach_of(problem));
+    auto* distances = new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(),
+                                       reach_of(problem));
     solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
     all_offsets = distances->all_offsets();
     distances->step_to(y);
@@ -188,7 +198,8 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   if (watch.stuck()) {
     message =
         "least squares cannot leave its start: the simulation is so sensitive there that its "
-        "derivatives hold for no step; fit a beginning first (optimiser.growing_windows) or windows, "
+        "derivatives hold for no step; fit a beginning first (optimiser.growing_windows) or "
+        "windows, "
         "or use nelder_mead";
     return FitStatus::kFailed;
   }
@@ -206,7 +217,8 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
   // Under the likelihood the weights follow from the residuals: solved again until they stay.
   for (double before = std::numeric_limits<double>::infinity();;) {
     simulated.PrepareForEvaluation(true, true);
-    if (!simulated.ok()) return journal.result(FitStatus::kFailed, "the simulation at the start failed");
+    if (!simulated.ok())
+      return journal.result(FitStatus::kFailed, "the simulation at the start failed");
     const bool settled = simulated.error() > (1 - 1e-2 * spec.tolerance) * before;
     if (settled) return journal.result(FitStatus::kConverged, "");
     before = simulated.error();

@@ -13,7 +13,8 @@ namespace catena {
 ///   mean_distance      sum over frames and markers of the distance (6.5), (6.6): see DistanceBlock
 ///   mean_absolute      the same on every channel, weighted as in (7.1)
 ///
-///   likelihood         sum of r^2 over the square of the channel's noise, which is found again from
+///   likelihood         sum of r^2 over the square of the channel's noise, which is found again
+///   from
 ///                      the residuals until it stays
 ///
 /// A simulation that fails makes its step be refused. A target of its own (catena_ceres): Debian's

@@ -12,10 +12,10 @@ SimulatedResiduals::SimulatedResiduals(const Problem& problem, FitJournal& journ
       y_(y),
       error_of_jacobian_(std::numeric_limits<double>::infinity()) {}
 
-// Ceres asks for the cost of a trial point and, if it is good, for the derivatives at the same point.
-// After a good point the next is expected to be good too: cost and derivatives come from one simulation.
-// After a bad one, derivatives wait until they are asked for. `new_point` also comes for points that
-// were seen a moment ago.
+// Ceres asks for the cost of a trial point and, if it is good, for the derivatives at the same
+// point. After a good point the next is expected to be good too: cost and derivatives come from one
+// simulation. After a bad one, derivatives wait until they are asked for. `new_point` also comes
+// for points that were seen a moment ago.
 void SimulatedResiduals::PrepareForEvaluation(bool jacobians, bool) {
   const bool known = here_.size() == y_.size() && here_ == y_;
   if (!known || (jacobians && !with_jacobian_)) {
@@ -44,8 +44,8 @@ void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x) {
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Unknown& unknown = problem_.unknowns()[static_cast<std::size_t>(j)];
     // What a bound keeps from falling further rests; the others move as if it were known.
-    const bool rests = (x[j] <= unknown.lower && gradient[j] > 0) ||
-                       (x[j] >= unknown.upper && gradient[j] < 0);
+    const bool rests =
+        (x[j] <= unknown.lower && gradient[j] > 0) || (x[j] >= unknown.upper && gradient[j] < 0);
     const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
     misfit_.residuals.jacobian.col(j) *= slope;
     misfit_.joints.jacobian.col(j) *= slope;

@@ -10,8 +10,8 @@
 
 namespace catena {
 
-/// The residuals at the point Ceres looks at, and their derivatives by the scaled unknowns. All come
-/// from one simulation, so they are made here once for a point and the blocks read them.
+/// The residuals at the point Ceres looks at, and their derivatives by the scaled unknowns. All
+/// come from one simulation, so they are made here once for a point and the blocks read them.
 class SimulatedResiduals : public ceres::EvaluationCallback {
  public:
   /// `y`: what Ceres moves.

@@ -24,7 +24,8 @@ constexpr double kFarGap = 4;        // times the noise: the linear score may ra
 constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
-constexpr double kNotWorse = 1.05;   // held-out error of a better model, over that of the present one
+constexpr double kNotWorse =
+    1.05;  // held-out error of a better model, over that of the present one
 constexpr std::size_t kTriedWithMoreLinks = 3, kFirstsOfPairs = 4;
 constexpr int kSecondsOfPairs = 3;
 constexpr int kRounds = 2, kMostSwaps = 3;
@@ -183,8 +184,8 @@ class Physician {
   };
 
   /// Two effects at once: each of those that left least when no effect was there yet, and what is
-  /// best beside it. Enters the best such pair if it leaves less than what there is, predicts what no
-  /// fit has seen as well, and neither of the two is needless.
+  /// best beside it. Enters the best such pair if it leaves less than what there is, predicts what
+  /// no fit has seen as well, and neither of the two is needless.
   bool add_pair() {
     if (options_.max_effects < 2) return false;
     std::size_t bare = result_.stages.size() - 1;
@@ -205,8 +206,8 @@ class Physician {
     return true;
   }
 
-  /// The best pairs on a model without effects that chance does not explain, without those that were
-  /// looked at already.
+  /// The best pairs on a model without effects that chance does not explain, without those that
+  /// were looked at already.
   std::vector<Pair> pairs_on(const Stage& base) {
     std::vector<Explanation> firsts;
     for (const Explanation& each : base.explanations)
@@ -246,8 +247,8 @@ class Physician {
     if (closed || links <= base.links) return pairs;
     in_parallel(pairs.size(), workshop_.threads, [&](std::size_t k) {
       Pair& pair = pairs[k];
-      pair.finer = refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id},
-                                       workshop_);
+      pair.finer =
+          refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id}, workshop_);
     });
     workshop_.stop_if_asked();
     for (Pair& pair : pairs)
@@ -298,9 +299,7 @@ class Physician {
       const int links = result_.stages[s].links;
       if (links >= stage().links) continue;
       FittedModel model = refitted_with_links(stage().model, links, stage().effects, workshop_);
-      if (!model.ok ||
-          squares(model) >= squares(stage().model))
-        break;
+      if (!model.ok || squares(model) >= squares(stage().model)) break;
       enter(std::move(model), stage().effects, "", kTooFewLinks);
     }
   }

@@ -16,8 +16,8 @@ namespace catena {
 /// Exit statuses of the programs.
 enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted = 130 };
 
-/// Each command adds itself to the program and stores its exit status there when it has run. What it
-/// throws is printed by main: InputError and std::invalid_argument end with 2, others with 1.
+/// Each command adds itself to the program and stores its exit status there when it has run. What
+/// it throws is printed by main: InputError and std::invalid_argument end with 2, others with 1.
 void add_simulate_command(CLI::App& program, int& exit_status);
 void add_identify_command(CLI::App& program, int& exit_status);
 void add_report_command(CLI::App& program, int& exit_status);

@@ -53,8 +53,8 @@ int diagnose_case(const DiagnoseOptions& options) {
 
 void add_diagnose_command(CLI::App& program, int& exit_status) {
   static DiagnoseOptions options;
-  CLI::App* command = program.add_subcommand(
-      "diagnose", "find what a model lacks, add it, show the gap shrink");
+  CLI::App* command =
+      program.add_subcommand("diagnose", "find what a model lacks, add it, show the gap shrink");
   command->footer(
       "Example:\n  catena diagnose cable.toml --output found\n"
       "prints the verdict first: none, named, ambiguous or unexplained (exit status 0\n"

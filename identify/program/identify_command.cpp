@@ -93,9 +93,9 @@ int study_links(const Case& study, const IdentifyOptions& options) {
   std::vector<LinksResult> results;
   {
     ProgressLine line(!options.quiet);
-    results = links_study(study, options.links_study,
-                          [&](const Case& other) { return model_of(other, options); },
-                          fit_options_of(options, line), fit_least_squares);
+    results = links_study(
+        study, options.links_study, [&](const Case& other) { return model_of(other, options); },
+        fit_options_of(options, line), fit_least_squares);
   }
   const std::string text = links_study_result_text(study, results);
   write_output(output_folder(options), {{"links_study.json", text}});
@@ -121,8 +121,8 @@ void complete(const Problem& problem, const IdentifyOptions& options, Identifica
     return;  // sensitivities that fail leave the estimates without errors
   }
   if (options.profiles && !interrupted())
-    found.profiles = profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares,
-                                 options.threads);
+    found.profiles =
+        profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares, options.threads);
   if (options.bootstrap > 0 && !interrupted())
     found.bootstrap = bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares,
                                 options.bootstrap, problem.study().optimiser.seed, options.threads);
@@ -134,7 +134,8 @@ std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluati
   const Eigen::Index n = problem.model().coordinates();
   double angle = 0, rate = 0;
   for (Eigen::Index i = 0; i < joints.value.size(); ++i)
-    (i % (2 * n) < n ? angle : rate) = std::max(i % (2 * n) < n ? angle : rate, std::abs(joints.value[i]));
+    (i % (2 * n) < n ? angle : rate) =
+        std::max(i % (2 * n) < n ? angle : rate, std::abs(joints.value[i]));
   if (joints.value.size() == 0) return "";
   return fmt::format("; the largest of {} gaps between windows is {:.2g} rad and {:.2g} rad/s",
                      joints.value.size() / (2 * n), angle, rate);
@@ -178,12 +179,14 @@ int identify_case(const IdentifyOptions& options) {
         std::cout << "warning: " << experiment.spec.name << ": " << warning << "\n";
     if (const char* strategy = strategy_of(problem); strategy != std::string("whole"))
       std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
-    std::cout << fmt::format("error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.2f} s of a core; {}\n",
-                             kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
-                             measured_error(problem, found.starts.front().start_error),  // the case's own
-                             measured_error(problem, found.fit.error), found.fit.evaluations,
-                             found.fit.failures, found.fit.seconds,
-                             found.fit.cpu_seconds, name_of(found.fit.status))
+    std::cout << fmt::format(
+                     "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.2f} "
+                     "s of a core; {}\n",
+                     kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
+                     measured_error(problem, found.starts.front().start_error),  // the case's own
+                     measured_error(problem, found.fit.error), found.fit.evaluations,
+                     found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
+                     name_of(found.fit.status))
               << "written to " << folder.string() << "\n";
   }
   return stopped ? kExitInterrupted : kExitSuccess;
@@ -195,25 +198,32 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   static IdentifyOptions options;
   CLI::App* command =
       program.add_subcommand("identify", "fit the free parameters of a case file to its data");
-  command->footer("Example:\n  catena identify cable.toml --output fit\n"
-                  "writes fit/result.json, fitted.toml (the case with what was found),\n"
-                  "history.csv, residuals.csv, positions.csv, angles.csv, energy.csv and run.log.\n"
-                  "Ctrl-C ends with the best so far.");
+  command->footer(
+      "Example:\n  catena identify cable.toml --output fit\n"
+      "writes fit/result.json, fitted.toml (the case with what was found),\n"
+      "history.csv, residuals.csv, positions.csv, angles.csv, energy.csv and run.log.\n"
+      "Ctrl-C ends with the best so far.");
   add_common_options(*command, options);
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
   command->add_option("--bootstrap", options.bootstrap, "so many refits of resampled residuals")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--links-study", options.links_study, "refit with these numbers of links: 6,12,24")
+  command
+      ->add_option("--links-study", options.links_study,
+                   "refit with these numbers of links: 6,12,24")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  command->add_option("--error-budget", options.error_budget,
-                      "so much above its least error will do; 0.05")
+  command
+      ->add_option("--error-budget", options.error_budget,
+                   "so much above its least error will do; 0.05")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--resume", options.resume, "go on where a run that was killed stopped");
-  command->add_option("--time-limit", options.time_limit, "stop after so many seconds, with the best so far")
+  command
+      ->add_option("--time-limit", options.time_limit,
+                   "stop after so many seconds, with the best so far")
       ->check(CLI::PositiveNumber);
-  command->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
+  command
+      ->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
       ->check(CLI::PositiveNumber);
   command->callback([&exit_status] { exit_status = identify_case(options); });
 }

@@ -25,7 +25,8 @@ void hand_over(int argc, char** argv) {
 int run(int argc, char** argv) {
   hand_over(argc, argv);
   int exit_status = kExitSuccess;
-  CLI::App program("Models of a hanging cable: derived, simulated, identified, diagnosed.", "catena");
+  CLI::App program("Models of a hanging cable: derived, simulated, identified, diagnosed.",
+                   "catena");
   program.set_version_flag("--version", std::string(CATENA_VERSION));
   program.require_subcommand(1);
   program.get_formatter()->column_width(26);

@@ -49,9 +49,7 @@ int write(ReportOptions options) {
 void add_report_command(CLI::App& program, int& exit_status) {
   static ReportOptions options;
   CLI::App* command = program.add_subcommand("report", "write an HTML report of a result");
-  command
-      ->add_option("RESULT", options.result,
-                   "result.json, diagnosis.json or their folder")
+  command->add_option("RESULT", options.result, "result.json, diagnosis.json or their folder")
       ->required();
   command->add_option("-o,--output", options.files.html,
                       "HTML file; default: report.html beside the result");

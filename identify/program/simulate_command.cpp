@@ -54,7 +54,8 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
   write_output(output_folder(options), files);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json)
-    std::cout << simulation_table(motion) << "written to " << output_folder(options).string() << "\n";
+    std::cout << simulation_table(motion) << "written to " << output_folder(options).string()
+              << "\n";
   return kExitSuccess;
 }
 
@@ -87,8 +88,9 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
 int simulate_case(const CommonOptions& options) {
   Case study = read_case(options.case_file);
   if (study.experiments.empty() && std::isnan(study.simulation.duration))
-    throw InputError(study.file.string() +
-                     ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
+    throw InputError(
+        study.file.string() +
+        ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
   const Model model = model_of(study, options);
   const Problem problem(std::move(study), model);
   return problem.experiments().empty() ? simulate_alone(problem, options)
@@ -100,9 +102,10 @@ int simulate_case(const CommonOptions& options) {
 void add_simulate_command(CLI::App& program, int& exit_status) {
   static CommonOptions options;
   CLI::App* command = program.add_subcommand("simulate", "simulate the cable of a case file");
-  command->footer("Example:\n  catena simulate cable.toml --output swing\n"
-                  "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data\n"
-                  "in the case also residuals.csv.");
+  command->footer(
+      "Example:\n  catena simulate cable.toml --output swing\n"
+      "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data\n"
+      "in the case also residuals.csv.");
   add_common_options(*command, options);
   command->callback([&exit_status] { exit_status = simulate_case(options); });
 }

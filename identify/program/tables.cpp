@@ -36,8 +36,7 @@ std::string gap_summary(const Problem& problem, const Evaluation* before, const 
     };
     const auto count = residuals_of(problem, after, part).value.size();
     if (count == 0) continue;
-    const char* unit =
-        problem.experiments().front().spec.kind == DataKind::kAngles ? "mrad" : "mm";
+    const char* unit = problem.experiments().front().spec.kind == DataKind::kAngles ? "mrad" : "mm";
     out += fmt::format("{:<8}  {:>8} values  RMS", part == Part::kFit ? "fit" : "validate", count);
     if (before) out += fmt::format("  {:.4g} {} before", rms(*before), unit);
     out += fmt::format("  {:.4g} {}{}\n", rms(after), unit, before ? " after" : "");
@@ -133,13 +132,13 @@ std::string identifiability_table(const Problem& problem, const Uncertainty& unc
   Worst name;
   name.see("parameter");
   for (const Unknown& unknown : problem.unknowns()) name.see(unknown.name);
-  std::string out = fmt::format("{:<{}}  {:>12}  {:>14}  verdict\n", "parameter", name.width, "value",
-                                "expected error");
+  std::string out = fmt::format("{:<{}}  {:>12}  {:>14}  verdict\n", "parameter", name.width,
+                                "value", "expected error");
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     const Estimate& estimate = uncertainty.estimates[j];
-    out += fmt::format("{:<{}}  {:>12.6g}  {:>14.4g}  {}\n", unknown.name, name.width, unknown.start,
-                       estimate.standard_error, name_of(estimate.verdict));
+    out += fmt::format("{:<{}}  {:>12.6g}  {:>14.4g}  {}\n", unknown.name, name.width,
+                       unknown.start, estimate.standard_error, name_of(estimate.verdict));
   }
   for (std::size_t i = 0; i < uncertainty.weak.size(); ++i)
     out += fmt::format("not determined ({}): {}\n  {}\n",
@@ -161,7 +160,8 @@ std::string profile_table(const Problem& problem, const std::vector<Profile>& pr
 }
 
 std::string links_table(const std::vector<LinksResult>& results) {
-  std::string out = fmt::format("{:>5}  {:>10}  {:>10}  {:>8}", "links", "error", "held out", "seconds");
+  std::string out =
+      fmt::format("{:>5}  {:>10}  {:>10}  {:>8}", "links", "error", "held out", "seconds");
   constexpr std::size_t kMostColumns = 6;
   const std::size_t columns = results.empty() ? 0 : std::min(kMostColumns, results[0].names.size());
   for (std::size_t j = 0; j < columns; ++j) out += fmt::format("  {:>14}", results[0].names[j]);

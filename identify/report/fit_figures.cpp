@@ -69,7 +69,8 @@ void add_history(const Result& result, std::vector<ReportFigure>& figures) {
     Figure path;
     path.title = fmt::format("{} against step of the optimiser", free[k]->name);
     path.x = {"step", "1"};
-    path.y = {free[k]->name, plot::readable_unit(free[k]->unit), spans_decade(result.history_parameters[k])};
+    path.y = {free[k]->name, plot::readable_unit(free[k]->unit),
+              spans_decade(result.history_parameters[k])};
     path.series.push_back(
         {free[k]->name, result.history_step, result.history_parameters[k], Mark::kLine, 1});
     add(figures, "parameter_by_step", std::move(path), free[k]->name);
@@ -117,7 +118,8 @@ void add_profiles(const Result& result, std::vector<ReportFigure>& figures) {
         "Twice what the log likelihood loses when the parameter is held and the others are "
         "refitted{}.",
         verdict.empty() ? "" : "; verdict: " + verdict);
-    figure.x = {profile.parameter, known ? plot::readable_unit(parameter->unit) : "", spans_decade(profile.value)};
+    figure.x = {profile.parameter, known ? plot::readable_unit(parameter->unit) : "",
+                spans_decade(profile.value)};
     figure.y = {"−2 Δ log likelihood", "1"};
     figure.series.push_back({"profile", profile.value, profile.cost, Mark::kLineWithPoints, 1});
     if (!std::isnan(profile.threshold)) {

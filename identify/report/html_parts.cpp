@@ -111,8 +111,8 @@ std::string estimates(const Candidate& candidate) {
   std::vector<std::string> parts;
   for (const auto& [name, value] : candidate.estimate) {
     const bool own = name.starts_with(candidate.id + ".");
-    parts.push_back(fmt::format("{} = {}", escaped(own ? name.substr(candidate.id.size() + 1) : name),
-                                for_people(value)));
+    parts.push_back(fmt::format(
+        "{} = {}", escaped(own ? name.substr(candidate.id.size() + 1) : name), for_people(value)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -129,9 +129,9 @@ std::string candidates_table(const Round& round, const std::string& unit) {
     std::string name = c.title.empty() ? escaped(c.id) : escaped(c.title);
     std::string note = escaped(c.note);
     if (!c.admissible && note.empty()) note = "not admissible";
-    rows.push_back({name, percent(c.score), chance(std::log10(c.significance)),
-                    percent(c.survives), estimates(c), length(c.refit_fit, unit),
-                    length(c.refit_validate, unit), chance(c.log10_p), note});
+    rows.push_back({name, percent(c.score), chance(std::log10(c.significance)), percent(c.survives),
+                    estimates(c), length(c.refit_fit, unit), length(c.refit_validate, unit),
+                    chance(c.log10_p), note});
   }
   return table(
       "Score: share of the squared residual the effect would remove; chance: that noise alone "
@@ -202,7 +202,7 @@ std::string undecided_html(const Diagnosis& diagnosis) {
   std::string items;
   for (const OtherEffect& other : undecided) {
     if (other.experiment_that_tells.empty()) continue;
-    items += fmt::format("<li>{}: {}",  escaped(title_of(diagnosis, other.id)),
+    items += fmt::format("<li>{}: {}", escaped(title_of(diagnosis, other.id)),
                          escaped(other.experiment_that_tells));
     if (!std::isnan(other.difference_there))
       items += fmt::format("; the predictions differ by {} times the noise there",
@@ -225,12 +225,14 @@ std::string undecided_html(const Diagnosis& diagnosis) {
 std::string links_html(const Diagnosis& diagnosis) {
   if (diagnosis.links_used == 0) return "";
   const bool more = diagnosis.links_used != diagnosis.links_given;
-  std::string html = fmt::format(
-      "<h3>Links</h3>\n<p>{}</p>\n",
-      more ? fmt::format("The case has {} links; the final model has {}.", diagnosis.links_given,
-                         diagnosis.links_used)
-           : fmt::format("The case's {} links are those of the final model.", diagnosis.links_given));
-  std::vector<Cells> rows = {{"Asked of", "Links", "Change of the prediction", "Refitted", "Taken", "Note"}};
+  std::string html =
+      fmt::format("<h3>Links</h3>\n<p>{}</p>\n",
+                  more ? fmt::format("The case has {} links; the final model has {}.",
+                                     diagnosis.links_given, diagnosis.links_used)
+                       : fmt::format("The case's {} links are those of the final model.",
+                                     diagnosis.links_given));
+  std::vector<Cells> rows = {
+      {"Asked of", "Links", "Change of the prediction", "Refitted", "Taken", "Note"}};
   for (const Round& round : diagnosis.rounds) {
     if (!round.finer_chain) continue;
     const FinerChain& finer = *round.finer_chain;
@@ -326,16 +328,17 @@ std::string residuals_html(const Result& result) {
   for (const Experiment& experiment : result.experiments) {
     const Residuals residuals = residuals_of(experiment);
     if (residuals.points.empty()) continue;
-    std::vector<Cells> rows = {residuals.angles ? Cells{"Point", "Angle"}
-                                                : Cells{"Point", "Down", "Side", "Radial (6.7)–(6.10)",
-                                                        "Distance (6.5)"}};
+    std::vector<Cells> rows = {
+        residuals.angles ? Cells{"Point", "Angle"}
+                         : Cells{"Point", "Down", "Side", "Radial (6.7)–(6.10)", "Distance (6.5)"}};
     const auto mean = [](const Row& row) { return for_people(mean_absolute(row), 4); };
     for (std::size_t p = 0; p < residuals.points.size(); ++p) {
       Cells cells = {escaped(residuals.points[p].name)};
       if (residuals.angles) {
         cells.push_back(mean(residuals.angle[p]));
       } else {
-        for (const Rows* part : {&residuals.down, &residuals.side, &residuals.radial, &residuals.size})
+        for (const Rows* part :
+             {&residuals.down, &residuals.side, &residuals.radial, &residuals.size})
           cells.push_back(mean((*part)[p]));
       }
       rows.push_back(std::move(cells));
@@ -358,7 +361,8 @@ std::string parameters_html(const Result& result) {
   for (const Parameter& p : result.parameters) {
     const std::string value = for_people(p.value, 5);
     if (!p.free) {
-      fixed.push_back({escaped(p.name), value, escaped(plot::readable_unit(p.unit)), escaped(p.sets)});
+      fixed.push_back(
+          {escaped(p.name), value, escaped(plot::readable_unit(p.unit)), escaped(p.sets)});
       continue;
     }
     std::string verdict = p.verdict.empty() ? "–" : escaped(spaced(p.verdict));
@@ -368,8 +372,9 @@ std::string parameters_html(const Result& result) {
         bounded ? fmt::format("{}\u00a0…\u00a0{}", std::isnan(p.lower) ? "−∞" : for_people(p.lower),
                               std::isnan(p.upper) ? "∞" : for_people(p.upper))
                 : "–";
-    free.push_back({escaped(p.name), value, escaped(plot::readable_unit(p.unit)), for_people(p.standard_error, 3),
-                    interval(p), verdict, for_people(p.start, 5), bounds, escaped(p.sets)});
+    free.push_back({escaped(p.name), value, escaped(plot::readable_unit(p.unit)),
+                    for_people(p.standard_error, 3), interval(p), verdict, for_people(p.start, 5),
+                    bounds, escaped(p.sets)});
   }
   std::string html;
   if (free.size() > 1) html += table("Fitted parameters", free);
@@ -428,11 +433,11 @@ std::string diagnosis_html(const Diagnosis& diagnosis) {
   html += links_html(diagnosis);
   html += members_html(diagnosis);
   if (!std::isnan(diagnosis.equality_at_neutral) && !diagnosis.effects.empty())
-    html += fmt::format("<p>At the neutral values the new model equals the case's{}.</p>\n",
-                        diagnosis.equality_at_neutral == 0
-                            ? " exactly"
-                            : fmt::format(" to {} (relative)",
-                                          for_people(diagnosis.equality_at_neutral, 1)));
+    html += fmt::format(
+        "<p>At the neutral values the new model equals the case's{}.</p>\n",
+        diagnosis.equality_at_neutral == 0
+            ? " exactly"
+            : fmt::format(" to {} (relative)", for_people(diagnosis.equality_at_neutral, 1)));
   html += undecided_html(diagnosis);
   for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
     const Round& round = diagnosis.rounds[k];

@@ -275,7 +275,8 @@ std::vector<Equation> read_formulas(const Node& node) {
     if (node["formulas"].is_object()) return read_formulas(node["formulas"]);
     std::vector<Equation> formulas;
     for (const Node& formula : node["formulas"].list()) {
-      formulas.push_back({formula["what"].text(), formula["mathml"].text(), formula["latex"].text()});
+      formulas.push_back(
+          {formula["what"].text(), formula["mathml"].text(), formula["latex"].text()});
     }
     return formulas;
   }
@@ -364,9 +365,10 @@ Candidate read_candidate(const Node& node) {
 json parse(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) {
-    throw InputError(fmt::format(
-        "{}: cannot be opened; give a result.json, diagnosis.json or links_study.json, or its folder",
-        file.string()));
+    throw InputError(
+        fmt::format("{}: cannot be opened; give a result.json, diagnosis.json or links_study.json, "
+                    "or its folder",
+                    file.string()));
   }
   try {
     return json::parse(stream);
@@ -417,8 +419,13 @@ Round read_round(const Node& node, const std::filesystem::path& folder) {
 std::vector<OtherEffect> read_others(const Node& node) {
   std::vector<OtherEffect> others;
   for (const Node& entry : node.list()) {
-    OtherEffect other{entry["id"].text(), entry["instead_of"].text(), entry["fit"].number(),
-                      entry["validate"].number(), entry["difference"].number(), "", kAbsent};
+    OtherEffect other{entry["id"].text(),
+                      entry["instead_of"].text(),
+                      entry["fit"].number(),
+                      entry["validate"].number(),
+                      entry["difference"].number(),
+                      "",
+                      kAbsent};
     if (entry.has("experiment_that_tells")) {
       other.experiment_that_tells = entry["experiment_that_tells"]["words"].text();
       other.difference_there = entry["experiment_that_tells"]["difference"].number();

@@ -106,7 +106,7 @@ struct Result {
   std::string case_file, case_text;
   std::string model_id, description_hash, description;
   int links = 0;
-  double load_mass = kAbsent;  ///< kg
+  double load_mass = kAbsent;     ///< kg
   int derived_links = 0;          ///< of the chain whose derived equations are written out
   std::vector<Equation> derived;  ///< in LaTeX alone
   std::vector<EffectEntry> effects;

@@ -114,8 +114,9 @@ int main(int argc, char** argv) {
       rest.push_back(argv[i]);
     }
   }
-  std::vector<std::unique_ptr<Peer> (*)(const Cable&)> makers{
-      catena::benchmark::make_mujoco, catena::benchmark::make_simbody, catena::benchmark::make_dart};
+  std::vector<std::unique_ptr<Peer> (*)(const Cable&)> makers{catena::benchmark::make_mujoco,
+                                                              catena::benchmark::make_simbody,
+                                                              catena::benchmark::make_dart};
 #ifdef CATENA_BENCHMARK_RBDL
   makers.push_back(catena::benchmark::make_rbdl);
 #endif

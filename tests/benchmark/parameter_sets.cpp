@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Forward dynamics of eight parameter sets at once, per set, against one call each: as EightSets has it
-// on this processor, with states put in before and accelerations taken out after each evaluation or
-// without, and the emitted text for each kind of processor that this one can be. Results are compared
-// bit for bit first.
+// Forward dynamics of eight parameter sets at once, per set, against one call each: as EightSets
+// has it on this processor, with states put in before and accelerations taken out after each
+// evaluation or without, and the emitted text for each kind of processor that this one can be.
+// Results are compared bit for bit first.
 #include <time.h>
 
 #include <algorithm>
@@ -40,9 +40,9 @@ inline int evaluate(int links, int parameters, const Arrays& arrays) {
     const auto group = [&](const double* of, int entries) {
       return reinterpret_cast<const Number*>(of + first * entries);
     };
-    const Point<Number> at{Number(0), group(arrays.q, links), group(arrays.v, links),
-                           nullptr,   nullptr,                nullptr,
-                           group(arrays.p, parameters)};
+    const Point<Number> at{
+        Number(0), group(arrays.q, links),     group(arrays.v, links), nullptr, nullptr,
+        nullptr,   group(arrays.p, parameters)};
     auto* a = reinterpret_cast<Number*>(arrays.a + first * links);
     switch (links) {
       case 2:
@@ -72,7 +72,7 @@ __attribute__((target("avx2"), flatten)) int avx2(int links, int parameters, con
   return evaluate<4>(links, parameters, arrays);
 }
 __attribute__((target("arch=x86-64-v4"), flatten)) int avx512(int links, int parameters,
-                                                             const Arrays& arrays) {
+                                                              const Arrays& arrays) {
   return evaluate<8>(links, parameters, arrays);
 }
 
@@ -109,7 +109,8 @@ int main() {
     return sets == 2 || (sets == 4 ? __builtin_cpu_supports("avx2") != 0
                                    : catena::Model::built_in(2).table().sets == 8);
   };
-  const std::vector<std::pair<int, Evaluate*>> processors{{2, any_processor}, {4, avx2}, {8, avx512}};
+  const std::vector<std::pair<int, Evaluate*>> processors{
+      {2, any_processor}, {4, avx2}, {8, avx512}};
   std::printf(
       "links,one_ns,eight_sets_ns_per_set,with_states_ns_per_set,baseline_ns_per_set,"
       "avx2_ns_per_set,avx512_ns_per_set\n");
@@ -134,7 +135,7 @@ int main() {
     Eigen::VectorXd a(n);
     Eigen::MatrixXd all(n, EightSets::kSets);
     const auto one = [&](std::size_t k) {
-      const catena_point at{0.0,     states[k].q.data(), states[k].v.data(), nullptr, nullptr,
+      const catena_point at{0.0,     states[k].q.data(),  states[k].v.data(), nullptr, nullptr,
                             nullptr, parameters[k].data()};
       if (model.table().acceleration(&at, a.data()) != 0) std::abort();
     };
@@ -187,11 +188,11 @@ int main() {
             to[place(k, i, entries)] = value(static_cast<std::size_t>(k), i);
         return to;
       };
-      const Arrays packed{pack(n, [&](std::size_t k, int i) { return states[k].q[i]; }),
-                          pack(n, [&](std::size_t k, int i) { return states[k].v[i]; }),
-                          pack(model.parameters(),
-                               [&](std::size_t k, int i) { return parameters[k][i]; }),
-                          pack(n, [](std::size_t, int) { return 0.0; })};
+      const Arrays packed{
+          pack(n, [&](std::size_t k, int i) { return states[k].q[i]; }),
+          pack(n, [&](std::size_t k, int i) { return states[k].v[i]; }),
+          pack(model.parameters(), [&](std::size_t k, int i) { return parameters[k][i]; }),
+          pack(n, [](std::size_t, int) { return 0.0; })};
       calls.push_back([packed, function = function, n, size = model.parameters()] {
         if (function(n, size, packed) != 0) std::abort();
       });

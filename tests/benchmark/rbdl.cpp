@@ -10,7 +10,8 @@ namespace {
 
 namespace rbd = RigidBodyDynamics;
 
-/// Links hang along -z; a positive turn about y moves them towards -x, which is this engine's +side.
+/// Links hang along -z; a positive turn about y moves them towards -x, which is this engine's
+/// +side.
 class Rbdl : public Peer {
  public:
   explicit Rbdl(const Cable& cable) : cable_(cable) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Time of a simulation with derivatives by 0 to 16 parameters: 3 s of the same cable from the smooth start
-// at tolerance 1e-6.
+// Time of a simulation with derivatives by 0 to 16 parameters: 3 s of the same cable from the
+// smooth start at tolerance 1e-6.
 //
 //   sensitivities  >  file.csv
 #include <algorithm>
@@ -34,8 +34,8 @@ int main() {
         std::vector<catena::Seed> seeds;  // the first stiffnesses
         for (int i = 0; i < counts[k]; ++i)
           seeds.push_back(catena::Seed::parameter(model, 3 * links + i));
-        const auto run =
-            catena::simulate_with_sensitivities(model, parameters, start, seeds, {0.0, 3.0}, options);
+        const auto run = catena::simulate_with_sensitivities(model, parameters, start, seeds,
+                                                             {0.0, 3.0}, options);
         if (run.status != catena::Status::kSuccess) {
           std::fprintf(stderr, "%d links: %s\n", links, run.message.c_str());
           return 1;

@@ -161,7 +161,8 @@ catena::Case case_of_joints(const std::string& joints) {
       "case.toml", ".");
 }
 
-TEST_CASE("the same cable with other numbers of links: joints keep their places, softer ones more") {
+TEST_CASE(
+    "the same cable with other numbers of links: joints keep their places, softer ones more") {
   std::string why_not;
   const auto finer = catena::with_links(case_of_joints("stiffness_2..12"), 24, why_not);
   REQUIRE(finer);

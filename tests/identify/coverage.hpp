@@ -10,8 +10,8 @@
 
 namespace catena::testing {
 
-/// The cable whose recordings tell whether intervals hold what they promise: three unknowns, all of them
-/// identifiable, and recordings made by the model itself.
+/// The cable whose recordings tell whether intervals hold what they promise: three unknowns, all of
+/// them identifiable, and recordings made by the model itself.
 inline const char* const kCable = R"(
 [model]
 links = 2

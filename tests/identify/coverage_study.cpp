@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// coverage_study FILE RECORDINGS: one line to FILE for each recording with white and with coloured noise;
-// those that stand there already are not made again. scripts/study_coverage reads it.
+// coverage_study FILE RECORDINGS: one line to FILE for each recording with white and with coloured
+// noise; those that stand there already are not made again. scripts/study_coverage reads it.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
   if (kept.empty()) {
     out << "colour,seed";
     for (const catena::Unknown& unknown : problem.unknowns())
-      out << "," << unknown.name << " inside," << unknown.name << " width," << unknown.name << " truth";
+      out << "," << unknown.name << " inside," << unknown.name << " width," << unknown.name
+          << " truth";
     out << std::endl;
   }
   for (int seed = 1; seed <= std::atoi(argv[2]); ++seed)

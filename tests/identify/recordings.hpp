@@ -42,7 +42,8 @@ shape = "straight"
 angle = 0.6
 )";
 
-/// Markers at the given arc lengths (m), `frames` of them `step` s apart from time 0; not measured yet.
+/// Markers at the given arc lengths (m), `frames` of them `step` s apart from time 0; not measured
+/// yet.
 inline Recording empty_markers(const std::vector<double>& arc_lengths, int frames, double step) {
   Recording recording;
   for (int k = 0; k < frames; ++k) recording.time.push_back(step * k);
@@ -60,7 +61,8 @@ inline Recording empty_markers(const std::vector<double>& arc_lengths, int frame
 }
 
 /// Adds an experiment of that name for a recording that is handed in.
-inline void add_experiment(Case& study, const std::string& name, DataKind kind = DataKind::kMarkers) {
+inline void add_experiment(Case& study, const std::string& name,
+                           DataKind kind = DataKind::kMarkers) {
   ExperimentSpec spec;
   spec.name = name;
   spec.kind = kind;

@@ -156,8 +156,7 @@ TEST_CASE("what is written is read back the same") {
   folder.write("data.csv", "x,y,phi\n");
   const Case study = parse_case(kWhole, "case.toml", folder.path());
   const std::string once = case_text(study, folder.path());
-  const std::string twice =
-      case_text(parse_case(once, "case.toml", folder.path()), folder.path());
+  const std::string twice = case_text(parse_case(once, "case.toml", folder.path()), folder.path());
   CHECK(once == twice);
   for (const char* line : {"arc_length = 0.75", "origin = [320, 20]", "start = 0.25",
                            "held = {side = 0.5, down = 1.25}", "data = \"data.csv\"",
@@ -174,7 +173,8 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
   const Row rows[] = {
       {"format = 1", "format = 2", "format"},
       {"kind = \"case\"", "kind = \"model\"", "kind"},
-      {"links = 4", "links = 0", "case.toml:6: model.links: 0; must be a whole number of at least 1"},
+      {"links = 4", "links = 0",
+       "case.toml:6: model.links: 0; must be a whole number of at least 1"},
       {"links = 4", "links = 4.5", "model.links"},
       {"links = 4", "links = 2000000", "do not fit into memory"},
       {"links = 4", "linsk = 4", "links"},
@@ -207,9 +207,11 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"link = 2", "link = 9", "there are 4"},
       {"origin = [320.0, 20.0]", "origin = [320.0]", "two numbers"},
       {"loss = \"huber\"", "loss = \"tukey\"", "loss"},
-      {"measure = \"least_squares\"", "measure = \"mean_distance\"", "only the measure least_squares"},
+      {"measure = \"least_squares\"", "measure = \"mean_distance\"",
+       "only the measure least_squares"},
       {"method = \"least_squares\"", "method = \"simplex\"", "method"},
-      {"growing_windows = [0.5, 1.0]", "growing_windows = [1.0, 0.5]", "longer than the one before"},
+      {"growing_windows = [0.5, 1.0]", "growing_windows = [1.0, 0.5]",
+       "longer than the one before"},
       {"step = 0.002", "step = 0.0", "must be positive"},
       {"step = 0.002", "step = 1e-9", "ten million"},
       {"title = ", "titel = ", "did you mean \"title\"?"},
@@ -225,7 +227,8 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
     } catch (const InputError& error) {
       message = error.what();
     }
-    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ", std::string(row.expected));
+    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ",
+                  std::string(row.expected));
     CHECK_MESSAGE(message.starts_with("case.toml:"), message);
   }
 }

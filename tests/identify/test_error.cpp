@@ -35,7 +35,7 @@ TEST_CASE("the measures are what the text says, gaps left out") {
   };
   const Row rows[] = {
       {Measure::kLeastSquares, std::sqrt((9.0 + 16 + 36 + 64) / 12)},
-      {Measure::kMeanDistance, (5.0 + 10) / 6},            // (6.5), (6.6): two of six distances
+      {Measure::kMeanDistance, (5.0 + 10) / 6},  // (6.5), (6.6): two of six distances
       {Measure::kMeanAbsolute, (1 + 4.0 / 3 + 2 + 8.0 / 3) / 4},  // (7.1)-(7.5)
   };
   for (const Row& row : rows) {
@@ -61,15 +61,16 @@ TEST_CASE("the measures are what the text says, gaps left out") {
 TEST_CASE("gradients of the measures agree with differences") {
   Eigen::MatrixXd offsets = Eigen::MatrixXd::Constant(4, 10, 2e-3);
   offsets.row(1) *= -2;
-  for (const Measure measure :
-       {Measure::kLeastSquares, Measure::kMeanDistance, Measure::kMeanAbsolute, Measure::kLikelihood}) {
+  for (const Measure measure : {Measure::kLeastSquares, Measure::kMeanDistance,
+                                Measure::kMeanAbsolute, Measure::kLikelihood}) {
     CAPTURE(static_cast<int>(measure));
     const Problem problem = problem_with(measure, offsets);
     const Eigen::VectorXd x = problem.start();
     Eigen::VectorXd gradient, unused;
     const Misfit misfit = misfit_of(problem, evaluate(problem, x, false, true));
     const double error = error_and_gradient(problem, misfit, gradient);
-    CHECK(error == doctest::Approx(error_of(problem, evaluate(problem, x, false, false), Part::kFit)));
+    CHECK(error ==
+          doctest::Approx(error_of(problem, evaluate(problem, x, false, false), Part::kFit)));
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       const auto moved = [&](double h) {
         Eigen::VectorXd y = x;

@@ -22,9 +22,10 @@ Problem twin(FitMethod method, Measure measure, double k, double c, double noise
   study.optimiser.method = method;
   study.error.measure = measure;
   const Model model = Model::built_in(2);
-  return Problem(study, model,
-                 {testing::with_truth(truth, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05),
-                                      noise, seed)});
+  return Problem(
+      study, model,
+      {testing::with_truth(truth, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05), noise,
+                           seed)});
 }
 
 }  // namespace
@@ -56,7 +57,8 @@ TEST_CASE("every method finds the truth behind perfect data, in every measure") 
 TEST_CASE("the noise of every channel is found with the physics and kept apart from it") {
   // marker 1 is seen ten times worse than the others
   Recording recording = twin(FitMethod::kLeastSquares, Measure::kLikelihood, 0.1, 0.005, 1e-3, 2)
-                            .experiments()[0].recording;
+                            .experiments()[0]
+                            .recording;
   std::mt19937_64 generator(5);
   std::normal_distribution<double> normal(0, 1e-2);
   for (Eigen::Index k = 0; k < recording.measured.cols(); ++k)
@@ -72,7 +74,8 @@ TEST_CASE("the noise of every channel is found with the physics and kept apart f
   CHECK(found.error <= simplex.error * (1 + 1e-6));
   CHECK(found.x[0] == doctest::Approx(simplex.x[0]).epsilon(1e-3));
   const Uncertainty uncertainty = uncertainty_of(weighed, found.x);
-  const Residuals residuals = residuals_of(weighed, evaluate(weighed, found.x, false, false), Part::kFit);
+  const Residuals residuals =
+      residuals_of(weighed, evaluate(weighed, found.x, false, false), Part::kFit);
   const std::vector<ChannelNoise> channels = channels_of(weighed, residuals);
   REQUIRE(channels.size() == 6);
   for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -100,8 +103,9 @@ TEST_CASE("least squares ends no higher than Nelder-Mead, and is there in a few 
         fit(twin(FitMethod::kLeastSquares, measure, 0.1, 0.005, 5e-3, 7), {}, fit_least_squares);
     const double there = simplex.error * (1 + 1e-4);  // a minimum on kinks
     CHECK(squares.error <= there);
-    const auto reached = std::find_if(squares.history.begin(), squares.history.end(),
-                                      [&](const HistoryEntry& entry) { return entry.error <= there; });
+    const auto reached =
+        std::find_if(squares.history.begin(), squares.history.end(),
+                     [&](const HistoryEntry& entry) { return entry.error <= there; });
     const auto evaluations = reached - squares.history.begin() + 1;
     MESSAGE(simplex.evaluations << " and " << evaluations << " evaluations");
     CHECK(evaluations <= 10);
@@ -195,5 +199,6 @@ TEST_CASE("what cannot be fitted is refused") {
   CHECK_THROWS_AS(fit(problem, {}, {}), InputError);  // no solver given
   study = problem.study();
   for (ParameterSpec& parameter : study.parameters) parameter.free = false;
-  CHECK_THROWS_AS(fit(Problem(study, model, {problem.experiments()[0].recording}), {}, {}), InputError);
+  CHECK_THROWS_AS(fit(Problem(study, model, {problem.experiments()[0].recording}), {}, {}),
+                  InputError);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
-
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,12 +17,12 @@ const char* const kSensors =
     "format = 1\nkind = \"model\"\nid = \"seen\"\n"
     "effects = [\"air_drag_quadratic\", \"clock_offset\", \"camera_tilt\", \"scale\"]\n";
 
-ProviderOptions options_for(const testing::TemporaryFolder& folder, std::vector<std::string>* notices) {
+ProviderOptions options_for(const testing::TemporaryFolder& folder,
+                            std::vector<std::string>* notices) {
   ProviderOptions options;
   options.derive_program = std::filesystem::path(CATENA_BINARY_DIR) / "bin" / "catena-derive";
   options.cache_directory = folder.path() / "cache";
-  if (notices)
-    options.notice = [notices](const std::string& line) { notices->push_back(line); };
+  if (notices) options.notice = [notices](const std::string& line) { notices->push_back(line); };
   return options;
 }
 
@@ -54,12 +53,13 @@ TEST_CASE("a built-in model needs nothing; any other is made once") {
 TEST_CASE("code from somebody else's effect is announced") {
   const testing::TemporaryFolder folder;
   std::vector<std::string> notices;
-  folder.write("mine.toml",
-               "format = 1\nkind = \"effect\"\nid = \"mine\"\ntitle = \"Mine\"\ndescription = \"x\"\n"
-               "[parameters.strength]\nunit = \"N m\"\nneutral = 0.0\ndescription = \"x\"\n"
-               "[[torque]]\nat = \"pivot\"\nvalue = \"strength\"\n");
-  const auto description =
-      folder.write("d.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"mine.toml\"]\n");
+  folder.write(
+      "mine.toml",
+      "format = 1\nkind = \"effect\"\nid = \"mine\"\ntitle = \"Mine\"\ndescription = \"x\"\n"
+      "[parameters.strength]\nunit = \"N m\"\nneutral = 0.0\ndescription = \"x\"\n"
+      "[[torque]]\nat = \"pivot\"\nvalue = \"strength\"\n");
+  const auto description = folder.write(
+      "d.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"mine.toml\"]\n");
   const Model model = provide_model(description, 1, options_for(folder, &notices));
   REQUIRE(notices.size() == 1);
   CHECK(notices[0].find("mine.toml") != std::string::npos);
@@ -142,8 +142,8 @@ angle = 0.6
 )");
   for (int i = 0; i < model.parameters(); ++i) {
     const std::string name = model.table().parameter[i].name;
-    if (name.starts_with("clock_offset") || name.starts_with("camera_tilt") || name.starts_with("scale"))
-    {
+    if (name.starts_with("clock_offset") || name.starts_with("camera_tilt") ||
+        name.starts_with("scale")) {
       ParameterSpec parameter;
       parameter.name = parameter.sets = name;
       parameter.value = model.table().parameter[i].neutral + 0.02;

@@ -48,8 +48,9 @@ angle = 0.6
   truth.parameters[0].value = 0.1;
   truth.parameters[1].value = 0.005;
   const Model model = Model::built_in(2);
-  return Problem(study, model,
-                 {testing::with_truth(truth, model, testing::empty_markers({0.7, 1.0}, 40, 0.05), 1e-3)});
+  return Problem(
+      study, model,
+      {testing::with_truth(truth, model, testing::empty_markers({0.7, 1.0}, 40, 0.05), 1e-3)});
 }
 
 bool same(const FitResult& a, const FitResult& b) {
@@ -89,7 +90,8 @@ TEST_CASE("any number of threads gives the same, and so does a run resumed after
       RunLog log(file, "key", false);
       undisturbed = fit_from_many(problem, {}, fit_least_squares, 1, &log);
     }
-    const std::vector<FitResult> threaded = fit_from_many(problem, {}, fit_least_squares, 3, nullptr);
+    const std::vector<FitResult> threaded =
+        fit_from_many(problem, {}, fit_least_squares, 3, nullptr);
     for (std::size_t i = 0; i < 4; ++i) CHECK(same(undisturbed[i], threaded[i]));
 
     std::string whole;

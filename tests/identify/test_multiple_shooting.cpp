@@ -85,7 +85,8 @@ Problem arms(double window, bool joined) {
 
 }  // namespace
 
-TEST_CASE("a chaotic recording traps a fit of the whole; joined windows find what it was made with") {
+TEST_CASE(
+    "a chaotic recording traps a fit of the whole; joined windows find what it was made with") {
   const Problem whole = arms(kNotGiven, false);
   CHECK(strategy_of(whole) == std::string("whole"));
   const FitResult trapped = fit(whole, {}, fit_least_squares);

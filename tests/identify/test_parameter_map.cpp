@@ -10,8 +10,8 @@ using namespace catena;
 namespace {
 
 Case case_of(const std::string& cable, const std::string& parameters) {
-  return parse_case("format = 1\nkind = \"case\"\n[model]\nlinks = 3\n[cable]\nload_mass = 0.5\n" + cable +
-                        "\n" + parameters,
+  return parse_case("format = 1\nkind = \"case\"\n[model]\nlinks = 3\n[cable]\nload_mass = 0.5\n" +
+                        cable + "\n" + parameters,
                     "case.toml", "");
 }
 
@@ -42,17 +42,12 @@ TEST_CASE("names, families, ranges, factors and physical quantities set what the
     const char* name;
     double expected;
   };
-  const Row rows[] = {{"length_2", 0.4},
-                      {"mass_3", 0.12},
-                      {"inertia_3", 0.12 * 0.36 / 12},
-                      {"stiffness_1", 0.9 / 0.25},  // from the clamp to the middle of link 1
-                      {"stiffness_2", 0.9 / 0.45},  // between the middles of links 1 and 2
-                      {"stiffness_3", 0.9 / 0.5},
-                      {"damping_1", 0.01},
-                      {"damping_3", 0.006},
-                      {"torque_2", 0.25},
-                      {"load_mass", 0.5},
-                      {"gravity", 9.81}};
+  const Row rows[] = {
+      {"length_2", 0.4},           {"mass_3", 0.12},    {"inertia_3", 0.12 * 0.36 / 12},
+      {"stiffness_1", 0.9 / 0.25},  // from the clamp to the middle of link 1
+      {"stiffness_2", 0.9 / 0.45},  // between the middles of links 1 and 2
+      {"stiffness_3", 0.9 / 0.5},  {"damping_1", 0.01}, {"damping_3", 0.006},
+      {"torque_2", 0.25},          {"load_mass", 0.5},  {"gravity", 9.81}};
   for (const Row& row : rows) {
     CAPTURE(row.name);
     CHECK(value(row.name) == doctest::Approx(row.expected).epsilon(1e-14));
@@ -119,7 +114,8 @@ TEST_CASE("what cannot be set is named") {
     } catch (const InputError& error) {
       message = error.what();
     }
-    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ", std::string(row.expected));
+    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ",
+                  std::string(row.expected));
     CHECK(message.starts_with("case.toml"));
   }
 }

@@ -76,21 +76,24 @@ TEST_CASE("sensitivities of markers agree with differences, whatever is unknown"
       "[initial]\nshape = \"angles\"\nangles = [0.1, 0.4, 0.2]\nfree = true\n"
       "[initial.velocity]\nshape = \"angles\"\nrates = [0.5, 0.0, 1.0]\nfree = true\n",
       "[initial]\nshape = \"catenary\"\nheld = {side = 0.5, down = 0.8}\n",
-      "[initial]\nshape = \"hanging\"\n[initial.velocity]\nshape = \"smooth\"\nterms = 1\nrates = [1.0]\n",
+      "[initial]\nshape = \"hanging\"\n[initial.velocity]\nshape = \"smooth\"\nterms = 1\nrates = "
+      "[1.0]\n",
   };
   const Model model = Model::built_in(3);
   for (const char* start : starts) {
     CAPTURE(std::string(start));
     Case study = sections(std::string(kThreeLinks) + start);
     testing::add_experiment(study, "run");
-    // a marker in the middle of a link, one near a joint, one at the end of the shortest cable tried
+    // a marker in the middle of a link, one near a joint, one at the end of the shortest cable
+    // tried
     const Problem problem(study, model, {testing::empty_markers({0.2, 0.85, 1.19}, 20, 0.05)});
     check_jacobian(problem);
   }
 }
 
 TEST_CASE("angles are compared as they are, the hidden parameters come back from perfect data") {
-  Case study = sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 0.5\n");
+  Case study =
+      sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 0.5\n");
   study.parameters.resize(2);
   testing::add_experiment(study, "run", DataKind::kAngles);
   Recording recording;
@@ -109,8 +112,8 @@ TEST_CASE("angles are compared as they are, the hidden parameters come back from
 }
 
 TEST_CASE("experiments share the physics and have starts of their own") {
-  Case study = sections(std::string(kThreeLinks) +
-                        "[initial]\nshape = \"straight\"\nfree = true\n");
+  Case study =
+      sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nfree = true\n");
   study.parameters.resize(2);
   testing::add_experiment(study, "first");
   testing::add_experiment(study, "second");
@@ -168,8 +171,9 @@ TEST_CASE("a window is an experiment with a start of its own; those after fit_un
 }
 
 TEST_CASE("a simulation that fails is infinitely bad, and says why") {
-  Case study = sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 1.0\n"
-                                                   "[simulation]\nmax_steps = 20\n");
+  Case study = sections(std::string(kThreeLinks) +
+                        "[initial]\nshape = \"straight\"\nangle = 1.0\n"
+                        "[simulation]\nmax_steps = 20\n");
   testing::add_experiment(study, "run");
   const Problem problem(study, Model::built_in(3), {testing::empty_markers({1.0}, 50, 0.05)});
   const Evaluation evaluation = evaluate(problem, problem.start(), true, true);

@@ -103,10 +103,12 @@ TEST_CASE("bad data is named by file, line and column") {
       {"", "empty"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,1\n", "m.csv:3: 2 fields; the first line names 3"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,1,2,3\n", "m.csv:3: 4 fields"},
-      {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,one,2\n", "column \"side_1_m\": \"one\" is not a number"},
+      {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,one,2\n",
+       "column \"side_1_m\": \"one\" is not a number"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,nan,2\n", "\"nan\" is not a number"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,inf,2\n", "\"inf\" is not a number"},
-      {"time_s,side_1_m,down_1_m\n0,1,2\n0,1,2\n", "m.csv:3: column \"time_s\": 0 s after 0 s; times must increase"},
+      {"time_s,side_1_m,down_1_m\n0,1,2\n0,1,2\n",
+       "m.csv:3: column \"time_s\": 0 s after 0 s; times must increase"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n,1,2\n", "every row needs its time"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n", "at least two are needed"},
       {"time_s,side_1_m,down_1_m\n0,,\n1,,\n", "no measurement"},
@@ -115,7 +117,8 @@ TEST_CASE("bad data is named by file, line and column") {
   for (const Row& row : rows) {
     CAPTURE(row.text);
     const std::string message = message_of(markers(folder.write("m.csv", row.text)));
-    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ", std::string(row.expected));
+    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ",
+                  std::string(row.expected));
   }
   CHECK(message_of(markers(folder.path() / "absent.csv")).find("cannot be read") !=
         std::string::npos);
@@ -134,7 +137,8 @@ TEST_CASE("bad data is named by file, line and column") {
 TEST_CASE("a chord that shrinks without bending is noticed, one that bends is not") {
   const testing::TemporaryFolder folder;
   const auto recording = [&](auto swing, auto bend) {
-    std::string text = "time_s,side_1_m,down_1_m,side_2_m,down_2_m,side_3_m,down_3_m,side_4_m,down_4_m\n";
+    std::string text =
+        "time_s,side_1_m,down_1_m,side_2_m,down_2_m,side_3_m,down_3_m,side_4_m,down_4_m\n";
     for (int k = 0; k < 200; ++k) {
       const double t = 0.02 * k;
       text += std::to_string(t);

@@ -26,7 +26,8 @@ TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and col
     Eigen::MatrixXd width(recordings, truth.size());
     in_parallel(recordings, 2, [&](std::size_t i) {
       const auto row = static_cast<Eigen::Index>(i);
-      const testing::Covered covered = testing::covered(problem, colour, static_cast<unsigned>(i + 1));
+      const testing::Covered covered =
+          testing::covered(problem, colour, static_cast<unsigned>(i + 1));
       inside.row(row) = covered.inside;
       width.row(row) = covered.width;
     });
@@ -35,8 +36,8 @@ TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and col
       Eigen::VectorXd widths = width.col(j);
       std::sort(widths.begin(), widths.end());
       MESSAGE("colour " << colour << ", " << problem.unknowns()[static_cast<std::size_t>(j)].name
-                        << ": inside " << 100 * share << " % of " << recordings
-                        << ", median width " << widths[recordings / 2] << " around " << truth[j]);
+                        << ": inside " << 100 * share << " % of " << recordings << ", median width "
+                        << widths[recordings / 2] << " around " << truth[j]);
       // three standard deviations of a binomial count about what is asked for, 93 to 97 %
       const double chance = 3 * std::sqrt(0.95 * 0.05 / recordings);
       CHECK(share > 0.94 - chance);
@@ -46,8 +47,8 @@ TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and col
 }
 
 TEST_CASE("what cannot be determined is reported so, before and after the fit") {
-  // Two stiffnesses that only ever act as their sum: the torque of a spring at joint 1 and that of a
-  // constant in the same place are told apart, those of two factors of one spring are not.
+  // Two stiffnesses that only ever act as their sum: the torque of a spring at joint 1 and that of
+  // a constant in the same place are told apart, those of two factors of one spring are not.
   std::string text = kCable;
   const std::string one = "sets = \"stiffness\"";
   text.replace(text.find(one), one.size(), "sets = \"stiffness_1\"");
@@ -114,13 +115,13 @@ TEST_CASE("profiles and bootstrap agree with the intervals where all is well") {
       CHECK(profile.cost[i] == doctest::Approx(z * z).epsilon(0.15));
     }
   }
-  const Eigen::MatrixXd rows =
-      bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 2);
+  const Eigen::MatrixXd rows = bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 2);
   for (Eigen::Index j = 0; j < rows.cols(); ++j) {
     const Eigen::VectorXd off = rows.col(j).array() - rows.col(j).mean();
     const double deviation = std::sqrt(off.squaredNorm() / 59);
-    CHECK(deviation / uncertainty.estimates[static_cast<std::size_t>(j)].standard_error ==
-          doctest::Approx(1).epsilon(0.35));  // 60 draws of blocks: 9 % by chance, and blocks are few
+    CHECK(
+        deviation / uncertainty.estimates[static_cast<std::size_t>(j)].standard_error ==
+        doctest::Approx(1).epsilon(0.35));  // 60 draws of blocks: 9 % by chance, and blocks are few
   }
   CHECK(rows == bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 1));
 }

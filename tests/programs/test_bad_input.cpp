@@ -12,10 +12,11 @@ using testing::run_catena;
 
 namespace {
 
-const char* const kData = "time_s,side_1_m,down_1_m,side_2_m,down_2_m\n"
-                          "0.0,0.28,0.41,0.56,0.83\n"
-                          "0.1,0.27,0.42,0.55,0.84\n"
-                          "0.2,0.24,0.44,0.50,0.87\n";
+const char* const kData =
+    "time_s,side_1_m,down_1_m,side_2_m,down_2_m\n"
+    "0.0,0.28,0.41,0.56,0.83\n"
+    "0.1,0.27,0.42,0.55,0.84\n"
+    "0.2,0.24,0.44,0.50,0.87\n";
 
 void check_refused(const testing::TemporaryFolder& folder, const std::string& command,
                    const std::filesystem::path& study, const std::vector<std::string>& expected) {
@@ -50,22 +51,35 @@ TEST_CASE("mistakes in a case to be simulated") {
       {"negative density", "density = 0.3", "density = -0.3", {"case.toml:9", "-0.3", "positive"}},
       {"negative mass", "density = 0.3", "link_masses = [0.1, -0.1]", {"case.toml:9", "-0.1"}},
       {"negative load", "load_mass = 0.2", "load_mass = -0.2", {"case.toml:10", "-0.2"}},
-      {"no mass at all", "density = 0.3\nload_mass = 0.2", "link_masses = [0.0, 0.0]\nload_mass = 0.0",
+      {"no mass at all",
+       "density = 0.3\nload_mass = 0.2",
+       "link_masses = [0.0, 0.0]\nload_mass = 0.0",
        {"case.toml", "mass matrix", "not positive definite"}},
       {"no value", "value = 0.1", "", {"case.toml:12", "value"}},
       {"NaN", "value = 0.1", "value = nan", {"case.toml:15", "nan"}},
       {"negative stiffness", "value = 0.1", "value = -0.1", {"stiffness_1", "-0.1"}},
-      {"unknown parameter", "sets = \"stiffness\"", "sets = \"stifness\"", {"stifness", "stiffness"}},
-      {"parameter not set", "sets = \"damping\"", "sets = \"damping_2\"",
+      {"unknown parameter",
+       "sets = \"stiffness\"",
+       "sets = \"stifness\"",
+       {"stifness", "stiffness"}},
+      {"parameter not set",
+       "sets = \"damping\"",
+       "sets = \"damping_2\"",
        {"damping_1", "no value"}},
-      {"bounds crossed", "value = 0.1", "value = 0.1\nlower = 1.0\nupper = 0.01",
+      {"bounds crossed",
+       "value = 0.1",
+       "value = 0.1\nlower = 1.0\nupper = 0.01",
        {"case.toml:16", "lower", "upper"}},
       {"links not a number", "links = 2", "links = \"two\"", {"case.toml:5", "links"}},
       {"no links", "links = 2", "links = 0", {"case.toml:5", "0"}},
       {"too many links", "links = 2", "links = 50000000", {"case.toml:5", "50000000", "memory"}},
-      {"held too far away", "shape = \"straight\"\nangle = 0.6",
-       "shape = \"catenary\"\nheld = {side = 1.0, down = 1.0}", {"case.toml", "held"}},
-      {"missing description", "links = 2", "links = 2\ndescription = \"no.toml\"",
+      {"held too far away",
+       "shape = \"straight\"\nangle = 0.6",
+       "shape = \"catenary\"\nheld = {side = 1.0, down = 1.0}",
+       {"case.toml", "held"}},
+      {"missing description",
+       "links = 2",
+       "links = 2\ndescription = \"no.toml\"",
        {"case.toml:6", "no.toml", "no such file"}},
       {"no duration", "duration = 1.0", "", {"duration"}},
       {"step not positive", "step = 0.02", "step = 0.0", {"case.toml:30", "step"}},
@@ -85,12 +99,19 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
       {"missing data", "data = \"data.csv\"", "data = \"no.csv\"", {"case.toml:36", "no.csv"}},
       {"bounds crossed", "upper = 1.0", "upper = 0.0001", {"case.toml:18", "lower", "upper"}},
       {"start outside the bounds", "value = 0.05", "value = 5.0", {"case.toml:15", "5"}},
-      {"unknown method", "measure = \"mean_distance\"",
-       "measure = \"mean_distance\"\n[optimiser]\nmethod = \"annealing\"", {"annealing"}},
-      {"free parameters without data", "kind = \"markers\"", "kind = \"markers\"\nuse = \"validate\"",
+      {"unknown method",
+       "measure = \"mean_distance\"",
+       "measure = \"mean_distance\"\n[optimiser]\nmethod = \"annealing\"",
+       {"annealing"}},
+      {"free parameters without data",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nuse = \"validate\"",
        {"case.toml", "without data"}},
       {"nothing free", "free = true\nlower = 0.001\nupper = 1.0", "", {"case.toml"}},
-      {"window without frames", "kind = \"markers\"", "kind = \"markers\"\nfrom = 7.0", {"0 frames"}},
+      {"window without frames",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nfrom = 7.0",
+       {"0 frames"}},
       {"angles asked of markers", "kind = \"markers\"", "kind = \"angles\"", {"theta_1_rad"}},
   };
   const Row data[] = {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
-
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +22,9 @@ struct Twin {
   testing::TemporaryFolder folder;
   Twin() {
     const auto swing = folder.write("swing.toml", testing::kSwing);
-    REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status == 0);
+    REQUIRE(
+        run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
+        0);
   }
 };
 
@@ -60,14 +61,16 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   const Twin twin;
   // a long fit: many links, many starts
   std::string slow = testing::replaced(testing::kFit, "links = 2", "links = 60");
-  slow += "[optimiser]\nmethod = \"nelder_mead\"\nstarts = 1000\nmax_evaluations = 1000000\n"
-          "[simulation]\nrelative_tolerance = 1e-11\n";
+  slow +=
+      "[optimiser]\nmethod = \"nelder_mead\"\nstarts = 1000\nmax_evaluations = 1000000\n"
+      "[simulation]\nrelative_tolerance = 1e-11\n";
   const auto study = twin.folder.write("fit.toml", slow);
   const std::filesystem::path out = twin.folder.path() / "out";
   const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
   const pid_t child = fork();
   if (child == 0) {
-    execl(program.c_str(), "catena", "identify", study.c_str(), "--output", out.c_str(), "-q", nullptr);
+    execl(program.c_str(), "catena", "identify", study.c_str(), "--output", out.c_str(), "-q",
+          nullptr);
     _exit(127);
   }
   usleep(1'500'000);
@@ -76,7 +79,8 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   waitpid(child, &status, 0);
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 130);
-  CHECK(testing::text_of(out / "result.json").find("\"status\": \"interrupted\"") != std::string::npos);
+  CHECK(testing::text_of(out / "result.json").find("\"status\": \"interrupted\"") !=
+        std::string::npos);
   CHECK(read_case(out / "fitted.toml").parameters.size() == 2);
 
   const ProcessResult limited =
@@ -92,10 +96,11 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
   for (const char* method : {"nelder_mead", "least_squares"}) {
     CAPTURE(std::string(method));
     const bool simplex = method == std::string("nelder_mead");
-    const auto study = twin.folder.write(
-        "fit.toml", testing::replaced(testing::kFit, "links = 2", "links = 12") +
-                        "[optimiser]\nmethod = \"" + method + "\"\nstarts = " +
-                        (simplex ? "8" : "60") + "\n[simulation]\nrelative_tolerance = 1e-9\n");
+    const auto study =
+        twin.folder.write("fit.toml", testing::replaced(testing::kFit, "links = 2", "links = 12") +
+                                          "[optimiser]\nmethod = \"" + method +
+                                          "\"\nstarts = " + (simplex ? "8" : "60") +
+                                          "\n[simulation]\nrelative_tolerance = 1e-9\n");
     const std::filesystem::path whole = twin.folder.path() / method / "whole";
     const std::filesystem::path killed = twin.folder.path() / method / "killed";
     const auto begin = std::chrono::steady_clock::now();
@@ -136,24 +141,26 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
   testing::TemporaryFolder folder;
   // a cable with bending stiffness and damping of its own, the same for any number of links
   const auto as_cable = [](std::string text) {
-    for (const auto& [from, to] : {std::pair{"\"stiffness\"", "\"bending_stiffness\""},
-                                   std::pair{"\"damping\"", "\"damping_length\""},
-                                   std::pair{"\"N m/rad\"", "\"N m^2\""},
-                                   std::pair{"\"N m s/rad\"", "\"N m^2 s/rad\""}})
+    for (const auto& [from, to] :
+         {std::pair{"\"stiffness\"", "\"bending_stiffness\""},
+          std::pair{"\"damping\"", "\"damping_length\""}, std::pair{"\"N m/rad\"", "\"N m^2\""},
+          std::pair{"\"N m s/rad\"", "\"N m^2 s/rad\""}})
       text = testing::replaced(text, from, to);
     return text;
   };
   const std::string fine = as_cable(testing::replaced(testing::kSwing, "links = 2", "links = 24"));
   const auto swing = folder.write("swing.toml", fine);
-  REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status == 0);
+  REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
+          0);
   std::string fit = as_cable(testing::kFit);
-  fit = testing::replaced(fit, "kind = \"markers\"",
-                          "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
-                          "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
+  fit = testing::replaced(
+      fit, "kind = \"markers\"",
+      "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
+      "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
   const auto study = folder.write("fit.toml", fit + "[optimiser]\nmethod = \"least_squares\"\n");
   const std::filesystem::path out = folder.path() / "out";
-  const ProcessResult run =
-      run_catena({"identify", study, "--links-study", "2,4,12,24", "--output", out, "--error-budget", "0.05"});
+  const ProcessResult run = run_catena(
+      {"identify", study, "--links-study", "2,4,12,24", "--output", out, "--error-budget", "0.05"});
   CHECK_MESSAGE(run.exit_status == 0, run.output);
   // nothing but 24 links comes near the data of 24 links, which are without noise
   CHECK(run.output.find("fewest links within 5 % of the least error: 24") != std::string::npos);
@@ -163,14 +170,16 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
   for (const auto& row : json["links_study"]) {
     CHECK(row["error"].get<double>() < last);
     last = row["error"];
-    if (row["links"] == 24) CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+    if (row["links"] == 24)
+      CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
   }
-  const ProcessResult wide =
-      run_catena({"identify", study, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
+  const ProcessResult wide = run_catena(
+      {"identify", study, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
   CHECK(wide.output.find("least error: 2\n") != std::string::npos);
-  const ProcessResult refused =
-      run_catena({"identify", folder.write("joint.toml", testing::replaced(fit, "arc_length = 0.5", "joint = 1")),
-                  "--links-study", "2,4", "--output", out});
+  const ProcessResult refused = run_catena(
+      {"identify",
+       folder.write("joint.toml", testing::replaced(fit, "arc_length = 0.5", "joint = 1")),
+       "--links-study", "2,4", "--output", out});
   CHECK(refused.exit_status == 2);
   CHECK(refused.output.find("is at a joint") != std::string::npos);
 }

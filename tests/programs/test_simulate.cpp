@@ -26,9 +26,11 @@ TEST_CASE("simulate writes what it says, the same every time") {
   const Table positions = read_table(std::filesystem::path(first) / "positions.csv");
   CHECK(positions.rows() == 51);
   CHECK(positions.column("time_s").back() == 1.0);
-  CHECK(positions.column("side_1_m").front() == doctest::Approx(0.5 * std::sin(0.6)).epsilon(1e-15));
+  CHECK(positions.column("side_1_m").front() ==
+        doctest::Approx(0.5 * std::sin(0.6)).epsilon(1e-15));
   CHECK(positions.column("down_2_m").front() == doctest::Approx(std::cos(0.6)).epsilon(1e-15));
-  CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() == 0.6);
+  CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() ==
+        0.6);
   const ProcessResult json = run_catena({"simulate", study, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);
@@ -36,8 +38,8 @@ TEST_CASE("simulate writes what it says, the same every time") {
 
 TEST_CASE("a simulation that fails says which state and when, exits with 1 and writes nothing") {
   const testing::TemporaryFolder folder;
-  const auto study = folder.write(
-      "swing.toml", testing::replaced(testing::kSwing, "step = 0.02", "step = 0.02\nmax_steps = 10"));
+  const auto study = folder.write("swing.toml", testing::replaced(testing::kSwing, "step = 0.02",
+                                                                  "step = 0.02\nmax_steps = 10"));
   const std::string output = folder.path() / "out";
   const ProcessResult run = run_catena({"simulate", study, "--output", output});
   CHECK(run.exit_status == 1);

@@ -224,7 +224,8 @@ TEST_CASE("the HTML stands alone: nothing from elsewhere, nothing that ends the 
   CHECK(html.find("0.2\u00a0…\u00a0∞") != std::string::npos);
   CHECK(html.find("As derived from the Lagrangian and the effects, with 2 links") !=
         std::string::npos);
-  CHECK(html.find("- k_{1} \\theta_{1}^{2} &lt; 0") != std::string::npos);  // for the script to typeset
+  CHECK(html.find("- k_{1} \\theta_{1}^{2} &lt; 0") !=
+        std::string::npos);                                         // for the script to typeset
   CHECK(html.find("Dissipation per length") != std::string::npos);  // the built-in effect's formula
   CHECK(to_html(document, report_figures(document)) == html);
 }
@@ -267,9 +268,9 @@ TEST_CASE(
   for (const char* shown :
        {"12 links are enough", "The case's 12 links are those of the final model",
         "too small a change to matter", "it opposes the motion and grows with its square",
-"film it for 12 s; look at the load",
-        "the predictions differ by 8.7 times the noise there", "Refitted, and worse",
-        "10<sup>−523</sup>", "dissipated power", "equals the case's to 3×10⁻¹⁵"}) {
+        "film it for 12 s; look at the load", "the predictions differ by 8.7 times the noise there",
+        "Refitted, and worse", "10<sup>−523</sup>", "dissipated power",
+        "equals the case's to 3×10⁻¹⁵"}) {
     CAPTURE(shown);
     CHECK(html.find(shown) != std::string::npos);
   }

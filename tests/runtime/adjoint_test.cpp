@@ -98,7 +98,7 @@ struct ByTangents {
     const auto each = [&](VectorXd& unit, double* out) {
       for (Eigen::Index i = 0; i < unit.size(); ++i) {
         unit[i] = 1.0;
-        const catena_point direction{0.0, q.data(), v.data(), a.data(),
+        const catena_point direction{0.0,      q.data(), v.data(), a.data(),
                                      z.data(), u.data(), p.data()};
         m.residual_tangent(at, &direction, r.data());
         out[i] = r.dot(Eigen::Map<const VectorXd>(weight, m.coordinates));
@@ -163,7 +163,8 @@ TEST_CASE("the transposed Newton matrix is solved with the same factors") {
       table.newton_solve(work.data(), inverse.col(j).data());
       table.newton_solve_transposed(work.data(), transposed.col(j).data());
     }
-    CHECK((inverse - inverse.transpose()).cwiseAbs().maxCoeff() > 1e-6 * inverse.cwiseAbs().maxCoeff());
+    CHECK((inverse - inverse.transpose()).cwiseAbs().maxCoeff() >
+          1e-6 * inverse.cwiseAbs().maxCoeff());
     CHECK((inverse.transpose() - transposed).cwiseAbs().maxCoeff() <
           1e-10 * inverse.cwiseAbs().maxCoeff());
   }
@@ -228,9 +229,10 @@ TEST_CASE("gradient of 60 links over more than one check point") {
 TEST_CASE("a slope of the wrong size is refused") {
   const Model model = Model::built_in(2);
   const auto wrong = [](const Trajectory&, Trajectory& slope) { slope.q.resize(1, 1); };
-  CHECK_THROWS_AS(catena::simulate_with_gradient(model, cable_parameters(model, 5.0, 0.05),
-                                                 catena::straight(model, 0.1), times(0.1, 2), wrong),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(
+      catena::simulate_with_gradient(model, cable_parameters(model, 5.0, 0.05),
+                                     catena::straight(model, 0.1), times(0.1, 2), wrong),
+      std::invalid_argument);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_CASE("eight sets have the bits of eight calls") {
     for (int k = 0; k < EightSets::kSets; ++k) {
       const auto set = static_cast<std::size_t>(k);
       Eigen::VectorXd a(n);
-      const catena_point at{0.0,     states[set].q.data(), states[set].v.data(), nullptr, nullptr,
+      const catena_point at{0.0,     states[set].q.data(),  states[set].v.data(), nullptr, nullptr,
                             nullptr, parameters[set].data()};
       REQUIRE(model.table().acceleration(&at, a.data()) == 0);
       for (int i = 0; i < n; ++i) {

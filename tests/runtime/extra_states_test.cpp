@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Extra states of joints: their elimination from the Newton matrix, O(n), against the dense matrix of
-// all unknowns.
+// Extra states of joints: their elimination from the Newton matrix, O(n), against the dense matrix
+// of all unknowns.
 #include <doctest/doctest.h>
 
 #include <Eigen/SVD>
@@ -44,8 +44,8 @@ VectorXd parameters(const Model& model, double scale_of_load) {
   return p;
 }
 
-// Both are backward stable: what their solutions may differ by is a few roundings times the condition
-// of the matrix, which the step gamma sets between that of M and that of the stiffness.
+// Both are backward stable: what their solutions may differ by is a few roundings times the
+// condition of the matrix, which the step gamma sets between that of M and that of the stiffness.
 TEST_CASE("states eliminated joint by joint or in the dense matrix of all unknowns: one solution") {
   const Model model = Model::load(WITH_STATES);
   REQUIRE(model.states() == 12);

@@ -197,10 +197,10 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     const double e = stretches ? q[n_ + i] : 0;
     const double angle = q[i] - (i > 0 ? q[i - 1] : 0), rate = v[i] - (i > 0 ? v[i - 1] : 0);
     const double share = i == 0 ? 2 : 1;  // the clamp holds the cable half a link away
-    double moment = share * (stiffness * (angle - h.rest_curvature * link_ / share) + damping * rate) +
-                    h.joint_quadratic_damping * std::abs(rate) * rate +
-                    h.cubic_stiffness * angle * angle * angle +
-                    h.joint_friction * rounded_sign(rate);
+    double moment =
+        share * (stiffness * (angle - h.rest_curvature * link_ / share) + damping * rate) +
+        h.joint_quadratic_damping * std::abs(rate) * rate +
+        h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
     if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
       moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +

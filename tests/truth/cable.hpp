@@ -13,12 +13,13 @@ namespace truth {
 /// rule.
 struct Cable {
   int links = 24;
-  double length = 2.585;             // m
-  double density = 0.1424;           // kg/m
-  double bending_stiffness = 0.014;  // EI, N m^2; joint stiffness EI / link length, double at the clamp
-  double bending_damping = 0.008;    // N m^2 s; joint damping likewise
-  double load_mass = 1.381;          // kg
-  double gravity = 9.81;             // m/s^2
+  double length = 2.585;    // m
+  double density = 0.1424;  // kg/m
+  double bending_stiffness =
+      0.014;  // EI, N m^2; joint stiffness EI / link length, double at the clamp
+  double bending_damping = 0.008;  // N m^2 s; joint damping likewise
+  double load_mass = 1.381;        // kg
+  double gravity = 9.81;           // m/s^2
 };
 
 /// Positions of points on the cable over time.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The differentials of several directions at once, one a lane: a type D for tangents, which are linear
-// in it. What does not depend on the direction is computed once, in T = double; every lane gets the bits
-// that its direction gets alone.
+// The differentials of several directions at once, one a lane: a type D for tangents, which are
+// linear in it. What does not depend on the direction is computed once, in T = double; every lane
+// gets the bits that its direction gets alone.
 #pragma once
 
 #include "catena_model.h"
@@ -20,7 +20,7 @@ inline Directions* directions(double* values) { return reinterpret_cast<Directio
 
 /// The arrays of `along` hold CATENA_DIRECTIONS numbers for each entry.
 inline Point<Directions> directions(const catena_point* along) {
-  return {Directions(along->t),  directions(along->q), directions(along->v), directions(along->a),
+  return {Directions(along->t), directions(along->q), directions(along->v), directions(along->a),
           directions(along->z), directions(along->u), directions(along->p)};
 }
 

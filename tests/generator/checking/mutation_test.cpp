@@ -273,8 +273,8 @@ TEST_CASE("mistakes before and in an elimination of four links are found in the 
     for (const Mutation& mutation : all)
       if (mutation.mistake == mistake) candidates.push_back(mutation);
     for (int i = 0; i < 5; ++i)
-      mutants.push_back(
-          left_sides(mutated(lagrangian, candidates[random() % candidates.size()])) + elimination);
+      mutants.push_back(left_sides(mutated(lagrangian, candidates[random() % candidates.size()])) +
+                        elimination);
   }
   for (const auto& [right, wrong] : std::vector<std::pair<std::string, std::string>>{
            {"= -E[i]", "= E[i]"},

@@ -75,14 +75,13 @@ TEST_CASE("an equation of motion may be multiplied by what is not zero") {
       result.replace(at, 6, factor);
     return checked(result).findings.back();
   };
-  for (const auto& [factor, named] :
-       {std::pair<std::string, std::string>{"(-1)", "-1"},
-        {"2", "2"},
-        {"1/l_2", "1/l_2"},
-        {"(m_1 + m_2)", "(m_1 + m_2)"},
-        {"1/(l_1^2*m_c + I_1)", "1/(l_1^2*m_c + I_1)"},
-        {"theta_1", "theta_1"},
-        {"cos(theta_2)", "cos(theta_2)"}}) {
+  for (const auto& [factor, named] : {std::pair<std::string, std::string>{"(-1)", "-1"},
+                                      {"2", "2"},
+                                      {"1/l_2", "1/l_2"},
+                                      {"(m_1 + m_2)", "(m_1 + m_2)"},
+                                      {"1/(l_1^2*m_c + I_1)", "1/(l_1^2*m_c + I_1)"},
+                                      {"theta_1", "theta_1"},
+                                      {"cos(theta_2)", "cos(theta_2)"}}) {
     INFO(factor);
     const Finding finding = with(factor);
     CHECK(finding.verdict == Verdict::kEqual);
@@ -117,26 +116,26 @@ TEST_CASE("combinations of the equations of motion are named") {
 }
 
 TEST_CASE("equations solved for accelerations are proved, and what is wrong in them found") {
-  const std::string solved =
-      left_sides(example("chapter_3_two_links.txt")) +
-      "for i = 1..2\n"
-      "  R[i] = -at(at(E[i], thetaddot_1, 0), thetaddot_2, 0)\n"
-      "end\n"
-      "M11 = (m_1/4 + m_2 + m_c)*l_1^2 + I_1\n"
-      "M12 = l_1*l_2*(m_2/2 + m_c)*cos(theta_1 - theta_2)\n"
-      "M22 = (m_2/4 + m_c)*l_2^2 + I_2\n";
-  const Checked right = checked(solved +
-                                "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
-                                "equation 2: (M11*R[2] - M12*R[1])/(M11*M22 - M12^2) = thetaddot_2\n");
+  const std::string solved = left_sides(example("chapter_3_two_links.txt")) +
+                             "for i = 1..2\n"
+                             "  R[i] = -at(at(E[i], thetaddot_1, 0), thetaddot_2, 0)\n"
+                             "end\n"
+                             "M11 = (m_1/4 + m_2 + m_c)*l_1^2 + I_1\n"
+                             "M12 = l_1*l_2*(m_2/2 + m_c)*cos(theta_1 - theta_2)\n"
+                             "M22 = (m_2/4 + m_c)*l_2^2 + I_2\n";
+  const Checked right =
+      checked(solved +
+              "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
+              "equation 2: (M11*R[2] - M12*R[1])/(M11*M22 - M12^2) = thetaddot_2\n");
   CHECK(right.of("thetaddot[1]").verdict == Verdict::kEqual);
   CHECK(right.of("thetaddot[1]").remark == "solved for thetaddot_1");
   CHECK(right.of("equation 2").verdict == Verdict::kEqual);
   CHECK(independent_equations(right.findings, 2) == 2);
 
-  const Checked wrong = checked(
-      solved + "R[2] = R[2] + 2*(m_2/2 + m_c)*g*l_2*sin(theta_2)\n"
-               "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
-               "thetaddot_2 = (M11*R[2] - M12*R[1])/(M11*M22 + M12^2)\n");
+  const Checked wrong = checked(solved +
+                                "R[2] = R[2] + 2*(m_2/2 + m_c)*g*l_2*sin(theta_2)\n"
+                                "thetaddot_1 = (M22*R[1] - M12*R[2])/(M11*M22 - M12^2)\n"
+                                "thetaddot_2 = (M11*R[2] - M12*R[1])/(M11*M22 + M12^2)\n");
   const Finding& gravity = wrong.of("thetaddot[1]");
   CHECK(gravity.verdict == Verdict::kDifferent);
   CHECK(gravity.origins == std::vector<std::string>{"gravity"});
@@ -144,7 +143,8 @@ TEST_CASE("equations solved for accelerations are proved, and what is wrong in t
   CHECK(wrong.of("thetaddot[2]").verdict == Verdict::kDifferent);
 }
 
-TEST_CASE("without torques an equation solved for an acceleration is proved by the matrix of inertia") {
+TEST_CASE(
+    "without torques an equation solved for an acceleration is proved by the matrix of inertia") {
   const Checked result = checked(
       "links 2\ngiven T_i = 0 for i = 1..2\ngiven k_i = 0 for i = 1..2\n"
       "given c_i = 0 for i = 1..2\n"
@@ -170,7 +170,8 @@ TEST_CASE("solved equations of four links in other clothes are not refused") {
            {cosine, "(1 - 2*sin((theta_i - theta_j)/2)^2)"},
            {cosine, "(cos(theta_i)*cos(theta_j) + sin(theta_i)*sin(theta_j))"},
            {sine, "cos(theta_i - theta_j)*tan(theta_i - theta_j)*thetadot_j*thetadot_j"},
-           {"links 4", "links 4\ngiven I_i = m_i*l_i^2/12 for i = 1..n\ngiven T_i = 0 for i = 1..n"},
+           {"links 4",
+            "links 4\ngiven I_i = m_i*l_i^2/12 for i = 1..n\ngiven T_i = 0 for i = 1..n"},
            // each acceleration by those after it, which stay symbols
            {"A[i,j]*a[j]", "A[i,j]*thetaddot[j]"},
            {"thetaddot[i] = a[i]", "equation i: (a[i] - thetaddot[i])*A[i,i]*exp(theta_1) = 0"}}) {
@@ -193,8 +194,7 @@ TEST_CASE("true equations that do not determine the motion are told") {
 
 TEST_CASE("what is given may stand in what else is given, in any order") {
   const std::string uniform = "given I_i = m_i*l_i^2/12 for i = 1..n\n";
-  const std::string equal_links =
-      "given l_i = l_1 for i = 2..n\ngiven m_i = m_1 for i = 2..n\n";
+  const std::string equal_links = "given l_i = l_1 for i = 2..n\ngiven m_i = m_1 for i = 2..n\n";
   for (const std::string& given : {uniform + equal_links, equal_links + uniform}) {
     const Checked result = checked("links 3\n" + given + "M[3,3] = (m_1/3 + m_c)*l_1^2");
     CHECK(result.of("M[3,3]").verdict == Verdict::kEqual);

@@ -27,8 +27,7 @@ TEST_CASE("naming keeps the value, whatever rational exponent and function of a 
     ExactEvaluation evaluation(definitions, [&](const std::string& name) {
       return name == "x" ? value_of_x : value_of_y;
     });
-    const ex expected =
-        expression.subs(GiNaC::lst{x == value_of_x, y == value_of_y}).evalf();
+    const ex expected = expression.subs(GiNaC::lst{x == value_of_x, y == value_of_y}).evalf();
     CHECK(GiNaC::abs(evaluation.of(named) - GiNaC::ex_to<numeric>(expected)).to_double() < 1e-14);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// With neutral values every built-in effect leaves the plain chain, and the proof notices where not.
+// With neutral values every built-in effect leaves the plain chain, and the proof notices where
+// not.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,9 +54,12 @@ TEST_CASE("a neutral value that is none is found") {
     std::string effect, parameter;
     double wrong;
   };
-  for (const Row& row : {Row{"load_drag", "coefficient", 0.5}, {"scale", "factor", 1.5},
-                         {"gravity_tilt", "tilt", 0.1}, {"joint_hysteresis", "moment", 1e-3},
-                         {"support_motion", "side_amplitude", 0.25}, {"load_mass", "correction", 1}}) {
+  for (const Row& row : {Row{"load_drag", "coefficient", 0.5},
+                         {"scale", "factor", 1.5},
+                         {"gravity_tilt", "tilt", 0.1},
+                         {"joint_hysteresis", "moment", 1e-3},
+                         {"support_motion", "side_amplitude", 0.25},
+                         {"load_mass", "correction", 1}}) {
     CAPTURE(row.effect);
     Effect effect = built_in_effect(row.effect);
     for (EffectParameter& parameter : effect.parameters) {

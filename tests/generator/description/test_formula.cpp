@@ -52,7 +52,9 @@ TEST_CASE("LaTeX keeps the meaning: parentheses where they are needed and only t
 TEST_CASE("MathML says the same and is balanced") {
   CHECK(torque("-a*joint_rate^2").mathml ==
         "<math><mi>&#964;</mi><mo>=</mo><mrow><mo>&#8722;</mo><mi mathvariant=\"normal\">a</mi>"
-        "</mrow><mo rspace=\"0.17em\">&#8290;</mo><msup><mrow><mover><mi>&#966;</mi><mo>&#729;</mo></mover></mrow>"
+        "</mrow><mo "
+        "rspace=\"0.17em\">&#8290;</mo><msup><mrow><mover><mi>&#966;</mi><mo>&#729;</mo></mover></"
+        "mrow>"
         "<mrow><mn>2</mn></mrow></msup></math>");
   for (const std::string& id : built_in_effect_ids()) {
     CAPTURE(id);

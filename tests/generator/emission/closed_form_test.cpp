@@ -19,32 +19,32 @@ using catena::Point;
 using GiNaC::ex;
 
 // What the functions of one namespace of emitted text give for symbols.
-#define CATENA_RUN_EMITTED(model)                                                     \
-  ChainInSymbols run_##model(const ChainSymbols& s) {                                 \
-    namespace m = catena::model;                                                      \
-    std::vector<ex> p;                                                                \
-    for (const auto* family :                                                         \
-         {&s.length, &s.mass, &s.inertia, &s.stiffness, &s.damping, &s.torque}) {     \
-      p.insert(p.end(), family->begin(), family->end());                              \
-    }                                                                                 \
-    p.push_back(s.load_mass);                                                         \
-    p.push_back(s.gravity);                                                           \
-    REQUIRE(p.size() == m::kParameters);                                              \
-    const Point<ex> at{0,       s.theta.data(), s.rate.data(), s.acceleration.data(), \
-                       nullptr, nullptr,        p.data()};                            \
-    const size_t n = m::kLinks;                                                       \
-    ChainInSymbols out;                                                               \
-    out.mass_matrix.resize(n* n);                                                     \
+#define CATENA_RUN_EMITTED(model)                                                                \
+  ChainInSymbols run_##model(const ChainSymbols& s) {                                            \
+    namespace m = catena::model;                                                                 \
+    std::vector<ex> p;                                                                           \
+    for (const auto* family :                                                                    \
+         {&s.length, &s.mass, &s.inertia, &s.stiffness, &s.damping, &s.torque}) {                \
+      p.insert(p.end(), family->begin(), family->end());                                         \
+    }                                                                                            \
+    p.push_back(s.load_mass);                                                                    \
+    p.push_back(s.gravity);                                                                      \
+    REQUIRE(p.size() == m::kParameters);                                                         \
+    const Point<ex> at{0,       s.theta.data(), s.rate.data(), s.acceleration.data(),            \
+                       nullptr, nullptr,        p.data()};                                       \
+    const size_t n = m::kLinks;                                                                  \
+    ChainInSymbols out;                                                                          \
+    out.mass_matrix.resize(n* n);                                                                \
     for (auto* term : {&out.coriolis, &out.gravity, &out.elastic, &out.friction, &out.torque}) { \
-      term->resize(n);                                                                \
-    }                                                                                 \
-    m::mass_matrix(at, out.mass_matrix.data());                                       \
-    m::term_coriolis(at, out.coriolis.data());                                        \
-    m::term_gravity(at, out.gravity.data());                                          \
-    m::term_elastic(at, out.elastic.data());                                          \
-    m::term_friction(at, out.friction.data());                                        \
-    m::term_torque(at, out.torque.data());                                            \
-    return out;                                                                       \
+      term->resize(n);                                                                           \
+    }                                                                                            \
+    m::mass_matrix(at, out.mass_matrix.data());                                                  \
+    m::term_coriolis(at, out.coriolis.data());                                                   \
+    m::term_gravity(at, out.gravity.data());                                                     \
+    m::term_elastic(at, out.elastic.data());                                                     \
+    m::term_friction(at, out.friction.data());                                                   \
+    m::term_torque(at, out.torque.data());                                                       \
+    return out;                                                                                  \
   }
 
 CATENA_RUN_EMITTED(chain_2)
@@ -61,8 +61,11 @@ struct Row {
 }  // namespace
 
 TEST_CASE("emitted text equals the closed form, entry by entry") {
-  for (const Row& row : {Row{2, run_chain_2}, {3, run_chain_3}, {4, run_chain_4},
-                         {12, run_chain_12}, {60, run_chain_60}}) {
+  for (const Row& row : {Row{2, run_chain_2},
+                         {3, run_chain_3},
+                         {4, run_chain_4},
+                         {12, run_chain_12},
+                         {60, run_chain_60}}) {
     CAPTURE(row.links);
     const ChainSymbols symbols(row.links);
     for (const catena::Proof& proof : compare_with_closed_form(symbols, row.run(symbols))) {

@@ -97,9 +97,11 @@ TEST_CASE("an effect stands with its formula and its generalised forces") {
   description.effects.push_back(built_in_effect("pivot_stiffness"));
   const std::string text = plain(latex_document(description, {2}));
   CHECK(text.find(plain(R"(V = \frac{\mathrm{change} \, \varphi^2}{2})")) != std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 \mathinner{\mathrm{change}})")) ==
+  CHECK(text.find(
+            plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \theta_1 \mathinner{\mathrm{change}})")) ==
         std::string::npos);
-  CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \mathinner{\mathrm{change}} \theta_1)")) !=
+  CHECK(text.find(
+            plain(R"(Q^{\mathrm{pivot\_stiffness}}_1 = - \mathinner{\mathrm{change}} \theta_1)")) !=
         std::string::npos);
   CHECK(text.find(plain(R"(Q^{\mathrm{pivot\_stiffness}}_2 = 0)")) != std::string::npos);
 }
@@ -178,7 +180,8 @@ TEST_CASE("every abbreviation is explained, once") {
     const std::string text = latex_document(description, {3});
     const auto count = [&](const std::string& what) {
       int found = 0;
-      for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+      for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++found;
       return found;
     };
     int k = 1;

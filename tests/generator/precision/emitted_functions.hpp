@@ -58,9 +58,8 @@ void add(Outputs<T>& outputs, const std::string& name, int size, const Function&
         [&](T* r) { m::velocities_tangent(at, along, r, other.data()); });                         \
     out.back().second.insert(out.back().second.end(), other.begin(), other.end());                 \
     add(out, "energy", m::table().energies, [&](T* r) { m::energy_tangent(at, along, r); });       \
-    add(out, "moments", n, [&](T* r) {                                                             \
-      m::internal_forces_tangent(at, along, r, other.data(), third.data());                        \
-    });                                                                                            \
+    add(out, "moments", n,                                                                         \
+        [&](T* r) { m::internal_forces_tangent(at, along, r, other.data(), third.data()); });      \
     out.emplace_back("tensions", std::vector<T>(other.begin(), other.begin() + n));                \
     out.emplace_back("curvatures", std::vector<T>(third.begin(), third.begin() + n));              \
     return out;                                                                                    \

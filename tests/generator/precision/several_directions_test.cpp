@@ -60,9 +60,12 @@ TEST_CASE("several directions at once have the bits of one at a time") {
       along.push_back(random_input(table, random));
       along.back().t = 0.25;  // of all directions
     }
-    const Several q = side_by_side(along, &Input<double>::q), v = side_by_side(along, &Input<double>::v),
-                  a = side_by_side(along, &Input<double>::a), z = side_by_side(along, &Input<double>::z),
-                  u = side_by_side(along, &Input<double>::u), p = side_by_side(along, &Input<double>::p);
+    const Several q = side_by_side(along, &Input<double>::q),
+                  v = side_by_side(along, &Input<double>::v),
+                  a = side_by_side(along, &Input<double>::a),
+                  z = side_by_side(along, &Input<double>::z),
+                  u = side_by_side(along, &Input<double>::u),
+                  p = side_by_side(along, &Input<double>::p);
     const catena_point at = c_point(input);
     const catena_point all{0.25, q.data(), v.data(), a.data(), z.data(), u.data(), p.data()};
 
