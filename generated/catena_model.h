@@ -76,22 +76,24 @@ typedef struct catena_model {
   const char* description_hash; /* SHA-256 of the canonical model description, hexadecimal */
 
   int32_t links;
-  int32_t coordinates;  /* length of q, v, a, r */
-  int32_t states;       /* length of z */
-  int32_t signals;      /* u has three times as many entries */
-  int32_t parameters;   /* length of p */
-  int32_t terms;        /* terms of r, each available alone; their sum is r */
-  int32_t energies;     /* length of the energy output */
-  int32_t uses_time;    /* 1 if t or a signal enters the equations */
-  int32_t observes;     /* 1 if a sensor effect changes what is observed */
-  int32_t structured;   /* 1: the Newton matrix is factored in O(links); 0: the entries newton_* are null */
-  int32_t newton_work;  /* doubles of work space for newton_factor and newton_solve */
+  int32_t coordinates; /* length of q, v, a, r */
+  int32_t states;      /* length of z */
+  int32_t signals;     /* u has three times as many entries */
+  int32_t parameters;  /* length of p */
+  int32_t terms;       /* terms of r, each available alone; their sum is r */
+  int32_t energies;    /* length of the energy output */
+  int32_t uses_time;   /* 1 if t or a signal enters the equations */
+  int32_t observes;    /* 1 if a sensor effect changes what is observed */
+  int32_t structured;  /* 1: the Newton matrix is factored in O(links); 0: the entries newton_* are
+                          null */
+  int32_t newton_work; /* doubles of work space for newton_factor and newton_solve */
 
   const catena_quantity* coordinate;
   const catena_quantity* state;
   const catena_quantity* signal;
   const catena_parameter* parameter;
-  const catena_quantity* term; /* "inertia", "coriolis", "gravity", "elastic", "friction", "torque", effects' ids */
+  const catena_quantity*
+      term; /* "inertia", "coriolis", "gravity", "elastic", "friction", "torque", effects' ids */
   const catena_energy* energy_item;
 
   /* r[coordinates] and its directional derivative */
@@ -109,24 +111,25 @@ typedef struct catena_model {
   /* a such that r = 0; at->a is not read. Returns 0, or the 1-based index of the coordinate whose
      pivot is not positive (M not positive definite): then a is not to be used. */
   int32_t (*acceleration)(const catena_point* at, double* a);
-  /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns 0,
-     or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
+  /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns
+     0, or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
      right-hand side, with the solution. Null unless structured. With extra states ca must be 1 and
      N has cv dr/dz (1 - cv dzdot/dz)^-1 (cv dzdot/dv + cq dzdot/dq) besides: z is eliminated. */
   int32_t (*newton_factor)(const catena_point* at, double ca, double cv, double cq, double* work);
   void (*newton_solve)(const double* work, double* x);
   /* energies and powers, energies entries in the order of energy_item */
   void (*energy)(const catena_point* at, double* e);
-  /* side[links + 2], down[links + 2]: the support (0), the far end of link i (i), the load (links + 1) */
+  /* side[links + 2], down[links + 2]: the support (0), the far end of link i (i), the load (links +
+   * 1) */
   void (*positions)(const catena_point* at, double* side, double* down);
   void (*positions_tangent)(const catena_point* at, const catena_point* along, double* dside,
                             double* ddown);
   /* velocities of the same points */
   void (*velocities)(const catena_point* at, double* side_rate, double* down_rate);
   /* per joint: moment[links] (N m, acting on link i from link i-1's side, positive towards +theta),
-     per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at joint i:
-     its change of angle over the distance between the middles of its links; at joint 1, the clamp,
-     over half of link 1 */
+     per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at
+     joint i: its change of angle over the distance between the middles of its links; at joint 1,
+     the clamp, over half of link 1 */
   void (*internal_forces)(const catena_point* at, double* moment, double* tension,
                           double* curvature);
   /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)
@@ -151,15 +154,15 @@ typedef struct catena_model {
   /* as newton_solve, with the transpose of N; null unless structured */
   void (*newton_solve_transposed)(const double* work, double* x);
   /* residual_tangent, state_rate_tangent and newton_solve for CATENA_DIRECTIONS directions or
-     right-hand sides at once: every array of `along`, dr, dzdot and x hold that many numbers for each
-     entry, one a direction, and are aligned to as many doubles; along->t is that of all. To the bit what
-     one at a time gives. Null in models emitted as C. */
+     right-hand sides at once: every array of `along`, dr, dzdot and x hold that many numbers for
+     each entry, one a direction, and are aligned to as many doubles; along->t is that of all. To
+     the bit what one at a time gives. Null in models emitted as C. */
   void (*residual_tangents)(const catena_point* at, const catena_point* along, double* dr);
   void (*state_rate_tangents)(const catena_point* at, const catena_point* along, double* dzdot);
   void (*newton_solves)(const double* work, double* x);
   /* As acceleration, for `sets` points at once, with the bits of one at a time: entry i of set k is
-     [i * sets + k] in q, v, z, u, p and a, each aligned to 8 * sets bytes; t is the same for all. The
-     processor decides on sets (8, 4, 2 or 1). */
+     [i * sets + k] in q, v, z, u, p and a, each aligned to 8 * sets bytes; t is the same for all.
+     The processor decides on sets (8, 4, 2 or 1). */
   int32_t (*accelerations)(const catena_point* at, double* a);
   int32_t sets;
 } catena_model;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Linear equations with a full, symmetric, positive definite matrix: for models whose mass matrix has
-// no structure to exploit.
+// Linear equations with a full, symmetric, positive definite matrix: for models whose mass matrix
+// has no structure to exploit.
 #pragma once
 
 #include "scalar.hpp"

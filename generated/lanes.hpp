@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Several numbers at once, one a lane: a scalar type for the emitted templates, with which one call
-// evaluates a model for as many parameter sets and states. Every lane gets the bits that the same text
-// gives for that set alone in double precision: the operations are the same, in the same order.
+// evaluates a model for as many parameter sets and states. Every lane gets the bits that the same
+// text gives for that set alone in double precision: the operations are the same, in the same
+// order.
 #pragma once
 
 #ifdef __GNUC__
@@ -15,8 +16,8 @@
 
 namespace catena {
 
-/// The compiler's vectors: two doubles fill a register of any x86-64 processor, four one of AVX2, eight
-/// one of AVX-512.
+/// The compiler's vectors: two doubles fill a register of any x86-64 processor, four one of AVX2,
+/// eight one of AVX-512.
 template <int count>
 struct LaneVectors;
 template <>
@@ -66,10 +67,17 @@ class Lanes {
   friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.values_ - b.values_); }
   friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.values_ * b.values_); }
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
+  friend Lanes operator*(double a, const Lanes& b) { return Lanes(a * b.values_); }
+  friend Lanes operator*(const Lanes& a, double b) { return Lanes(a.values_ * b); }
+  friend Lanes operator/(const Lanes& a, double b) { return Lanes(a.values_ / b); }
 
   /// Comparisons are of all lanes: a pivot is good if it is good in every set.
-  friend bool operator>(const Lanes& a, const Lanes& b) { return all_greater(a.values_, b.values_); }
-  friend bool operator<(const Lanes& a, const Lanes& b) { return all_greater(b.values_, a.values_); }
+  friend bool operator>(const Lanes& a, const Lanes& b) {
+    return all_greater(a.values_, b.values_);
+  }
+  friend bool operator<(const Lanes& a, const Lanes& b) {
+    return all_greater(b.values_, a.values_);
+  }
 
   friend void sine_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
     sine_cosine_of<Vector, Bits>(angle.values_, sine.values_, cosine.values_);

@@ -8,14 +8,14 @@
 //     A_ij = lower_row_i . lower_column_j + below_i       j = i - 1
 //     A_ij = lower_row_i . lower_column_j                 j < i - 1
 //
-// Elimination from the last row up. What is left of the matrix after the rows below j are gone is of
-// the same form, with the correction
+// Elimination from the last row up. What is left of the matrix after the rows below j are gone is
+// of the same form, with the correction
 //
 //     A_ik - upper_row_i . W lower_column_k  (and W's neighbours for row and column j alone),
 //
-// W an upper_rank x lower_rank matrix that each step updates by a rank-one term. No pivoting: stable
-// for positive definite matrices, as the mass matrix is, and for Newton matrices M + (small) that an
-// integrator's step size keeps near one.
+// W an upper_rank x lower_rank matrix that each step updates by a rank-one term. No pivoting:
+// stable for positive definite matrices, as the mass matrix is, and for Newton matrices M + (small)
+// that an integrator's step size keeps near one.
 #pragma once
 
 #include "scalar.hpp"
@@ -33,11 +33,12 @@ struct Quasiseparable {
   ///   diagonal      reciprocal pivots d
   ///   upper_column, lower_row      those of the triangular factors
   ///   upper_row, lower_row         each row times its d
-  ///   above_i, below_i             the neighbour's whole entry (semiseparable part included) times d_i
+  ///   above_i, below_i             the neighbour's whole entry (semiseparable part included) times
+  ///   d_i
   /// Returns 0, or the 1-based row whose pivot vanished.
   ///
-  /// The steps depend on each other through W, so that the time of a sweep is the latency of its longest
-  /// chain of operations: products that do not need W are formed apart from it.
+  /// The steps depend on each other through W, so that the time of a sweep is the latency of its
+  /// longest chain of operations: products that do not need W are formed apart from it.
   int factor() {
     T w[ru][rl], w_column[ru], w_row[rl], w_corner = T(0);
     for (int r = 0; r < ru; ++r) {
@@ -94,9 +95,9 @@ struct Quasiseparable {
     return 0;
   }
 
-  /// Overwrites x, the right-hand side, with the solution. The neighbour's value enters by above and
-  /// below; the sums `carried` hold what lies beyond it, so that a step waits for one product and one
-  /// difference. X is T, or holds several right-hand sides (directions.hpp).
+  /// Overwrites x, the right-hand side, with the solution. The neighbour's value enters by above
+  /// and below; the sums `carried` hold what lies beyond it, so that a step waits for one product
+  /// and one difference. X is T, or holds several right-hand sides (directions.hpp).
   template <class X>
   void solve(X* x) const {
     X carried[ru], sum[rl];

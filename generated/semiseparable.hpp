@@ -17,8 +17,8 @@ struct SymmetricSemiseparable {
   static constexpr int rr = rank > 0 ? rank : 1;
   T row[n][rr], column[n][rr], diagonal[n];
 
-  /// Overwrites x, the right-hand side, with the solution. Returns 0, or the 1-based row whose pivot
-  /// is not positive: then x is not to be used.
+  /// Overwrites x, the right-hand side, with the solution. Returns 0, or the 1-based row whose
+  /// pivot is not positive: then x is not to be used.
   int solve(T* x) const {
     if constexpr (n < 6)
       return solve_short(x);
@@ -123,8 +123,8 @@ struct SymmetricSemiseparable {
       for (int r = 0; r < rank; ++r) sum[r] += column[j][r] * x[j];
     }
 
-    // x = solved - scaled . from, and `from` grows by other x: with x put in, a step of `from` waits
-    // for one product and two sums.
+    // x = solved - scaled . from, and `from` grows by other x: with x put in, a step of `from`
+    // waits for one product and two sums.
     Both from[rr];
     for (int r = 0; r < rr; ++r) from[r] = Both{known[r], sum[r]};
 #pragma GCC unroll 6
@@ -169,7 +169,8 @@ struct SymmetricSemiseparable {
     return sum;
   }
 
-  // Entry r of the product of a symmetric matrix, of which the lower triangle is read, and a vector.
+  // Entry r of the product of a symmetric matrix, of which the lower triangle is read, and a
+  // vector.
   template <class Number>
   static Number product_with_row(const Number (&w)[rr][rr], int r, const Number* vector) {
     Number sum = w[r][0] * vector[0];
@@ -231,8 +232,8 @@ struct SymmetricSemiseparable {
   }
 
   // A few rows are solved faster as a full matrix, A = L D L' with D in the diagonal's place. Two
-  // columns at a time: the second pivot is (a b - c c) / a, so that its reciprocal need not wait for
-  // the first one's.
+  // columns at a time: the second pivot is (a b - c c) / a, so that its reciprocal need not wait
+  // for the first one's.
   int solve_short(T* right) const {
     T a[n][n], x[n], reciprocal[n];
 #pragma GCC unroll 8

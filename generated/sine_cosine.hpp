@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Sine and cosine of one angle together, without branches, tables or library calls: loops over angles
-// vectorise, and every number of lanes gives the same bits (no fused multiply-add: compile with
-// -ffp-contract=off).
+// Sine and cosine of one angle together, without branches, tables or library calls: loops over
+// angles vectorise, and every number of lanes gives the same bits (no fused multiply-add: compile
+// with -ffp-contract=off).
 //
-// x = k pi/2 + r, |r| <= pi/4, with pi/2 in three parts and the rounding of r carried along in `rest`
-// (Cody and Waite); the polynomials in r^2 interpolate (sin r / r - 1) / r^2 and
-// (cos r - 1 + r^2/2) / r^4 at Chebyshev nodes, and are summed in pairs so that few steps wait for one
-// another. The error is below 0.8 units in the last place up to |x| = 1.6e6; beyond that it grows as if
-// x had been rounded. From 2^31 rad the result is NaN, as it is for infinities and NaN.
+// x = k pi/2 + r, |r| <= pi/4, with pi/2 in three parts and the rounding of r carried along in
+// `rest` (Cody and Waite); the polynomials in r^2 interpolate (sin r / r - 1) / r^2 and (cos r - 1
+// + r^2/2) / r^4 at Chebyshev nodes, and are summed in pairs so that few steps wait for one
+// another. The error is below 0.8 units in the last place up to |x| = 1.6e6; beyond that it grows
+// as if x had been rounded. From 2^31 rad the result is NaN, as it is for infinities and NaN.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace catena {
 
-/// Real: double or a vector of doubles; Bits: std::uint64_t or a vector of as many. (std::bit_cast would
-/// return a vector from a function, of which compilers warn.)
+/// Real: double or a vector of doubles; Bits: std::uint64_t or a vector of as many. (std::bit_cast
+/// would return a vector from a function, of which compilers warn.)
 template <class Real, class Bits>
 inline void sine_cosine_of(const Real& x, Real& sine, Real& cosine) {
   constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
