@@ -17,6 +17,8 @@ using GiNaC::ex;
 using GiNaC::numeric;
 using Values = std::vector<double>;
 
+constexpr double kGrowth = 10;  // of a Newton matrix's entries in elimination; no bound holds above
+
 constexpr int kDigits = 50;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 
@@ -204,7 +206,11 @@ class Measurement {
   void newton(std::mt19937_64& generator) {
     if (!table_.structured) return;
     const int n = table_.coordinates;
-    const double ca = 1.0, cv = 0.5 + static_cast<double>(generator() % 64), cq = cv * cv;
+    double cv = 0.5 + static_cast<double>(generator() % 64);
+    Values matrix = newton_matrix(cv);
+    // As an integrator, which takes a shorter step where N has no good pivots; with cv = 0 it is M.
+    for (; elimination_growth(matrix) > kGrowth; matrix = newton_matrix(cv)) cv /= 2;
+    const double ca = 1.0, cq = cv * cv, size_of_matrix = largest(matrix);
     Values work(at(table_.newton_work)), x(at(n));
     const catena_point here = point_.at();
     if (table_.newton_factor(&here, ca, cv, cq, work.data()) != 0) {
@@ -226,18 +232,6 @@ class Measurement {
     eliminate_states(along, cv);
     ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, along, step_));
     ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, along, -step_));
-    // |N|: its largest entry, column by column
-    double size_of_matrix = 0;
-    Values column(at(n));
-    for (int j = 0; j < n; ++j) {
-      RandomPoint unit = along;
-      for (auto* list : {&unit.q, &unit.v, &unit.a}) std::fill(list->begin(), list->end(), 0.0);
-      unit.q[at(j)] = cq, unit.v[at(j)] = cv, unit.a[at(j)] = ca;
-      eliminate_states(unit, cv);
-      const catena_point along_unit = unit.at();
-      table_.residual_tangent(&here, &along_unit, column.data());
-      size_of_matrix = std::max(size_of_matrix, largest(column));
-    }
     // y of N'y = left has y.(N x) = left.x.
     const Values left = direction_.v;
     Values y = left;
@@ -252,6 +246,42 @@ class Measurement {
     }
     note("newton_solve_transposed", transposed.to_double(),
          size_of_matrix * size_of_x * largest(y));
+  }
+
+  // N with ca = 1 and cq = cv^2, column by column
+  Values newton_matrix(double cv) {
+    const int n = table_.coordinates;
+    Values matrix(at(n * n));
+    const catena_point here = point_.at();
+    for (int j = 0; j < n; ++j) {
+      RandomPoint unit = direction_;
+      unit.t = 0;
+      for (auto* list : {&unit.q, &unit.v, &unit.a, &unit.z, &unit.u, &unit.p})
+        std::fill(list->begin(), list->end(), 0.0);
+      unit.q[at(j)] = cv * cv, unit.v[at(j)] = cv, unit.a[at(j)] = 1;
+      eliminate_states(unit, cv);
+      const catena_point along_unit = unit.at();
+      table_.residual_tangent(&here, &along_unit, matrix.data() + j * n);
+    }
+    return matrix;
+  }
+
+  // By how much the entries grow as rows are eliminated from the last up, without exchanges.
+  static double elimination_growth(Values matrix) {
+    const double before = largest(matrix);
+    const auto n = static_cast<int>(std::lround(std::sqrt(matrix.size())));
+    double met = before;
+    for (int j = n - 1; j > 0; --j) {
+      for (int k = 0; k < j; ++k) {
+        const double factor = matrix[at(k * n + j)] / matrix[at(j * n + j)];
+        for (int i = 0; i < j; ++i) {
+          double& entry = matrix[at(k * n + i)];
+          entry -= factor * matrix[at(j * n + i)];
+          met = std::max(met, std::abs(entry));
+        }
+      }
+    }
+    return met / before;
   }
 
   // along.z as the rest of `along` moves it in N: cv (1 - cv df/dz)^-1 (df/dv dv + df/dq dq)

@@ -7,7 +7,8 @@
 //   residual, bias, residual_tangent   the largest sum of the sizes of r's terms over its rows
 //   mass_matrix                        its largest entry
 //   acceleration                       backward: |r(a)| over the same size, a the one returned
-//   newton_solve                       backward: |N x - b| over |N| |x|; its transpose likewise
+//   newton_solve                       backward: |N x - b| over |N| |x|; its transpose likewise;
+//                                      the step as short as elimination without exchanges asks for
 //   residual_adjoint                   along a direction, over the sizes of what is added up there
 //   energy                             for each stored energy the sum of the sizes of its parts
 //   power                              the sum of the sizes of all powers, v.r included

@@ -132,11 +132,17 @@ Json hashes(const std::string& model, const EmittedFiles& files) {
   return result;
 }
 
+// What the 50 digits themselves leave (near 1e-62) depends on the order of a sum, which is not the
+// same in every run.
+constexpr double kExact = 1e-9;
+
 Json worst(const std::vector<FunctionAccuracy>& accuracies) {
   Json result;
   for (const FunctionAccuracy& accuracy : accuracies) {
     // NaN has no place in JSON; an error that cannot be stated is infinite.
-    result[accuracy.function] = std::isfinite(accuracy.worst) ? rounded(accuracy.worst) : 1e300;
+    result[accuracy.function] = !std::isfinite(accuracy.worst) ? 1e300
+                                : accuracy.worst < kExact      ? 0.0
+                                                               : rounded(accuracy.worst);
   }
   return result;
 }
