@@ -24,6 +24,7 @@ constexpr double kFarGap = 4;        // times the noise: the linear score may ra
 constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
+constexpr double kWrongLaw = 0.005;  // of the same: more than a law slightly wrong leaves of it
 constexpr double kNotWorse =
     1.05;  // held-out error of a better model, over that of the present one
 constexpr std::size_t kTriedWithMoreLinks = 3, kFirstsOfPairs = 4;
@@ -44,7 +45,7 @@ class Physician {
     look_ahead_and_back();
     // One after the other two effects may both be missed: neither is worth much alone, or a third
     // imitates both.
-    if (!explained() && add_pair()) look_ahead_and_back();
+    if ((!explained() || one_may_imitate_two()) && add_pair()) look_ahead_and_back();
     conclude(result_, study, workshop_);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -90,6 +91,13 @@ class Physician {
     return !gap_left(stage()) ||
            (stage().fit.ratio() <= kClosed && !only_imitated(result_.stages, stage().fit) &&
             (stage().held_out.count == 0 || stage().held_out.ratio() <= kClosedHeldOut));
+  }
+
+  /// One effect closes the gap but leaves more of a trace than a law slightly wrong would.
+  bool one_may_imitate_two() {
+    return stage().effects.size() == 1 && stage().fit.ratio() > kVisible && trace_left(stage()) &&
+           std::pow(stage().fit.misfit, 2) >
+               kWrongLaw * std::pow(misfit_without_effects(result_.stages), 2);
   }
 
   void look_ahead_and_back() {
@@ -184,18 +192,17 @@ class Physician {
   };
 
   /// Two effects at once: each of those that left least when no effect was there yet, and what is
-  /// best beside it. Enters the best such pair if it leaves less than what there is, predicts what
-  /// no fit has seen as well, and neither of the two is needless.
+  /// best beside it. Enters the best such pair if it leaves less than what there is (as the data
+  /// decide, where that closes the gap), predicts what no fit has seen as well, and neither of the
+  /// two is needless.
   bool add_pair() {
     if (options_.max_effects < 2) return false;
-    std::size_t bare = result_.stages.size() - 1;
-    while (!result_.stages[bare].effects.empty()) --bare;
-    const Stage base = result_.stages[bare];
-    std::vector<Pair> pairs = pairs_on(base);
+    std::vector<Pair> pairs = pairs_on(without_effects());
     const Pair* best = nullptr;
     for (const Pair& pair : pairs)
       if (!best || squares(pair.best()) < squares(best->best())) best = &pair;
     if (!best || squares(best->best()) >= squares(stage().model)) return false;
+    if (explained() && !decide(best->best(), stage().model, result_.floors).decided) return false;
     const GapTest held_out = held_out_gap(best->best(), result_.floors);
     if (held_out.count > 0 && held_out.rms > kNotWorse * stage().held_out.rms) return false;
     enter(best->first.model, {best->first.id}, best->first.id, listed_ids(stage().effects));
@@ -204,6 +211,20 @@ class Physician {
     if (best->finer.ok) enter(best->finer, stage().effects, kTooFewLinks);
     result_.effects = stage().effects;
     return true;
+  }
+
+  /// The last stage without effects; one made for it where more links were taken since. (With too
+  /// few links pairs are sought that imitate more of them.)
+  Stage without_effects() {
+    std::size_t bare = result_.stages.size() - 1;
+    while (!result_.stages[bare].effects.empty()) --bare;
+    if (result_.stages[bare].links >= stage().links) return result_.stages[bare];
+    Stage finer;
+    finer.links = stage().links;
+    finer.model = refitted_with_links(result_.stages[bare].model, finer.links, {}, workshop_);
+    if (!finer.model.ok) return result_.stages[bare];
+    finer.explanations = look(finer.model, {});
+    return finer;
   }
 
   /// The best pairs on a model without effects that chance does not explain, without those that
@@ -341,10 +362,8 @@ class Physician {
   /// Beside a large effect, what its law gets slightly wrong leaves a trace that others fit a
   /// little.
   bool more_than_a_detail(const Comparison& comparison) {
-    double before = 0;
-    for (const Stage& each : result_.stages)
-      if (each.effects.empty()) before = each.fit.misfit;
-    return comparison.misfit_removed > kDetail * before * before;
+    return comparison.misfit_removed >
+           kDetail * std::pow(misfit_without_effects(result_.stages), 2);
   }
 
   /// Predicts what no fit has seen at least as well as the present model does.

@@ -11,7 +11,6 @@ namespace {
 constexpr double kTrace = 0.15;           // of the noise
 constexpr double kTraceSignificance = 4;  // deviations
 constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothing is called missing
-constexpr double kVisible = 1.07;         // residual over noise above which what is left counts
 constexpr double kImitated = 0.02;        // of the squared misfit before the first effect
 
 }  // namespace
@@ -31,11 +30,16 @@ bool trace_left(const Stage& stage) {
   return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
 }
 
-bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
-  double before = 0;
+double misfit_without_effects(const std::vector<Stage>& stages) {
+  double misfit = 0;
   for (const Stage& stage : stages)
-    if (stage.effects.empty()) before = stage.fit.misfit;
-  return last.ratio() > kVisible && std::pow(last.misfit, 2) > kImitated * std::pow(before, 2);
+    if (stage.effects.empty()) misfit = stage.fit.misfit;
+  return misfit;
+}
+
+bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
+  return last.ratio() > kVisible &&
+         std::pow(last.misfit, 2) > kImitated * std::pow(misfit_without_effects(stages), 2);
 }
 
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {

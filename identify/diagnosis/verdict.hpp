@@ -7,11 +7,15 @@ namespace catena {
 
 inline constexpr double kClosed = 1.2;          ///< a gap is, below this many times the noise
 inline constexpr double kClosedHeldOut = 1.35;  ///< the same where it was not fitted
+inline constexpr double kVisible = 1.07;        ///< times the noise: more than noise is left
 
 /// A gap where it was fitted, or in what the fit has not seen.
 bool gap_left(const Stage& stage);
 /// Too little for an effect to be sought, but not there by chance.
 bool trace_left(const Stage& stage);
+
+/// Misfit of the last stage that had no effect; 0 if none had.
+double misfit_without_effects(const std::vector<Stage>& stages);
 
 /// Effects that only imitate what is missing leave a visible part of the gap that they were added
 /// for (7 % above the noise, 2 % of the squared misfit before the first of them); the right ones
