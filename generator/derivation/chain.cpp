@@ -263,11 +263,16 @@ void Chain::add_dissipation(const std::string& item, const ex& function) {
   add_energy(item, EnergyItem::kDissipated, power);
 }
 
-// Virtual work: force times the variation of the variable
-void Chain::add_force(const std::string& item, const ex& variable, const ex& force) {
-  if (force.is_zero()) return;
-  add_covector(variable, -force);
-  add_energy(item, EnergyItem::kSupplied, force * time_.of(variable));
+// Virtual work: forces times the variations of their variables. Their powers are one part of the
+// energy, so that a link has one, not as many as a force has components: sums over links are loops.
+void Chain::add_force(const std::string& item, const std::vector<Component>& components) {
+  ex power = 0;
+  for (const auto& [variable, force] : components) {
+    if (force.is_zero()) continue;
+    add_covector(variable, -force);
+    power += force * time_.of(variable);
+  }
+  if (!power.is_zero()) add_energy(item, EnergyItem::kSupplied, power);
 }
 
 void Chain::add_chain_terms() {
@@ -292,7 +297,7 @@ void Chain::add_chain_terms() {
       const ex rate = time_.of(joint_angle_[k]);
       add_dissipation("joint_damping", kHalf * damping_[k] * rate * rate);
     }
-    if (wanted("torque")) add_force("torque", theta_[k], torque_[k]);
+    if (wanted("torque")) add_force("torque", {{theta_[k], torque_[k]}});
   }
   if (wanted("kinetic")) {
     const ex v_side = time_.of(load_side_), v_down = time_.of(load_down_);

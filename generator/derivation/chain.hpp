@@ -93,7 +93,10 @@ class Chain {
   void add_kinetic(const std::string& item, const ex& energy);
   void add_potential(const std::string& item, const ex& energy);
   void add_dissipation(const std::string& item, const ex& function);
-  void add_force(const std::string& item, const ex& variable, const ex& force);
+  struct Component {
+    ex variable, force;
+  };
+  void add_force(const std::string& item, const std::vector<Component>& components);
   void add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part);
   void add_covector(const ex& variable, const ex& covector);
   ex spacing(Link i) const;

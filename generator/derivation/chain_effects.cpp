@@ -155,8 +155,14 @@ void Chain::add_effect_terms(const Effect& effect) {
         down += -normal * sine_[link] + tangential * cosine_[link];
       }
       const bool centre = force.at == Place::kLinkCentre, load = force.at == Place::kLoad;
-      add_force(effect.id, centre ? middle_side_[i] : load ? load_side_ : joint_side_[i - 1], side);
-      add_force(effect.id, centre ? middle_down_[i] : load ? load_down_ : joint_down_[i - 1], down);
+      add_force(effect.id, {{centre ? middle_side_[i]
+                             : load ? load_side_
+                                    : joint_side_[i - 1],
+                             side},
+                            {centre ? middle_down_[i]
+                             : load ? load_down_
+                                    : joint_down_[i - 1],
+                             down}});
     });
   }
   for (const ScalarTerm& term : effect.scalars) {
@@ -169,8 +175,8 @@ void Chain::add_effect_terms(const Effect& effect) {
       };
       switch (term.kind) {
         case ScalarKind::kTorque:
-          add_force(effect.id, joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
-                    name_of("torque", value("N m", "N"), i));
+          add_force(effect.id, {{joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
+                                 name_of("torque", value("N m", "N"), i)}});
           break;
         case ScalarKind::kPotential:
           add_potential(effect.id, value("J", "J/m"));
