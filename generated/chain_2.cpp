@@ -56,13 +56,14 @@ static const catena_energy kEnergyTable[] = {
     {"torque", CATENA_SUPPLIED},
 };
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both give
-// the same bits.
+#if !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__)
+#define CATENA_EACH_PROCESSOR
+#elif defined(__x86_64__) && !defined(__AVX2__)
+// Compiled twice, for AVX2 where the processor has it; the bits are the same.
 #define CATENA_PROCESSORS
 #define CATENA_EACH_PROCESSOR __attribute__((target_clones("avx2", "default"), flatten))
 #else
-#define CATENA_EACH_PROCESSOR
+#define CATENA_EACH_PROCESSOR __attribute__((flatten))
 #endif
 
 Point<double> point(const catena_point* p) {
@@ -164,8 +165,17 @@ int32_t c_accelerations(const catena_point* at, double* a) {
   return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);
 }
 #elif defined(__GNUC__)
-int32_t sets_at_once() { return 2; }
-int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); }
+#if defined(__AVX512F__)
+constexpr int kSets = 8;
+#elif defined(__AVX2__)
+constexpr int kSets = 4;
+#else
+constexpr int kSets = 2;
+#endif
+int32_t sets_at_once() { return kSets; }
+CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {
+  return several<kSets>(at, a);
+}
 #else
 int32_t sets_at_once() { return 1; }
 int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, a); }

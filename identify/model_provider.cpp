@@ -29,6 +29,14 @@ fs::path cache_directory(const ProviderOptions& options) {
   return fs::temp_directory_path() / "catena-cache";
 }
 
+bool has_avx2() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  return __builtin_cpu_supports("avx2");
+#else
+  return false;
+#endif
+}
+
 bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 0; }
 
 fs::path find_in_path(const std::string& name) {
@@ -135,8 +143,10 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       options.derive_program.empty() ? find_derive_program() : options.derive_program;
   std::string compiler = options.compiler;
   if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
-  const std::vector<std::string> flags = {
+  std::vector<std::string> flags = {
       "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
+  // For this processor alone takes the compiler half the time.
+  if (has_avx2()) flags.push_back("-mavx2");
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         identity_of(derive) + "\n" + "interface " +
                         std::to_string(CATENA_MODEL_ABI) + ", " +

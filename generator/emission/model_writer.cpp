@@ -124,9 +124,16 @@ std::string several_at_once_text(const std::string& accelerations) {
          "  static const int32_t sets = sets_at_once();\n"
          "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"
          "#elif defined(__GNUC__)\n"
-         "int32_t sets_at_once() { return 2; }\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) { return several<2>(at, a); "
-         "}\n"
+         "#if defined(__AVX512F__)\n"
+         "constexpr int kSets = 8;\n"
+         "#elif defined(__AVX2__)\n"
+         "constexpr int kSets = 4;\n"
+         "#else\n"
+         "constexpr int kSets = 2;\n"
+         "#endif\n"
+         "int32_t sets_at_once() { return kSets; }\n"
+         "CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {\n"
+         "  return several<kSets>(at, a);\n}\n"
          "#else\n"
          "int32_t sets_at_once() { return 1; }\n"
          "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, "
@@ -142,15 +149,17 @@ std::string source_text(const Description& description, const ModelFunctions& fu
       << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::"
       << s.name << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
-  out << "#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && "
-         "!defined(__SANITIZE_ADDRESS__)\n"
-         "// Compiled twice, for AVX2 where the processor has it. Without fused multiply-adds both "
-         "give\n"
-         "// the same bits.\n"
+  // Without fused multiply-adds, which -ffp-contract=off forbids, all give the same bits.
+  out << "#if !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__)\n"
+         "#define CATENA_EACH_PROCESSOR\n"
+         "#elif defined(__x86_64__) && !defined(__AVX2__)\n"
+         "// Compiled twice, for AVX2 where the processor has it; the bits are the same.\n"
          "#define CATENA_PROCESSORS\n"
          "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), "
          "flatten))\n"
-         "#else\n#define CATENA_EACH_PROCESSOR\n#endif\n\n";
+         "#else\n"
+         "#define CATENA_EACH_PROCESSOR __attribute__((flatten))\n"
+         "#endif\n\n";
   out << "Point<double> point(const catena_point* p) {\n"
          "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
   for (const EmittedFunction& function : functions.functions) {
