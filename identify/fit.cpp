@@ -123,9 +123,6 @@ bool finished(const FitResult& result) {
   return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
 }
 
-/// A beginning only gives the next a start: its minimum need not be found more closely.
-constexpr double kBeginningTolerance = 1e-2;
-
 /// What came before counts too; errors of shorter windows are no errors of the whole.
 void add_effort(FitResult& total, const FitResult& before) {
   total.evaluations += before.evaluations;
@@ -137,12 +134,36 @@ void add_effort(FitResult& total, const FitResult& before) {
   total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
 }
 
+/// A beginning only gives the next a start: its minimum need not be found more closely.
+constexpr double kBeginningTolerance = 1e-2, kRoughBeginningTolerance = 0.1;
+
+FitResult fit_beginning(const Problem& problem, const FitOptions& options,
+                        const LeastSquares& least_squares) {
+  const double tolerance = std::max(kBeginningTolerance, problem.study().optimiser.tolerance);
+  const Problem beginning = problem.with_tolerance(tolerance);
+  if (!starts_roughly(problem)) return fit_once(beginning, options, least_squares);
+  FitResult rough =
+      fit_once(problem.rough().with_tolerance(kRoughBeginningTolerance), options, least_squares);
+  if (rough.status != FitStatus::kFailed) return rough;
+  FitResult result = fit_once(beginning, options, least_squares);  // it may have failed as rough
+  add_effort(result, rough);
+  return result;
+}
+
 }  // namespace
 
 const char* strategy_of(const Problem& problem) {
   if (problem.joined()) return "multiple shooting";
   if (problem.experiments().size() > problem.study().experiments.size()) return "separate windows";
   return problem.study().optimiser.growing_windows.empty() ? "whole" : "growing windows";
+}
+
+bool starts_roughly(const Problem& problem) {
+  const Case& study = problem.study();
+  const bool squares =
+      study.error.measure == Measure::kLeastSquares || study.error.measure == Measure::kLikelihood;
+  return study.optimiser.method == FitMethod::kLeastSquares && !squares &&
+         problem.finer_than_rough();
 }
 
 void check_fittable(const Problem& problem) {
@@ -168,9 +189,7 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   next.record = nullptr;
   FitResult before;
   for (const double seconds : spec.growing_windows) {
-    const Problem beginning =
-        problem.shortened(seconds).with_tolerance(std::max(kBeginningTolerance, spec.tolerance));
-    FitResult shorter = fit_once(beginning, next, least_squares);
+    FitResult shorter = fit_beginning(problem.shortened(seconds), next, least_squares);
     add_effort(shorter, before);
     if (!finished(shorter)) return shorter;
     next.start = shorter.x;
@@ -188,7 +207,7 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   next.record = options.record;
   FitResult result = fit_once(problem, next, least_squares);
   add_effort(result, before);
-  if (!spec.growing_windows.empty() || problem.joined()) {
+  if (!spec.growing_windows.empty() || problem.joined() || starts_roughly(problem)) {
     const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
     result.start_error = error_of(problem, evaluate(problem, start, false, false), Part::kFit);
   }

@@ -77,6 +77,10 @@ using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>
 /// for least squares without a solver.
 FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
 
+/// Whether a fit is by least squares on distances and begins with rough simulations of the problem
+/// (Problem::rough), whose minimum is where the fit proper starts.
+bool starts_roughly(const Problem& problem);
+
 /// How a recording is taken: "whole", "growing windows", "separate windows", "multiple shooting".
 const char* strategy_of(const Problem& problem);
 

@@ -25,6 +25,7 @@ FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int ma
   result_.x = options.start.size() ? options.start : problem.start();
   result_.error = kInfinite;
   result_.start_error = kInfinite;
+  roughly_best_.error = kInfinite;
   cpu_begin_ = cpu_now();
 }
 
@@ -32,24 +33,37 @@ double FitJournal::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-bool FitJournal::must_stop() {
+bool FitJournal::must_stop(int reserved) {
   if (options_.stop && options_.stop->load())
     why_ = FitStatus::kInterrupted;
   else if (options_.time_limit > 0 && seconds() > options_.time_limit)
     why_ = FitStatus::kTimeLimit;
-  else if (result_.evaluations >= limit_)
+  else if (result_.evaluations + reserved >= limit_)
     why_ = FitStatus::kEvaluationLimit;
   else
     return false;
   return true;
 }
 
-void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string& message,
-                      bool jacobian) {
-  // A simulation that was stopped is no failure: nothing is known about these unknowns.
-  if (!std::isfinite(error) && must_stop() && why_ != FitStatus::kEvaluationLimit) return;
+/// A simulation that was stopped is no failure: nothing is known about these unknowns.
+bool FitJournal::was_stopped(double error) {
+  return !std::isfinite(error) && must_stop() && why_ != FitStatus::kEvaluationLimit;
+}
+
+void FitJournal::note_failure(const Eigen::VectorXd& x, const std::string& message) {
+  ++result_.failures;
+  if (result_.failed.size() < kFailuresKept) result_.failed.push_back({x, message});
+}
+
+void FitJournal::count_evaluation(const Eigen::VectorXd& x, bool jacobian) {
   ++result_.evaluations;
   result_.work += jacobian ? 1 + static_cast<double>(x.size()) : 1;
+}
+
+void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string& message,
+                      bool jacobian) {
+  if (was_stopped(error)) return;
+  count_evaluation(x, jacobian);
   if (result_.history.empty()) result_.start_error = error;
   result_.history.push_back({error, x, message});
   if (options_.record) options_.record(result_.history.back());
@@ -59,8 +73,7 @@ void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string&
       result_.x = x;
     }
   } else {
-    ++result_.failures;
-    if (result_.failed.size() < kFailuresKept) result_.failed.push_back({x, message});
+    note_failure(x, message);
   }
   if (options_.progress) options_.progress({result_.evaluations, limit_, result_.error});
 }
@@ -75,18 +88,40 @@ double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient)
   return evaluate_residuals(x, false).error;
 }
 
-Misfit FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
+Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
+                             std::string& message) {
   const auto keep_going = [this] {
     return !(options_.stop && options_.stop->load()) &&
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };
-  const Evaluation evaluation = catena::evaluate(problem_, x, false, jacobian, keep_going);
-  Misfit misfit = misfit_of(problem_, evaluation);
-  note(x, misfit.error, evaluation.message, jacobian);
+  const Evaluation evaluation = catena::evaluate(problem, x, false, jacobian, keep_going);
+  message = evaluation.message;
+  return misfit_of(problem, evaluation);
+}
+
+Misfit FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
+  std::string message;
+  Misfit misfit = misfit_at(problem_, x, jacobian, message);
+  note(x, misfit.error, message, jacobian);
+  return misfit;
+}
+
+Misfit FitJournal::evaluate_roughly(const Problem& rough, const Eigen::VectorXd& x, bool jacobian) {
+  std::string message;
+  Misfit misfit = misfit_at(rough, x, jacobian, message);
+  if (was_stopped(misfit.error)) return misfit;
+  count_evaluation(x, jacobian);
+  if (!misfit.ok) note_failure(x, message);
+  if (misfit.error < roughly_best_.error) roughly_best_ = {misfit.error, x, ""};
+  if (options_.progress) options_.progress({result_.evaluations, limit_, roughly_best_.error});
   return misfit;
 }
 
 FitResult FitJournal::result(FitStatus status, const std::string& message) {
+  if (!std::isfinite(result_.error) && std::isfinite(roughly_best_.error)) {
+    result_.error = roughly_best_.error;
+    result_.x = roughly_best_.x;
+  }
   result_.status = std::isfinite(result_.error) || status == FitStatus::kInterrupted ||
                            status == FitStatus::kTimeLimit
                        ? status

@@ -364,6 +364,52 @@ Problem Problem::with_tolerance(double tolerance) const {
   return other;
 }
 
+namespace {
+
+constexpr double kRoughTolerance = 1e-4;         // of simulations
+constexpr double kRoughlyThere = 1e-2;           // of the optimiser
+constexpr Eigen::Index kRoughFrames = 100;       // are kept of an experiment that has more,
+constexpr Eigen::Index kValuesPerUnknown = 100;  // and at least so many numbers of all
+
+}  // namespace
+
+bool Problem::finer_than_rough() const {
+  return study_.simulation.relative_tolerance <= kRoughTolerance / 10 &&
+         study_.optimiser.tolerance < kRoughlyThere;
+}
+
+Problem Problem::rough() const {
+  Problem other = with_tolerance(std::max(kRoughlyThere, study_.optimiser.tolerance));
+  SimulationSpec& simulation = other.study_.simulation;
+  const double coarser = std::max(1.0, kRoughTolerance / simulation.relative_tolerance);
+  simulation.relative_tolerance *= coarser;
+  simulation.absolute_tolerance_position *= coarser;
+  simulation.absolute_tolerance_velocity *= coarser;
+  Eigen::Index values = 0;
+  for (const Experiment& experiment : experiments_)
+    if (experiment.fitted())
+      values += experiment.recording.fit_frames *
+                static_cast<Eigen::Index>(experiment.recording.channels.size());
+  const Eigen::Index enough = kValuesPerUnknown * static_cast<Eigen::Index>(unknowns_.size());
+  for (Experiment& experiment : other.experiments_) {
+    if (!experiment.fitted()) continue;
+    Recording& recording = experiment.recording;
+    const Eigen::Index every =
+        std::min(recording.fit_frames / kRoughFrames, values / std::max<Eigen::Index>(enough, 1));
+    if (every < 2) continue;
+    const Eigen::Index kept = (recording.fit_frames + every - 1) / every;
+    for (Eigen::Index k = 0; k < kept; ++k) {
+      recording.time[static_cast<std::size_t>(k)] =
+          recording.time[static_cast<std::size_t>(every * k)];
+      recording.measured.col(k) = recording.measured.col(every * k).eval();
+    }
+    recording.time.resize(static_cast<std::size_t>(kept));
+    recording.measured.conservativeResize(Eigen::NoChange, kept);
+    recording.fit_frames = kept;
+  }
+  return other;
+}
+
 Problem Problem::fixed(int unknown, double value) const {
   Problem other = *this;
   const int parameter = unknowns_[static_cast<std::size_t>(unknown)].parameter;

@@ -109,6 +109,12 @@ class Problem {
   Problem shortened(double seconds) const;
   /// The same, the optimiser's tolerance another.
   Problem with_tolerance(double tolerance) const;
+  /// The same as closely as the way to a minimum needs it, for a start of the fit proper: simulated
+  /// with a relative tolerance of 1e-4 (absolute ones in proportion), every so many frames only,
+  /// the optimiser's tolerance 1e-2.
+  Problem rough() const;
+  /// rough() costs much less.
+  bool finer_than_rough() const;
   /// The same problem with one unknown of the physics at a value, no longer free.
   Problem fixed(int unknown, double value) const;
   /// The same problem with other measurements: one matrix (channels x frames) per experiment.

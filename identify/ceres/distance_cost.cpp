@@ -2,7 +2,9 @@
 #include "identify/ceres/distance_cost.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace catena {
 namespace {
@@ -12,77 +14,116 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kStillFar = 0.5;       // the error fell by more than this share of itself
-constexpr double kNear = 1e-3;          // the error fell by less
-constexpr double kNarrower = 0.3;       // the width is, then
+constexpr double kWidth = 0.3;          // of the mean distance: kinks smoothed for a curvature
+constexpr std::size_t kKinks = 70;      // of each unknown, at least, if they are smoothed alone
 constexpr double kNoCurvature = 1e-14;  // of the largest, unknowns scaled alike: rounding
 
 }  // namespace
 
-DistanceCost::DistanceCost(const SimulatedResiduals& simulated, std::vector<Term> terms,
-                           double offset, const VectorXd& reach)
-    : simulated_(simulated), terms_(std::move(terms)), offset_(offset), reach_(reach) {
-  const int unknowns = static_cast<int>(reach.size());
+DistanceCost::DistanceCost(const SimulatedResiduals& simulated,
+                           std::vector<WeightedDistance> points, double offset, double tolerance,
+                           Box box)
+    : simulated_(simulated),
+      points_(std::move(points)),
+      offset_(offset),
+      tolerance_(tolerance),
+      box_(std::move(box)) {
+  const int unknowns = static_cast<int>(box_.reach.size());
   set_num_residuals(unknowns + 1);
   mutable_parameter_block_sizes()->push_back(unknowns);
 }
 
 double DistanceCost::all_offsets() const {
   double sum = 0;
-  for (const Term& term : terms_) sum += term.weight * offset_;
+  for (const WeightedDistance& point : points_) sum += point.weight * offset_;
   return sum;
 }
 
-void DistanceCost::step_to(const VectorXd& y) {
-  const Residuals& all = simulated_.residuals();
-  const bool far = simulated_.error() < (1 - kStillFar) * simulated_.error_before();
-  if (simulated_.error() > (1 - kNear) * simulated_.error_before()) width_ *= kNarrower;
-  const double width = width_ * simulated_.error();
-
-  // Rows u'J and t'J of every term, as columns.
+MatrixXd DistanceCost::bend_since(const VectorXd& y, const MatrixXd& curvature) const {
   const Index unknowns = y.size();
-  const auto count = static_cast<Index>(terms_.size());
-  MatrixXd along(unknowns, count), across = MatrixXd::Zero(unknowns, count);
-  VectorXd weight(count), own(count), along_weight(count), across_weight(count);
-  for (Index i = 0; i < count; ++i) {
-    const Term& term = terms_[static_cast<std::size_t>(i)];
-    const auto r = all.value.segment(term.first, term.count);
-    const auto jacobian = all.jacobian.middleRows(term.first, term.count);
-    const double distance = r.norm();
-    const double side = distance > 0 ? r[0] / distance : 1;
-    const double down = term.count == 2 && distance > 0 ? r[1] / distance : 0;
-    along.col(i) = side * jacobian.row(0);
-    if (term.count == 2) {
-      along.col(i) += down * jacobian.row(1);
-      across.col(i) = side * jacobian.row(1) - down * jacobian.row(0);
-    }
-    const double a = 1 / std::hypot(distance, width), b = far ? a : width * width * a * a * a;
-    weight[i] = distance > 0 ? term.weight : 0;
-    own[i] = weight[i] / (2 * (distance + offset_));
-    along_weight[i] = term.weight * b;
-    across_weight[i] = term.weight * a;
+  const MatrixXd& jacobian = simulated_.residuals().jacobian;
+  const MatrixXd none = MatrixXd::Zero(unknowns, unknowns);
+  if (!y_.size()) return none;
+  const VectorXd& r = simulated_.residuals().value;
+  VectorXd along(r.size());  // w u
+  for (const WeightedDistance& point : points_) {
+    const auto here = r.segment(point.first, point.count);
+    const double distance = here.norm();
+    along.segment(point.first, point.count) = here * (distance > 0 ? point.weight / distance : 0);
   }
-  const VectorXd gradient = along * weight;
-  MatrixXd curvature = along * along_weight.asDiagonal() * along.transpose();
-  curvature.noalias() += across * across_weight.asDiagonal() * across.transpose();
-  curvature_ = curvature;
-  curvature_.noalias() += along * own.asDiagonal() * along.transpose();
-  if (y_.size()) {
-    const VectorXd step = y - y_, change = gradient - gradient_;
-    const double found = change.dot(step), expected = step.dot(curvature * step);
-    if (found > expected)
-      curvature_ += (1 / found - expected / (found * found)) * change * change.transpose();
-  }
-  curvature_.diagonal() += gradient.cwiseAbs().cwiseQuotient(reach_);
+  VectorXd change = (jacobian - jacobian_).transpose() * along;
+  // An unknown that came to rest at a bound, or left it, changed its column, not the motion.
+  for (Index j = 0; j < unknowns; ++j)
+    if (jacobian.col(j).isZero(0) || jacobian_.col(j).isZero(0)) change[j] = 0;
+  const VectorXd step = y - y_, all = curvature * step + change;
+  const double bent = change.dot(step), found = all.dot(step);
+  return bent > 0 ? MatrixXd(bent / (found * found) * all * all.transpose()) : none;
+}
+
+/// Over which the kinks of so many points are smoothed that their curvature is that of all. Or 0
+/// if they are too few for that.
+double DistanceCost::smooth_width() const {
+  const VectorXd& r = simulated_.residuals().value;
+  std::vector<double> distances;
+  for (const WeightedDistance& point : points_)
+    distances.push_back(r.segment(point.first, point.count).norm());
+  const std::size_t enough = kKinks * static_cast<std::size_t>(box_.reach.size());
+  if (distances.size() <= enough) return 0;
+  const auto found = distances.begin() + static_cast<std::ptrdiff_t>(enough);
+  std::nth_element(distances.begin(), found, distances.end());
+  return *found < kWidth * simulated_.error() ? *found : 0;
+}
+
+void DistanceCost::step_to(const VectorXd& y) {
+  const bool far = simulated_.error() < (1 - kStillFar) * simulated_.error_before();
+  const Residuals& all = simulated_.residuals();
+  const VectorXd here = VectorXd::Zero(y.size()), lower = box_.lower - y, upper = box_.upper - y;
+  const MatrixXd flat = MatrixXd::Zero(y.size(), y.size());
+  const double smooth = far ? 0 : smooth_width();
+  const double width = smooth > 0 ? smooth : kWidth * simulated_.error();
+  const LinearisedDistances straight(all.value, all.jacobian, points_, flat);
+  using Curvature = LinearisedDistances::Curvature;
+  gradient_ = straight.gradient(here, 0);
+  curvature_ = straight.curvature(here, width, far ? Curvature::kReweighted : Curvature::kOwn);
+  MatrixXd bend = bend_since(y, curvature_);
+  bend.diagonal() += gradient_.cwiseAbs().cwiseQuotient(box_.reach);
+  curvature_ += bend;
   y_ = y;
-  gradient_ = gradient;
+  jacobian_ = all.jacobian;
+  gain_ = std::numeric_limits<double>::infinity();
+  if (far) return;
+
+  VectorXd step;
+  double gain = 0;
+  const double now = straight.value(here, 0);
+  if (smooth > 0) {
+    step = bounded_step(gradient_, curvature_, lower, upper);
+    gain = -gradient_.dot(step) - step.dot(curvature_ * step) / 2;
+  } else {
+    const LinearisedDistances distances(all.value, jacobian_, points_, bend);
+    step = distances.minimum(width, lower, upper);
+    gain = now - distances.value(step, 0);
+  }
+  gain_ = gain / now;
+  if (gain_ <= tolerance_) {
+    gradient_.setZero();  // there already
+    return;
+  }
+  if (smooth > 0) return;
+  const double slope = -gradient_.dot(step), scale = 2 * gain / slope;
+  const VectorXd bent = curvature_ * step;
+  curvature_ +=
+      gradient_ * gradient_.transpose() / slope - bent * bent.transpose() / step.dot(bent);
+  curvature_ *= scale;
+  gradient_ *= scale;
 }
 
 bool DistanceCost::Evaluate(double const* const*, double* residuals, double** jacobians) const {
   if (!simulated_.ok()) return false;
   const VectorXd& values = simulated_.residuals().value;
   double squares = 0;
-  for (const Term& term : terms_)
-    squares += 2 * term.weight * (values.segment(term.first, term.count).norm() + offset_);
+  for (const WeightedDistance& point : points_)
+    squares += 2 * point.weight * (values.segment(point.first, point.count).norm() + offset_);
   const Index unknowns = gradient_.size();
   Eigen::Map<VectorXd> r(residuals, unknowns + 1);
   r.setZero();

@@ -55,17 +55,22 @@ class Block : public ceres::CostFunction {
 // kept: the sensitivities describe a slope too short to walk on.
 constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
 
-// At a minimum on kinks, as sums of distances have, so many steps in a row fail.
-constexpr int kFailedSteps = 2;
+// At a minimum on kinks, as sums of distances have, so many steps in a row fail, or gain less than
+// so many tolerances of the cost.
+constexpr int kFailedSteps = 3;
+constexpr double kTooLittle = 10;
 
 /// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by
 /// no more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep
 /// failing.
 class Watch : public ceres::IterationCallback {
  public:
-  /// `promised`: by a first step that is too short, of which Ceres does not tell.
-  Watch(FitJournal& journal, double tolerance, double offset, bool kinks, double promised)
+  /// `reserved`: evaluations to be left. `promised`: by a first step that is too short, of which
+  /// Ceres does not tell.
+  Watch(FitJournal& journal, int reserved, double tolerance, double offset, bool kinks,
+        double promised)
       : journal_(journal),
+        reserved_(reserved),
         tolerance_(tolerance),
         offset_(offset),
         kinks_(kinks),
@@ -73,13 +78,14 @@ class Watch : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     journal_.count_iteration();
-    if (journal_.must_stop()) return ceres::SOLVER_ABORT;
+    if (journal_.must_stop(reserved_)) return ceres::SOLVER_ABORT;
     const double cost = step.cost - offset_;
     if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
     if (step.iteration == 1) promised_ = expected / cost;
     if (step.step_is_successful) gained_ += step.cost_change / cost;
-    failed_steps_ = step.step_is_successful ? 0 : failed_steps_ + 1;
+    const bool good = step.step_is_successful && step.cost_change > kTooLittle * tolerance_ * cost;
+    failed_steps_ = good ? 0 : failed_steps_ + 1;
     if (kinks_ && failed_steps_ == kFailedSteps) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     const double least = tolerance_ * cost;
     const bool enough = expected <= least || std::abs(step.cost_change) <= least;
@@ -91,6 +97,7 @@ class Watch : public ceres::IterationCallback {
 
  private:
   FitJournal& journal_;
+  int reserved_;
   double tolerance_, offset_;
   bool kinks_;
   int failed_steps_ = 0;          // in a row
@@ -111,21 +118,35 @@ ceres::LossFunction* loss_of(const ErrorSpec& error) {
   return nullptr;
 }
 
+// A step that promises no more than this share of the cost is likely to be the last.
+constexpr double kLastStep = 1e-4;
+
 // How far one step may take a logarithm.
 constexpr double kReach = 2;
 
-VectorXd reach_of(const Problem& problem) {
-  VectorXd reach(static_cast<Index>(problem.unknowns().size()));
-  for (Index j = 0; j < reach.size(); ++j)
-    reach[j] = problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic
-                   ? kReach
-                   : std::numeric_limits<double>::infinity();
-  return reach;
+/// Of the scaled unknowns.
+DistanceCost::Box box_of(const Problem& problem) {
+  const auto unknowns = static_cast<Index>(problem.unknowns().size());
+  DistanceCost::Box box{VectorXd(unknowns), VectorXd(unknowns), VectorXd(unknowns)};
+  for (Index j = 0; j < unknowns; ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    const bool logarithmic = unknown.scale == Scale::kLogarithmic;
+    box.lower[j] = logarithmic ? std::log(unknown.lower) : unknown.lower;
+    box.upper[j] = logarithmic ? std::log(unknown.upper) : unknown.upper;
+    box.reach[j] = logarithmic ? kReach : std::numeric_limits<double>::infinity();
+  }
+  return box;
 }
 
-/// From y on, where `simulated` is, to the best y; the weights are those of the start.
-FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals& simulated,
-                VectorXd& y, std::string& message) {
+bool of_squares(const Problem& problem) {
+  const Measure measure = problem.study().error.measure;
+  return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
+}
+
+/// From y on, where `simulated` is, to the best y; the weights are those of the start. `reserved`:
+/// evaluations to be left.
+FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
+                SimulatedResiduals& simulated, VectorXd& y, std::string& message) {
   const OptimiserSpec& spec = problem.study().optimiser;
   const ErrorSpec& error = problem.study().error;
   const int unknowns = static_cast<int>(y.size());
@@ -135,8 +156,9 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
   const Joints& joints = simulated.joints();
-  const bool squares =
-      error.measure == Measure::kLeastSquares || error.measure == Measure::kLikelihood;
+  const bool squares = of_squares(problem);
+  const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
+  const DistanceCost::Box box = box_of(problem);
   double all_offsets = 0;
   if (squares) {
     const VectorXd noise = noise_of(problem, first);
@@ -150,7 +172,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   } else {
     // In units of the start's error, as if each were over its noise.
     const double scale = static_cast<double>(first.value.size()) / simulated.error();
-    std::vector<DistanceCost::Term> terms;
+    std::vector<WeightedDistance> terms;
     if (error.measure == Measure::kMeanDistance) {
       const std::vector<Distance> points = distances_of(problem, first);
       for (const Distance& point : points)
@@ -159,39 +181,40 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
       const VectorXd weights = scale * channel_weights(problem, first);
       for (Index i = 0; i < weights.size(); ++i) terms.push_back({i, 1, weights[i]});
     }
-    auto* distances = new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(),
-                                       reach_of(problem));
+    auto* distances =
+        new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), tolerance, box);
     solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
     all_offsets = distances->all_offsets();
-    distances->step_to(y);
-    simulated.on_derivatives = [distances, &y] { distances->step_to(y); };
+    simulated.tell([distances, &y] {
+      distances->step_to(y);
+      return distances->gain() > kLastStep;
+    });
   }
   for (int j = 0; j < unknowns; ++j) {
-    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
-    const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    const double lower = logarithmic ? std::log(unknown.lower) : unknown.lower;
-    const double upper = logarithmic ? std::log(unknown.upper) : unknown.upper;
-    if (std::isfinite(lower)) solver.SetParameterLowerBound(y.data(), j, lower);
-    if (std::isfinite(upper)) solver.SetParameterUpperBound(y.data(), j, upper);
+    if (std::isfinite(box.lower[j])) solver.SetParameterLowerBound(y.data(), j, box.lower[j]);
+    if (std::isfinite(box.upper[j])) solver.SetParameterUpperBound(y.data(), j, box.upper[j]);
   }
 
   const double least_step = 1e-2 * spec.tolerance;  // of |y|
   const double lost = least_step * y.norm() * simulated.steepness();
-  Watch watch(journal, (squares ? 1e-2 : 0.1) * spec.tolerance, all_offsets, !squares, lost);
+  Watch watch(journal, reserved, tolerance, all_offsets, !squares, lost);
   ceres::Solver::Options settings;
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.max_num_iterations = spec.max_evaluations;
   settings.function_tolerance = 0;  // Watch knows better
   settings.parameter_tolerance = least_step;
   settings.gradient_tolerance = 0;
+  // Bounds make Ceres search along steps: cubic interpolation would ask for derivatives there.
+  if (!squares) settings.line_search_interpolation_type = ceres::QUADRATIC;
   settings.logging_type = ceres::SILENT;
   settings.callbacks.push_back(&watch);
   ceres::Solver::Summary summary;
   ceres::Solve(settings, &solver, &summary);
-  simulated.on_derivatives = nullptr;
+  simulated.tell(nullptr);
   if (summary.termination_type == ceres::USER_FAILURE) return journal.why_stopped();
   if (summary.termination_type == ceres::NO_CONVERGENCE) return FitStatus::kEvaluationLimit;
   if (summary.termination_type == ceres::FAILURE) {
+    if (journal.must_stop(reserved)) return journal.why_stopped();
     message = summary.message;
     return FitStatus::kFailed;
   }
@@ -206,14 +229,43 @@ FitStatus solve(const Problem& problem, FitJournal& journal, SimulatedResiduals&
   return FitStatus::kConverged;
 }
 
+/// The same, first roughly simulated: most of the way there is no need for more.
+FitStatus solve_roughly(const Problem& rough, FitJournal& journal, SimulatedResiduals& simulated,
+                        VectorXd& y) {
+  const VectorXd start = y;
+  simulated.PrepareForEvaluation(true, true);
+  FitStatus status = FitStatus::kFailed;
+  std::string message;
+  if (simulated.ok()) status = solve(rough, journal, 1, simulated, y, message);
+  if (status == FitStatus::kFailed) y = start;
+  return status;
+}
+
 }  // namespace
 
 FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
   const OptimiserSpec& spec = problem.study().optimiser;
   FitJournal journal(problem, options, spec.max_evaluations);
   VectorXd y = to_scaled(problem, options.start.size() ? options.start : problem.start());
-  SimulatedResiduals simulated(problem, journal, y);
   std::string message;
+  if (!of_squares(problem)) {
+    const bool roughly = starts_roughly(problem) && spec.max_evaluations > 1;
+    const Problem rough = roughly ? problem.rough() : problem;
+    SimulatedResiduals simulated(problem, journal, y, roughly ? &rough : nullptr);
+    if (roughly) {
+      const FitStatus status = solve_roughly(rough, journal, simulated, y);
+      if (status == FitStatus::kInterrupted || status == FitStatus::kTimeLimit)
+        return journal.result(status, "");
+      simulated.refine();
+    }
+    simulated.PrepareForEvaluation(true, true);
+    if (!simulated.ok())
+      return journal.result(FitStatus::kFailed, "the simulation at the start failed");
+    if (journal.must_stop()) return journal.result(journal.why_stopped(), "");
+    const FitStatus status = solve(problem, journal, 0, simulated, y, message);
+    return journal.result(status, message);
+  }
+  SimulatedResiduals simulated(problem, journal, y);
   // Under the likelihood the weights follow from the residuals: solved again until they stay.
   for (double before = std::numeric_limits<double>::infinity();;) {
     simulated.PrepareForEvaluation(true, true);
@@ -222,7 +274,7 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
     const bool settled = simulated.error() > (1 - 1e-2 * spec.tolerance) * before;
     if (settled) return journal.result(FitStatus::kConverged, "");
     before = simulated.error();
-    const FitStatus status = solve(problem, journal, simulated, y, message);
+    const FitStatus status = solve(problem, journal, 0, simulated, y, message);
     if (status != FitStatus::kConverged || problem.study().error.measure != Measure::kLikelihood)
       return journal.result(status, message);
   }

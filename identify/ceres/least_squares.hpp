@@ -10,12 +10,14 @@ namespace catena {
 ///
 ///   measure            what is minimised
 ///   least_squares      sum of rho(r^2), r in units of the noise; rho by the case's loss
-///   mean_distance      sum over frames and markers of the distance (6.5), (6.6): see DistanceBlock
+///   mean_distance      sum over frames and markers of the distance (6.5), (6.6): see DistanceCost
 ///   mean_absolute      the same on every channel, weighted as in (7.1)
-///
 ///   likelihood         sum of r^2 over the square of the channel's noise, which is found again
 ///   from
 ///                      the residuals until it stays
+///
+/// Distances are first fitted to rough simulations (Problem::rough), which count as evaluations;
+/// what they lead to is the start of the fit proper, which alone makes the result and its history.
 ///
 /// A simulation that fails makes its step be refused. A target of its own (catena_ceres): Debian's
 /// Ceres brings libraries that are partly GPL.

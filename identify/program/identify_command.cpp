@@ -180,7 +180,7 @@ int identify_case(const IdentifyOptions& options) {
     if (const char* strategy = strategy_of(problem); strategy != std::string("whole"))
       std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
     std::cout << fmt::format(
-                     "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.2f} "
+                     "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.4f} "
                      "s of a core; {}\n",
                      kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
                      measured_error(problem, found.starts.front().start_error),  // the case's own

@@ -106,10 +106,55 @@ TEST_CASE("least squares ends no higher than Nelder-Mead, and is there in a few 
     const auto reached =
         std::find_if(squares.history.begin(), squares.history.end(),
                      [&](const HistoryEntry& entry) { return entry.error <= there; });
-    const auto evaluations = reached - squares.history.begin() + 1;
+    const auto rough = squares.evaluations - static_cast<std::ptrdiff_t>(squares.history.size());
+    const auto evaluations = rough + (reached - squares.history.begin()) + 1;
     MESSAGE(simplex.evaluations << " and " << evaluations << " evaluations");
     CHECK(evaluations <= 10);
   }
+}
+
+TEST_CASE("rough simulations lead to a fit of the problem itself") {
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kMeanDistance, 0.1, 0.005, 5e-3);
+  REQUIRE(starts_roughly(problem));
+  const FitResult result = fit(problem, {}, fit_least_squares);
+  const auto error_at = [&](const Eigen::VectorXd& x) {
+    return error_of(problem, evaluate(problem, x, false, false), Part::kFit);
+  };
+  CHECK(result.start_error == doctest::Approx(error_at(problem.start())).epsilon(1e-12));
+  CHECK(result.error == doctest::Approx(error_at(result.x)).epsilon(1e-6));
+  CHECK(static_cast<int>(result.history.size()) < result.evaluations);
+  for (const HistoryEntry& entry : result.history)
+    CHECK(entry.error == doctest::Approx(error_at(entry.x)).epsilon(1e-6));
+  CHECK(result.history.front().error < 1.1 * result.error);  // there they led
+
+  for (int limit = 1; limit < result.evaluations; ++limit) {
+    CAPTURE(limit);
+    Case study = problem.study();
+    study.optimiser.max_evaluations = limit;
+    const Problem shorter(study, problem.model(), {problem.experiments()[0].recording});
+    const FitResult limited = fit(shorter, {}, fit_least_squares);
+    CHECK(limited.status == FitStatus::kEvaluationLimit);
+    CHECK(limited.evaluations <= limit);
+    CHECK(limited.error == doctest::Approx(error_at(limited.x)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("rough simulations are of fewer frames, spread over all") {
+  const Model model = Model::built_in(2);
+  Case study = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(study, "run");
+  const Problem problem(
+      study, model,
+      {testing::with_truth(study, model, testing::empty_markers({0.5, 1.0}, 1001, 0.002))});
+  const Problem rough = problem.rough();
+  const Recording &all = problem.experiments()[0].recording,
+                  &few = rough.experiments()[0].recording;
+  REQUIRE(few.fit_frames == 101);
+  CHECK(few.time.back() == all.time.back());
+  CHECK(few.time[1] == all.time[10]);
+  CHECK(few.measured.col(100) == all.measured.col(1000));
+  CHECK(rough.study().simulation.relative_tolerance == doctest::Approx(1e-4));
+  CHECK(!rough.finer_than_rough());
 }
 
 TEST_CASE("bounds hold") {
