@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <vector>
@@ -119,11 +120,26 @@ TEST_CASE("functions go lane by lane") {
   }
 }
 
+template <int count>
+void check_that_one_pivot_fails_all() {
+  CAPTURE(count);
+  for (int k = 0; k < count; ++k) {
+    CAPTURE(k);
+    catena::Lanes<count> pivots(1.0);
+    CHECK(catena::positive_pivot(pivots));
+    CHECK(catena::usable_pivot(-pivots));
+    for (const double bad : {0.0, std::nan("")}) {
+      pivots.set(k, bad);
+      CHECK_FALSE(catena::positive_pivot(pivots));
+      CHECK_FALSE(catena::usable_pivot(-pivots));
+    }
+  }
+}
+
 TEST_CASE("a pivot that fails in one set fails") {
-  Eight pivots(1.0);
-  CHECK(catena::positive_pivot(pivots));
-  pivots.set(5, -1.0);
-  CHECK_FALSE(catena::positive_pivot(pivots));
+  check_that_one_pivot_fails_all<2>();
+  check_that_one_pivot_fails_all<4>();
+  check_that_one_pivot_fails_all<8>();
 }
 
 }  // namespace
