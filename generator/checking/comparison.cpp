@@ -11,6 +11,7 @@
 
 #include "generator/checking/attribution.hpp"
 #include "generator/checking/combination.hpp"
+#include "generator/checking/exact_form.hpp"
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/flat_derivation.hpp"
 #include "generator/checking/motion.hpp"
@@ -189,7 +190,7 @@ class Comparison {
   /// for an acceleration. It is judged as the combination of the chain's equations that it is.
   Finding of_equation(const Entry& entry) {
     const ex hand = given(entry.value - entry.right);
-    if (!differs_somewhere(hand) && NormalForm({hand})(hand).numerator.is_zero()) {
+    if (says_nothing(hand)) {
       Finding finding;
       finding.verdict = Verdict::kDifferent;
       finding.remark = "it says nothing: both sides are the same for every motion";
@@ -224,6 +225,12 @@ class Comparison {
       if (!best || finding.terms < best->terms) best = std::move(finding);
     }
     return *best;
+  }
+
+  bool says_nothing(const ex& hand) const {
+    if (differs_somewhere(hand)) return false;
+    return is_too_long(hand) ? vanishes(hand, seed_).value_or(false)
+                             : NormalForm({hand})(hand).numerator.is_zero();
   }
 
   /// The first candidate that is proved to be the equation h = 0.

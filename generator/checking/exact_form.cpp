@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "generator/checking/expression_text.hpp"
+#include "generator/checking/numeric_state.hpp"
 #include "generator/checking/shared_tree.hpp"
 
 namespace catena::checking {
@@ -48,6 +49,13 @@ Degree product(const Degree& a, const Degree& b) {
 }
 
 }  // namespace
+
+std::optional<int> bits_for(const Degree& degree) {
+  // One bit more, as poles are left out.
+  const double bits = std::log2(degree.numerator + degree.denominator + 1) + kCertainty + 1;
+  if (!std::isfinite(bits)) return std::nullopt;
+  return static_cast<int>(std::ceil(bits / 64)) * 64;
+}
 
 ExactForm::ExactForm(const std::vector<ex>& expressions)
     : form_(transcendental_parts(expressions)), is_independent_(form_.decides()) {}
@@ -113,6 +121,17 @@ GiNaC::exmap ExactForm::point(const std::vector<ex>& rationals, int bits,
                                                          : t;
   }
   return result;
+}
+
+std::optional<bool> vanishes(const ex& expression, std::uint64_t seed) {
+  ExactForm form({expression});
+  const std::optional<ex> rational = form(expression);
+  if (!rational) return std::nullopt;
+  const std::optional<int> bits = bits_for(form.degree(*rational));
+  if (!bits) return std::nullopt;
+  const std::optional<numeric> value = Evaluation(form.point({*rational}, *bits, seed))(*rational);
+  if (!value) return std::nullopt;
+  return value->is_zero();
 }
 
 }  // namespace catena::checking

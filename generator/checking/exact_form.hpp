@@ -25,6 +25,10 @@ struct Degree {
   double denominator = 0;
 };
 
+/// The bits of the integers of a point that are enough for a fraction of such degrees; nothing if
+/// the degrees are beyond all numbers. Whole words, so that expressions share their points.
+std::optional<int> bits_for(const Degree& degree);
+
 /// Expressions as rational functions of independent generators: symbols, tangents of half angles,
 /// exponentials.
 class ExactForm {
@@ -48,5 +52,9 @@ class ExactForm {
   NormalForm form_;
   bool is_independent_;
 };
+
+/// Whether an expression is zero for all values of its symbols, by its exact value at a random
+/// point. Nothing where it is not rational in independent quantities.
+std::optional<bool> vanishes(const GiNaC::ex& expression, std::uint64_t seed);
 
 }  // namespace catena::checking

@@ -2,7 +2,6 @@
 #include "generator/checking/motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -14,9 +13,6 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 using Vector = Motion::Vector;
-
-// Degrees that ask for points of larger numbers are left undecided.
-constexpr double kMostBits = 4096;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -135,11 +131,9 @@ std::optional<bool> Motion::is_obeyed(const ex& h) {
   if (!rational) return std::nullopt;
   ExactForm::Degrees known;
   for (int j = 1; j <= chain_.links; ++j) known[chain_.acceleration[at(j)]] = solution_;
-  const Degree degree = exact_->degree(*rational, known);
-  // One bit more, as poles are left out; whole words, so that equations share their points.
-  const double bits = std::log2(degree.numerator + degree.denominator + 1) + kCertainty + 1;
-  if (bits > kMostBits) return std::nullopt;
-  std::optional<Evaluation>& here = point(static_cast<int>(std::ceil(bits / 64)) * 64);
+  const std::optional<int> bits = bits_for(exact_->degree(*rational, known));
+  if (!bits) return std::nullopt;
+  std::optional<Evaluation>& here = point(*bits);
   if (!here) return std::nullopt;
   const std::optional<numeric> value = (*here)(*rational);
   if (!value) return std::nullopt;

@@ -185,6 +185,15 @@ TEST_CASE("solved equations of four links in other clothes are not refused") {
   CHECK(beyond.count(Verdict::kUndecided) == 4);
 }
 
+TEST_CASE("an equation too long to be expanded that says nothing is told") {
+  const Checked result = checked(example("accelerations_by_elimination.txt") +
+                                 "equation 1: a[1]*(1 - sin(theta_1)^2 - cos(theta_1)^2) = 0\n");
+  CHECK(result.count(Verdict::kEqual) == 4);
+  CHECK(result.findings.back().verdict == Verdict::kDifferent);
+  CHECK(result.findings.back().remark ==
+        "it says nothing: both sides are the same for every motion");
+}
+
 TEST_CASE("true equations that do not determine the motion are told") {
   const Checked result = checked(left_sides(example("chapter_3_two_links.txt")) +
                                  "equation 1: E[1] + E[2] = 0\nequation 2: -2*E[2] = 2*E[1]\n");
