@@ -2,7 +2,6 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include "generator/description/input_error.hpp"
 #include "generator/description/toml_reader.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "runtime/positions.hpp"
 #include "runtime/sensitivity.hpp"

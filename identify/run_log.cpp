@@ -93,7 +93,6 @@ std::size_t RunLog::read(const std::filesystem::path& file, const std::string& k
       Start& start = starts_[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());
       start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
-      ++read_;
     } else if (cells[0] == "s" && cells.size() == 12) {
       FitResult result;
       result.status = static_cast<FitStatus>(std::atoi(cells[2].c_str()));

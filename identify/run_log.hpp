@@ -39,8 +39,6 @@ class RunLog {
   std::optional<FitResult> finished(int start) const;
   void finish(int start, const FitResult& result);
 
-  std::size_t recalled() const { return read_; }
-
  private:
   struct Start {
     std::vector<HistoryEntry> entries;        // as read
@@ -55,7 +53,6 @@ class RunLog {
   std::FILE* file_ = nullptr;
   mutable std::mutex mutex_;
   std::map<int, Start> starts_;
-  std::size_t read_ = 0;
 };
 
 }  // namespace catena

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/checking/numeric_state.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <random>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/shared_tree.hpp"

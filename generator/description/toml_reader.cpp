@@ -141,10 +141,6 @@ bool TomlTable::is_text(std::string_view key) const {
   return has(key) && find(table_, key)->is_string();
 }
 
-bool TomlTable::is_list(std::string_view key) const {
-  return has(key) && find(table_, key)->is_array();
-}
-
 bool TomlTable::is_table(std::string_view key) const {
   return has(key) && find(table_, key)->is_table();
 }

@@ -56,7 +56,7 @@ void add_check_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("check", "Check a hand derivation, or scalar identities");
   command->add_option("DERIVATION", options->file, "text file, see docs/checking.md")->required();
   command->add_option("--links", options->links, "number of links, instead of the file's");
-  command->add_option("--seed", options->seed, "selects the numeric states shown")
+  command->add_option("--seed", options->seed, "selects the states shown and those of evaluations")
       ->capture_default_str();
   command->footer(
       "Exit status: 0 all equal, 1 something different or undecided, 2 wrong\ninput.\n"
