@@ -3,7 +3,7 @@
 
 #include "generator/description/input_error.hpp"
 #include "identify/case.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 

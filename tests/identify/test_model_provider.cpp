@@ -7,7 +7,7 @@
 #include "identify/error.hpp"
 #include "identify/model_provider.hpp"
 #include "tests/identify/recordings.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 

@@ -8,7 +8,7 @@
 #include "identify/ceres/least_squares.hpp"
 #include "identify/multi_start.hpp"
 #include "tests/identify/recordings.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 

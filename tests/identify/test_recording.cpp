@@ -6,7 +6,7 @@
 
 #include "generator/description/input_error.hpp"
 #include "identify/recording.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 

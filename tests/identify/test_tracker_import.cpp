@@ -5,7 +5,7 @@
 
 #include "generator/description/input_error.hpp"
 #include "identify/tracker_import.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identify/process.hpp"
-#include "tests/identify/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace catena::testing {
 

@@ -15,8 +15,8 @@
 #include "identify/report/report_figures.hpp"
 #include "identify/report/residuals.hpp"
 #include "identify/report/spectrum.hpp"
-#include "tests/identify/temporary_folder.hpp"
 #include "tests/report/made_results.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace catena::report {
 namespace {

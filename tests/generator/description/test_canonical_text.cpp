@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "generator/description/description.hpp"
-#include "tests/generator/description/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 
@@ -15,7 +15,7 @@ const std::string kEffect =
     "[[force]]\nat = \"load\"\nside = \"f*cos(w*time)\"\ndown = \"f\"\n";
 
 std::string canonical(const std::string& effect_text, const std::string& name = "push.toml") {
-  const TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   Description description = plain_chain();
   description.effects.push_back(read_effect(folder.write(name, effect_text)));
   return canonical_text(description);

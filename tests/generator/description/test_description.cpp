@@ -4,6 +4,7 @@
 #include "generator/description/description.hpp"
 #include "generator/description/whole_file.hpp"
 #include "tests/generator/description/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 
@@ -18,7 +19,7 @@ const std::string kEffect =
 }  // namespace
 
 TEST_CASE("a description names built-in effects and files beside it") {
-  const TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
   const auto path = folder.write(
       "chain.toml", kHead + "links = [2, 12]\neffects = [\"load_drag\", \"push.toml\"]\n");
@@ -31,7 +32,7 @@ TEST_CASE("a description names built-in effects and files beside it") {
 }
 
 TEST_CASE("a written description reads back to the same model, from another folder too") {
-  const TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
   const auto path =
       folder.write("chain.toml", kHead + "links = [3]\neffects = [\"buoyancy\", \"push.toml\"]\n");
@@ -47,7 +48,7 @@ TEST_CASE("a written description reads back to the same model, from another fold
 }
 
 TEST_CASE("what is wrong with a description is said where it stands") {
-  const TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
   struct Row {
     std::string body, said;
@@ -75,7 +76,7 @@ TEST_CASE("what is wrong with a description is said where it stands") {
 }
 
 TEST_CASE("a file is written whole or not at all") {
-  const TemporaryFolder folder;
+  const testing::TemporaryFolder folder;
   const auto missing = folder.path() / "none" / "chain.toml";
   CHECK(failure([&] { write_whole_file(missing, "text"); }).find("cannot be written") !=
         std::string::npos);
