@@ -410,6 +410,30 @@ Problem Problem::rough() const {
   return other;
 }
 
+Problem Problem::alone(const Eigen::VectorXd& x, int experiment) const {
+  const Experiment& chosen = experiments_[static_cast<std::size_t>(experiment)];
+  Case study = study_;
+  const Eigen::VectorXd values = parameter_values(x, experiment);
+  for (std::size_t j = 0; j < study.parameters.size(); ++j) {
+    study.parameters[j].value = values[static_cast<Eigen::Index>(j)];
+    study.parameters[j].free = false;
+  }
+  study.optimiser.growing_windows.clear();
+  study.experiments = {chosen.spec};
+  ExperimentSpec& spec = study.experiments.front();
+  spec.use = Use::kFit;
+  spec.initial = initial_of(x, experiment);
+  Recording recording = chosen.recording;
+  recording.fit_frames = static_cast<Eigen::Index>(recording.time.size());
+  return Problem(std::move(study), model_, {std::move(recording)});
+}
+
+Problem Problem::started(int experiment, const InitialSpec& initial) const {
+  Problem other = *this;
+  other.experiments_[static_cast<std::size_t>(experiment)].initial = initial;
+  return other;
+}
+
 Problem Problem::fixed(int unknown, double value) const {
   Problem other = *this;
   const int parameter = unknowns_[static_cast<std::size_t>(unknown)].parameter;

@@ -83,6 +83,8 @@ class Problem {
 
   /// The model's parameters in one experiment; -1: in none (the case's own initial state).
   Eigen::VectorXd model_parameters(const Eigen::VectorXd& x, int experiment) const;
+  /// The start of one experiment as the case describes it; -1: the case's own.
+  InitialSpec initial_of(const Eigen::VectorXd& x, int experiment) const;
   /// The state at the start of one experiment. Throws std::invalid_argument or std::runtime_error
   /// where there is none (held farther away than the cable is long, no equilibrium).
   State initial_state(const Eigen::VectorXd& x, int experiment) const;
@@ -117,6 +119,10 @@ class Problem {
   bool finer_than_rough() const;
   /// The same problem with one unknown of the physics at a value, no longer free.
   Problem fixed(int unknown, double value) const;
+  /// One experiment alone, all of it to be fitted, by its start only: everything else is as in x.
+  Problem alone(const Eigen::VectorXd& x, int experiment) const;
+  /// The same problem, another start of one experiment.
+  Problem started(int experiment, const InitialSpec& initial) const;
   /// The same problem with other measurements: one matrix (channels x frames) per experiment.
   Problem measured_as(const std::vector<Eigen::MatrixXd>& measured) const;
 
@@ -128,7 +134,6 @@ class Problem {
   void check_start(int experiment) const;
   /// Of the case's parameters, in their order.
   Eigen::VectorXd parameter_values(const Eigen::VectorXd& x, int experiment) const;
-  InitialSpec initial_of(const Eigen::VectorXd& x, int experiment) const;
   State state_of(int experiment, const InitialSpec& initial,
                  const Eigen::VectorXd& parameters) const;
 

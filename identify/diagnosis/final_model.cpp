@@ -209,7 +209,8 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& worksho
                 workshop.least_squares, workshop.stop);
   // A fit that cannot leave its start is there already.
   if (!refitted.ok)
-    refitted = assess(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem));
+    refitted = assess(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
+                      workshop.least_squares, workshop.stop);
   if (!refitted.ok)
     throw std::runtime_error("the final model cannot be simulated: " + refitted.message);
   diagnosis.final = std::move(refitted);

@@ -10,7 +10,35 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x) {
+namespace {
+
+/// What only validates and may start anywhere starts as fits it best, everything else as in x: how
+/// a window begins says nothing of the model.
+std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Problem> problem,
+                                                    const VectorXd& x,
+                                                    const LeastSquares& least_squares,
+                                                    const std::atomic<bool>* stop) {
+  FitOptions options;
+  options.stop = stop;
+  for (std::size_t e = 0; e < problem->experiments().size(); ++e) {
+    const Experiment& experiment = problem->experiments()[e];
+    const InitialSpec& initial = experiment.initial;
+    if (experiment.fitted() || !(initial.free || (!initial.at_rest && initial.velocity_free)))
+      continue;
+    const Problem alone = problem->alone(x, static_cast<int>(e));
+    const FitResult result = least_squares(alone, options);
+    if (result.status == FitStatus::kFailed || result.x.size() == 0) continue;
+    problem = std::make_shared<const Problem>(
+        problem->started(static_cast<int>(e), alone.initial_of(result.x, 0)));
+  }
+  return problem;
+}
+
+}  // namespace
+
+FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
+                   const LeastSquares& least_squares, const std::atomic<bool>* stop) {
+  problem = with_held_out_starts(std::move(problem), x, least_squares, stop);
   FittedModel model;
   model.x = x;
   const Evaluation evaluation = evaluate(*problem, x, true, false);
@@ -48,7 +76,7 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
     failed.message = result.message;
     return failed;
   }
-  FittedModel model = assess(std::move(problem), result.x);
+  FittedModel model = assess(std::move(problem), result.x, least_squares, stop);
   model.status = result.status;
   if (model.message.empty()) model.message = result.message;
   return model;

@@ -26,8 +26,10 @@ struct FittedModel {
   std::vector<Eigen::MatrixXd> predicted;  ///< per experiment, all frames
 };
 
-/// Simulates the whole of every experiment at x.
-FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& x);
+/// Simulates the whole of every experiment at x. An experiment that only validates and whose start
+/// is free (a window held out) has the start that fits it best, everything else as in x.
+FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& x,
+                   const LeastSquares& least_squares, const std::atomic<bool>* stop);
 
 /// Fits from `start` by least squares and assesses the result.
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& start,
