@@ -161,7 +161,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
     std::string foreign;
     for (const Effect& effect : description.effects)
       if (!effect.source_file.starts_with("built in"))
-        foreign += (foreign.empty() ? "" : ", ") + effect.source_file;
+        foreign += (foreign.empty() ? "" : ", ") +
+                   fs::path(effect.source_file).lexically_normal().string();
     options.notice("deriving and compiling the model \"" + description.id + "\" with " +
                    std::to_string(links) + " links (kept in " + cache.string() + ")" +
                    (foreign.empty() ? "" : "; it runs code made from " + foreign));
