@@ -110,6 +110,7 @@ TEST_CASE("least squares ends no higher than Nelder-Mead, and is there in a few 
     const auto evaluations = rough + (reached - squares.history.begin()) + 1;
     MESSAGE(simplex.evaluations << " and " << evaluations << " evaluations");
     CHECK(evaluations <= 10);
+    CHECK(squares.evaluations <= 20);  // and ends soon after
   }
 }
 
