@@ -148,7 +148,8 @@ class Physician {
     for (const Explanation& each : others)
       if (!best || squares(each.model) < squares(best->model)) best = &each;
     if (best && squares(best->model) < squares(stage().model) &&
-        decide(best->model, stage().model, result_.floors).decided)
+        decide(best->model, stage().model, result_.floors).decided &&
+        generalises(held_out_gap(best->model, result_.floors)))
       enter(best->model, with(looked.effects, best->id), best->id, stage().added);
   }
 
@@ -203,8 +204,7 @@ class Physician {
       if (!best || squares(pair.best()) < squares(best->best())) best = &pair;
     if (!best || squares(best->best()) >= squares(stage().model)) return false;
     if (explained() && !decide(best->best(), stage().model, result_.floors).decided) return false;
-    const GapTest held_out = held_out_gap(best->best(), result_.floors);
-    if (held_out.count > 0 && held_out.rms > kNotWorse * stage().held_out.rms) return false;
+    if (!generalises(held_out_gap(best->best(), result_.floors))) return false;
     enter(best->first.model, {best->first.id}, best->first.id, listed_ids(stage().effects));
     stage().explanations = best->beside;
     enter(trimmed(best->second.model), {best->first.id, best->second.id}, best->second.id);
@@ -366,10 +366,9 @@ class Physician {
            kDetail * std::pow(misfit_without_effects(result_.stages), 2);
   }
 
-  /// Predicts what no fit has seen at least as well as the present model does.
-  bool generalises(const Explanation& explanation) {
-    return explanation.held_out.count == 0 ||
-           explanation.held_out.rms <= kNotWorse * stage().held_out.rms;
+  /// Whether a model that leaves this predicts what no fit has seen as well as the present one.
+  bool generalises(const GapTest& held_out) {
+    return held_out.count == 0 || held_out.rms <= kNotWorse * stage().held_out.rms;
   }
 
   bool acceptable(const Explanation& explanation) {
@@ -377,7 +376,7 @@ class Physician {
     const Comparison& comparison = explanation.comparison;
     const double log10_p = comparison.log10_p + std::log10(std::max(1, result_.tried));
     return log10_p < kCertain && comparison.criterion < 0 &&
-           comparison.misfit_share > kWorthwhile && generalises(explanation) &&
+           comparison.misfit_share > kWorthwhile && generalises(explanation.held_out) &&
            more_than_a_detail(comparison);
   }
 
@@ -515,7 +514,7 @@ class Physician {
       const Decision decision = decide(first, second, result_.floors);
       const Candidate* effect =
           explanation.candidate < 0 ? nullptr : workshop_.find(explanation.id);
-      if (effect && better && decision.decided && generalises(explanation) &&
+      if (effect && better && decision.decided && generalises(explanation.held_out) &&
           (!successor || its_squares < sum_of_squares(successor->model, result_.floors)))
         successor = &explanation;
       // Of two that explain the same, one inside the other, the smaller has the name; of two laws
