@@ -4,9 +4,10 @@
 // at a time: the same operations in the same order, so the same bits.
 #include <doctest/doctest.h>
 
-#include <memory>
+#include <random>
 #include <vector>
 
+#include "generated/directions.hpp"
 #include "tests/generator/precision/emitted_model.hpp"
 
 using namespace catena::tests;
@@ -15,27 +16,16 @@ namespace {
 
 constexpr std::size_t kWidth = CATENA_DIRECTIONS;
 
-/// kWidth numbers for each entry, aligned as the interface asks.
-class Several {
- public:
-  explicit Several(std::size_t entries) : entries_(entries + 1) {}
-  double* data() { return entries_.front().number; }
-  const double* data() const { return entries_.front().number; }
-  double& at(std::size_t entry, std::size_t direction) { return entries_[entry].number[direction]; }
+using Several = std::vector<catena::Directions>;
 
- private:
-  struct alignas(kWidth * sizeof(double)) Entry {
-    double number[kWidth];
-  };
-  std::vector<Entry> entries_;  // one more than asked for, so that there is a first
-};
+double* numbers(Several& several) { return reinterpret_cast<double*>(several.data()); }
 
 Several side_by_side(const std::vector<Input<double>>& inputs,
                      const std::vector<double> Input<double>::*member) {
-  const std::size_t entries = (inputs[0].*member).size();
-  Several result(entries);
+  Several result((inputs[0].*member).size());
   for (std::size_t k = 0; k < kWidth; ++k)
-    for (std::size_t i = 0; i < entries; ++i) result.at(i, k) = (inputs[k].*member)[i];
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i].set(static_cast<int>(k), (inputs[k].*member)[i]);
   return result;
 }
 
@@ -60,24 +50,23 @@ TEST_CASE("several directions at once have the bits of one at a time") {
       along.push_back(random_input(table, random));
       along.back().t = 0.25;  // of all directions
     }
-    const Several q = side_by_side(along, &Input<double>::q),
-                  v = side_by_side(along, &Input<double>::v),
-                  a = side_by_side(along, &Input<double>::a),
-                  z = side_by_side(along, &Input<double>::z),
-                  u = side_by_side(along, &Input<double>::u),
-                  p = side_by_side(along, &Input<double>::p);
+    Several q = side_by_side(along, &Input<double>::q), v = side_by_side(along, &Input<double>::v),
+            a = side_by_side(along, &Input<double>::a), z = side_by_side(along, &Input<double>::z),
+            u = side_by_side(along, &Input<double>::u), p = side_by_side(along, &Input<double>::p);
     const catena_point at = c_point(input);
-    const catena_point all{0.25, q.data(), v.data(), a.data(), z.data(), u.data(), p.data()};
+    const catena_point all{0.25,       numbers(q), numbers(v), numbers(a),
+                           numbers(z), numbers(u), numbers(p)};
 
     const auto n = static_cast<std::size_t>(table.coordinates);
     const auto compare = [&](auto several, auto one, std::size_t entries) {
       Several changes(entries);
-      several(&at, &all, changes.data());
+      several(&at, &all, numbers(changes));
       for (std::size_t k = 0; k < kWidth; ++k) {
         std::vector<double> change(entries);
         const catena_point direction = c_point(along[k]);
         one(&at, &direction, change.data());
-        for (std::size_t i = 0; i < entries; ++i) CHECK(changes.at(i, k) == change[i]);
+        for (std::size_t i = 0; i < entries; ++i)
+          CHECK(changes[i][static_cast<int>(k)] == change[i]);
       }
     };
     compare(table.residual_tangents, table.residual_tangent, n);
@@ -88,11 +77,11 @@ TEST_CASE("several directions at once have the bits of one at a time") {
     std::vector<double> work(static_cast<std::size_t>(table.newton_work));
     REQUIRE(table.newton_factor(&at, 1, 1e-3, 1e-6, work.data()) == 0);
     Several solutions = side_by_side(along, &Input<double>::q);
-    table.newton_solves(work.data(), solutions.data());
+    table.newton_solves(work.data(), numbers(solutions));
     for (std::size_t k = 0; k < kWidth; ++k) {
       std::vector<double> solution = along[k].q;
       table.newton_solve(work.data(), solution.data());
-      for (std::size_t i = 0; i < n; ++i) CHECK(solutions.at(i, k) == solution[i]);
+      for (std::size_t i = 0; i < n; ++i) CHECK(solutions[i][static_cast<int>(k)] == solution[i]);
     }
   }
 }
