@@ -37,7 +37,7 @@ struct LaneVectors<8> {
 };
 
 template <int count>
-class Lanes {
+class alignas(count * sizeof(double)) Lanes {
  public:
   using Vector = typename LaneVectors<count>::Vector;
   using Bits = typename LaneVectors<count>::Bits;

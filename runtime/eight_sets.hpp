@@ -11,7 +11,7 @@ namespace catena {
 
 /// The forward dynamics of eight parameter sets and states at once, for studies that evaluate many:
 /// the processor's vector registers hold a number of several sets each (8 with AVX-512, 4 with
-/// AVX2, else 2), chosen when the program runs. Every set gets the bits that
+/// AVX2, else 2, or 1), chosen when the program runs. Every set gets the bits that
 /// Model::table().acceleration gives it alone. Allocates when made, not when used; not to be shared
 /// between threads.
 class EightSets {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -46,11 +45,13 @@ std::string fault_of(const catena_model* table) {
            "impossible";
   const bool complete = table->residual && table->residual_tangent && table->residual_term &&
                         table->mass_matrix && table->bias && table->acceleration &&
-                        table->accelerations && table->sets >= 1 && table->energy &&
-                        table->positions && table->positions_tangent && table->velocities &&
+                        table->accelerations && table->energy && table->positions &&
+                        table->positions_tangent && table->velocities &&
                         (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
                         (table->structured == 0 || (table->newton_factor && table->newton_solve));
   if (!complete) return "functions are missing from its table";
+  if (table->sets < 1 || 8 % table->sets != 0)
+    return "it evaluates " + std::to_string(table->sets) + " sets at once, not 1, 2, 4 or 8";
   return {};
 }
 

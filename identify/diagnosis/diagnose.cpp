@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 
 #include "generator/description/input_error.hpp"
+#include "generator/description/nearest_name.hpp"
 #include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/variant.hpp"
@@ -205,7 +205,7 @@ class Physician {
     if (!best || squares(best->best()) >= squares(stage().model)) return false;
     if (explained() && !decide(best->best(), stage().model, result_.floors).decided) return false;
     if (!generalises(held_out_gap(best->best(), result_.floors))) return false;
-    enter(best->first.model, {best->first.id}, best->first.id, listed_ids(stage().effects));
+    enter(best->first.model, {best->first.id}, best->first.id, listed(stage().effects));
     stage().explanations = best->beside;
     enter(trimmed(best->second.model), {best->first.id, best->second.id}, best->second.id);
     if (best->finer.ok) enter(best->finer, stage().effects, kTooFewLinks);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "generator/description/nearest_name.hpp"
 #include "identify/diagnosis/final_model.hpp"
 
 namespace catena {
@@ -14,13 +15,6 @@ constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothi
 constexpr double kImitated = 0.02;        // of the squared misfit before the first effect
 
 }  // namespace
-
-std::string listed_ids(const std::vector<std::string>& ids) {
-  std::string text;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") + ids[i];
-  return text;
-}
 
 bool gap_left(const Stage& stage) {
   return stage.fit.present || (stage.held_out.count > 0 && stage.held_out.ratio() > kClosedHeldOut);
@@ -71,7 +65,7 @@ void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
     d.verdict = DiagnosisVerdict::kUnexplained;
     d.sentence = d.effects.empty()
                      ? "There is a gap, and nothing in the library explains it."
-                     : "There is a gap; " + listed_ids(d.effects) +
+                     : "There is a gap; " + listed(d.effects) +
                            " would explain part of it, but what is left is above the noise.";
     return;
   }
@@ -79,14 +73,14 @@ void conclude(Diagnosis& d, const Case& asked, Workshop& workshop) {
     return alternative.explanation.candidate < 0 || alternative.explanation.fit.ratio() > kClosed;
   });
   d.verdict = d.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
-  d.sentence = "Missing: " + listed_ids(d.effects) + links + ".";
+  d.sentence = "Missing: " + listed(d.effects) + links + ".";
   for (const Alternative& form : d.forms)
     d.sentence += " Its other form " + form.explanation.id + " would do as well.";
   if (d.verdict == DiagnosisVerdict::kAmbiguous) {
     std::vector<std::string> others;
     for (const Alternative& alternative : d.alternatives)
       others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
-    d.sentence += " These data do not decide against " + listed_ids(others) + ".";
+    d.sentence += " These data do not decide against " + listed(others) + ".";
   }
 }
 

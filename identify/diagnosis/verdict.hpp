@@ -22,9 +22,6 @@ double misfit_without_effects(const std::vector<Stage>& stages);
 /// leave a trace of it, from what their laws get slightly wrong. `last`: with them, fitted again.
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
 
-/// "a, b and c".
-std::string listed_ids(const std::vector<std::string>& ids);
-
 /// Fits the final model as `asked` says and tells what the stages amount to.
 void conclude(Diagnosis& d, const Case& asked, Workshop& workshop);
 
