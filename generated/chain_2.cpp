@@ -166,11 +166,11 @@ int32_t c_accelerations(const catena_point* at, double* a) {
 }
 #elif defined(__GNUC__)
 #if defined(__AVX512F__)
-constexpr int kSets = 8;
+static constexpr int kSets = 8;
 #elif defined(__AVX2__)
-constexpr int kSets = 4;
+static constexpr int kSets = 4;
 #else
-constexpr int kSets = 2;
+static constexpr int kSets = 2;
 #endif
 int32_t sets_at_once() { return kSets; }
 CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {

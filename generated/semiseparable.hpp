@@ -11,17 +11,36 @@
 
 namespace catena {
 
-template <class T, int n, int rank>
-struct SymmetricSemiseparable {
-  static_assert(rank > 0 || n == 1);
+/// What of the matrix is kept.
+template <class T, int size, int rank>
+struct SymmetricSemiseparableEntries {
+  static_assert(rank > 0 || size == 1);
+  static constexpr int n = size;
   static constexpr int rr = rank > 0 ? rank : 1;
   T row[n][rr], column[n][rr], diagonal[n];
+};
+
+/// The same, n known at run time, from 5 on, in arrays of the caller's.
+template <class T, int rank>
+struct SymmetricSemiseparableEntries<T, kAtRunTime, rank> {
+  static_assert(rank > 0);
+  static constexpr int rr = rank;
+  int n;
+  T (*row)[rr], (*column)[rr], *diagonal;
+};
+
+template <class T, int size, int rank>
+struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
+  using Entries = SymmetricSemiseparableEntries<T, size, rank>;
+  using Entries::column, Entries::diagonal, Entries::n, Entries::row, Entries::rr;
 
   /// Overwrites x, the right-hand side, with the solution. Returns 0, or the 1-based row whose
   /// pivot is not positive: then x is not to be used.
   int solve(T* x) const {
-    if constexpr (n < 6)
-      return solve_short(x);
+    if constexpr (size == kAtRunTime)
+      return n == 5 ? solve_short<5>(x) : solve_from_both_ends(x);
+    else if constexpr (size < 6)
+      return solve_short<size>(x);
     else
       return solve_from_both_ends(x);
   }
@@ -52,8 +71,10 @@ struct SymmetricSemiseparable {
   //
   //     sum = sum_0 - V carried,   carried = carried_0 - W sum,
   //     V = C' A_top^-1 C,         W = R' A_bottom^-1 R.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wvla"  // of a number of rows known at run time
   int solve_from_both_ends(T* x) const {
-    constexpr int m = n / 4 * 2;  // rows of the top sweep; those between are the bottom's last
+    const int m = n / 4 * 2;  // rows of the top sweep; those between are the bottom's last
     const Both zero{T(0), T(0)}, one{T(1), T(1)};
     Both scaled[m][rr], solved[m];
     Both w[rr][rr], carried[rr];
@@ -113,7 +134,7 @@ struct SymmetricSemiseparable {
         w_bottom[r][s] = w_bottom[s][r] = w[r][s].second();
       }
     }
-    T middle_scaled[n - 2 * m + 1][rr];
+    T middle_scaled[3][rr];
     for (int j = n - 1 - m; j >= m; --j) {
       if (!eliminate(j, w_bottom, known, middle_scaled[j - m], x[j])) return j + 1;
     }
@@ -143,6 +164,8 @@ struct SymmetricSemiseparable {
     }
     return 0;
   }
+
+#pragma GCC diagnostic pop
 
   // The same for one row, as the bottom's last: overwrites x, its right-hand side, with what a
   // solution would be if nothing were left.
@@ -234,29 +257,30 @@ struct SymmetricSemiseparable {
   // A few rows are solved faster as a full matrix, A = L D L' with D in the diagonal's place. Two
   // columns at a time: the second pivot is (a b - c c) / a, so that its reciprocal need not wait
   // for the first one's.
+  template <int rows>
   int solve_short(T* right) const {
-    T a[n][n], x[n], reciprocal[n];
+    T a[rows][rows], x[rows], reciprocal[rows];
 #pragma GCC unroll 8
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < rows; ++i) {
       x[i] = right[i];
       a[i][i] = diagonal[i];
 #pragma GCC unroll 8
       for (int j = 0; j < i; ++j) a[i][j] = product(row[i], column[j]);
     }
 #pragma GCC unroll 8
-    for (int j = 0; j < n; j += 2) {
+    for (int j = 0; j < rows; j += 2) {
       if (!positive_pivot(a[j][j])) return j + 1;
       reciprocal[j] = T(1) / a[j][j];
-      if (j + 1 < n) {
+      if (j + 1 < rows) {
         const T determinant = a[j][j] * a[j + 1][j + 1] - a[j + 1][j] * a[j + 1][j];
         if (!positive_pivot(determinant)) return j + 2;
         reciprocal[j + 1] = a[j][j] / determinant;
       }
-      const int end = j + 2 < n ? j + 2 : n;
+      const int end = j + 2 < rows ? j + 2 : rows;
 #pragma GCC unroll 2
       for (int k = j; k < end; ++k) {
 #pragma GCC unroll 8
-        for (int i = k + 1; i < n; ++i) {
+        for (int i = k + 1; i < rows; ++i) {
           const T scaled = a[i][k] * reciprocal[k];
           x[i] -= scaled * x[k];
 #pragma GCC unroll 8
@@ -265,9 +289,9 @@ struct SymmetricSemiseparable {
       }
     }
 #pragma GCC unroll 8
-    for (int j = n - 1; j >= 0; --j) {
+    for (int j = rows - 1; j >= 0; --j) {
 #pragma GCC unroll 8
-      for (int i = n - 1; i > j; --i) x[j] -= a[i][j] * x[i];
+      for (int i = rows - 1; i > j; --i) x[j] -= a[i][j] * x[i];
       right[j] = x[j] = x[j] * reciprocal[j];
     }
     return 0;

@@ -10,6 +10,7 @@
 #include "generator/description/description.hpp"
 #include "generator/description/input_error.hpp"
 #include "identify/process.hpp"
+#include "runtime/any_links.hpp"
 
 namespace catena {
 namespace {
@@ -44,6 +45,20 @@ fs::path find_in_path(const std::string& name) {
   for (std::string folder; std::getline(folders, folder, ':');)
     if (!folder.empty() && can_run(fs::path(folder) / name)) return fs::path(folder) / name;
   return {};
+}
+
+bool is_there(const std::string& program) {
+  return program.find('/') == std::string::npos ? !find_in_path(program).empty() : can_run(program);
+}
+
+/// Empty if there is none.
+fs::path look_for_derive_program() {
+  const std::string name = "catena-derive";
+  const fs::path here = program_directory();
+  for (const fs::path& candidate :
+       {here / name, here / ".." / "libexec" / "catena" / name, here / ".." / "bin" / name})
+    if (can_run(candidate)) return candidate.lexically_normal();
+  return find_in_path(name);
 }
 
 /// A fresh folder beside the cache's entries, removed again unless it was moved into place.
@@ -113,12 +128,7 @@ std::string identity_of(const fs::path& program) {
 }  // namespace
 
 fs::path find_derive_program() {
-  const std::string name = "catena-derive";
-  const fs::path here = program_directory();
-  for (const fs::path& candidate :
-       {here / name, here / ".." / "libexec" / "catena" / name, here / ".." / "bin" / name})
-    if (can_run(candidate)) return candidate.lexically_normal();
-  if (const fs::path found = find_in_path(name); !found.empty()) return found;
+  if (const fs::path found = look_for_derive_program(); !found.empty()) return found;
   throw ModelError(
       "catena-derive was not found beside this program, in ../libexec/catena or in PATH; it "
       "derives models that are not built in");
@@ -139,6 +149,18 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       description_file.empty() ? plain_chain() : read_description(description_file);
   if (description.effects.empty() && Model::has_built_in(links)) return Model::built_in(links);
 
+  const bool any_links =
+      description.effects.empty() && links >= kFewestLinks && links <= kMostLinks;
+  const auto without_compiling = [&](const std::string& missing) {
+    if (options.notice)
+      options.notice(missing + " was not found: " + std::to_string(links) +
+                     " links are computed by the model for any number of links, with the same "
+                     "results");
+    return any_links_model(links);
+  };
+  // What the options name is to be there.
+  if (any_links && options.derive_program.empty() && look_for_derive_program().empty())
+    return without_compiling("catena-derive");
   const fs::path derive =
       options.derive_program.empty() ? find_derive_program() : options.derive_program;
   std::string compiler = options.compiler;
@@ -156,6 +178,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   const fs::path entry = cache / sha256_hex(decides);
   const fs::path library = entry / "model.so";
   if (fs::exists(library)) return Model::load(library);
+  if (any_links && options.compiler.empty() && !is_there(compiler))
+    return without_compiling("the compiler " + compiler);
 
   if (options.notice) {
     std::string foreign;

@@ -26,8 +26,9 @@ struct ProviderOptions {
 
 /// The model of a description (empty: the plain chain) with so many links. The plain chain with a
 /// count that is linked in needs no compiler. Any other is derived, compiled and kept in a cache
-/// under the hash of what decides it; concurrent processes may share the cache. Throws InputError
-/// for a bad description, ModelError where deriving, compiling or loading fails.
+/// under the hash of what decides it; concurrent processes may share the cache. Where catena-derive
+/// or a compiler is not to be found, the plain chain is had from any_links_model, after a notice.
+/// Throws InputError for a bad description, ModelError where deriving, compiling or loading fails.
 Model provide_model(const std::filesystem::path& description, int links,
                     const ProviderOptions& options = {});
 

@@ -59,8 +59,10 @@ std::string fault_of(const catena_model* table) {
 
 Model::Model(const catena_model* table) : Model(table, nullptr) {}
 
-Model::Model(const catena_model* table, std::shared_ptr<void> library)
-    : table_(table), library_(std::move(library)) {
+Model::Model(std::shared_ptr<const catena_model> table) : Model(table.get(), table) {}
+
+Model::Model(const catena_model* table, std::shared_ptr<const void> owner)
+    : table_(table), owner_(std::move(owner)) {
   if (const std::string fault = fault_of(table); !fault.empty())
     throw InputError("the model cannot be used: " + fault);
 }

@@ -29,6 +29,8 @@ class Model {
 
   /// A table that outlives this object and its copies. Throws InputError if it is unusable.
   explicit Model(const catena_model* table);
+  /// A table that lives as long as this object and its copies.
+  explicit Model(std::shared_ptr<const catena_model> table);
 
   const catena_model& table() const { return *table_; }
 
@@ -50,10 +52,10 @@ class Model {
   void check_parameters(const Eigen::VectorXd& parameters) const;
 
  private:
-  Model(const catena_model* table, std::shared_ptr<void> library);
+  Model(const catena_model* table, std::shared_ptr<const void> owner);
 
   const catena_model* table_;
-  std::shared_ptr<void> library_;
+  std::shared_ptr<const void> owner_;  // a loaded library, or the table itself
 };
 
 }  // namespace catena

@@ -148,7 +148,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
         }
       }
     }
-    out << function.before << function.body.text << function.after << "}\n";
+    out << function.before << page_text(function.body.text) << function.after << "}\n";
   }
   out << "\n"
       << table_arrays(description, functions) << "const catena_model* " << s.name << "(void) {\n"

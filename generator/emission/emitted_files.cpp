@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "generator/emission/any_links_writer.hpp"
 #include "generator/emission/c_writer.hpp"
 #include "generator/emission/support_text.hpp"
 
@@ -100,6 +101,7 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
                         std::optional<Layout> layout, Language language) {
   const bool c = language == Language::kC;
   EmittedFiles files = support_text();
+  auto any_links = files.extract("any_links.hpp");
   if (c) files = {{"catena_model.h", files.at("catena_model.h")}};
   std::vector<std::string> names;
   for (const int n : links) {
@@ -117,6 +119,11 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
   if (library) {
     files["models.hpp"] = look_up_header();
     files["models.cpp"] = look_up_source(names);
+    if (description.effects.empty()) {
+      files.merge(emit_any_links(description));
+      files.insert(std::move(any_links));
+      names.push_back(any_links_name(description));
+    }
     files["CMakeLists.txt"] = cmake_list(names);
   }
   return files;

@@ -20,7 +20,8 @@ using EmittedFiles = std::map<std::string, std::string>;
 
 /// Everything needed to compile the models of a description at the given link counts, and per model
 /// a summary of what was found (summary_name). `library`: also the look-up of all of them
-/// (models.hpp, models.cpp) and the list for CMake, of C++ alone. `progress` is told of each model.
+/// (models.hpp, models.cpp), the list for CMake and, without effects, the model for any number of
+/// links, of C++ alone. `progress` is told of each model.
 /// `layout`: for all of them; else layout_for each.
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,

@@ -46,6 +46,22 @@ struct Sweep {
   }
 };
 
+// Where to break: before the last sum in reach outside brackets, or else the last product.
+size_t break_of(const std::string& text, size_t from, size_t width) {
+  size_t sum = std::string::npos, product = std::string::npos;
+  int brackets = 0;
+  for (size_t k = 0; k + 2 < width; ++k) {
+    if (text[k] == '[') ++brackets;
+    if (text[k] == ']') --brackets;
+    if (k <= from || brackets > 0 || text[k] != ' ' || text[k + 2] != ' ') continue;
+    if (text[k + 1] == '+' || text[k + 1] == '-') sum = k;
+    if (text[k + 1] == '*') product = k;
+  }
+  return sum != std::string::npos && sum > from + width / 3 ? sum
+         : product != std::string::npos                     ? product
+                                                            : sum;
+}
+
 class Body {
  public:
   Body(const Definitions& definitions, const std::vector<Output>& outputs,
@@ -319,34 +335,8 @@ class Body {
 
   // ---- text -----------------------------------------------------------------------------------
 
-  // Where to break: before the last sum in reach outside brackets, or else the last product.
-  static size_t break_of(const std::string& text, size_t from, size_t width) {
-    size_t sum = std::string::npos, product = std::string::npos;
-    int brackets = 0;
-    for (size_t k = 0; k + 2 < width; ++k) {
-      if (text[k] == '[') ++brackets;
-      if (text[k] == ']') --brackets;
-      if (k <= from || brackets > 0 || text[k] != ' ' || text[k + 2] != ' ') continue;
-      if (text[k + 1] == '+' || text[k + 1] == '-') sum = k;
-      if (text[k + 1] == '*') product = k;
-    }
-    return sum != std::string::npos && sum > from + width / 3 ? sum
-           : product != std::string::npos                     ? product
-                                                              : sum;
-  }
-
-  // Lines are broken before an operator where they would be longer than a page is wide.
   void line(const std::string& text, int depth) {
-    constexpr size_t kWidth = 100;
-    std::string rest = std::string(static_cast<size_t>(2 * depth), ' ') + text;
-    const std::string indent(static_cast<size_t>(2 * depth) + 4, ' ');
-    while (rest.size() > kWidth) {
-      const size_t at = break_of(rest, indent.size(), kWidth);
-      if (at == std::string::npos) break;
-      result_.text += rest.substr(0, at) + "\n";
-      rest = indent + rest.substr(at + 1);
-    }
-    result_.text += rest + "\n";
+    result_.text += std::string(static_cast<size_t>(2 * depth), ' ') + text + "\n";
   }
 
   void declare_inputs() {
@@ -541,6 +531,25 @@ class Body {
 };
 
 }  // namespace
+
+std::string page_text(const std::string& statements) {
+  constexpr size_t kWidth = 100;
+  std::string page;
+  for (size_t begin = 0; begin < statements.size();) {
+    const size_t end = statements.find('\n', begin);
+    std::string rest = statements.substr(begin, end - begin);
+    const std::string indent(rest.find_first_not_of(' ') + 4, ' ');
+    while (rest.size() > kWidth) {
+      const size_t at = break_of(rest, indent.size(), kWidth);
+      if (at == std::string::npos) break;
+      page += rest.substr(0, at) + "\n";
+      rest = indent + rest.substr(at + 1);
+    }
+    page += rest + "\n";
+    begin = end + 1;
+  }
+  return page;
+}
 
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
                            const InputDeclarations& inputs, Layout layout, Language language) {

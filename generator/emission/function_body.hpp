@@ -40,7 +40,7 @@ enum class Layout {
 };
 
 struct FunctionBody {
-  std::string text;  ///< statements, indented by two
+  std::string text;  ///< statements, one a line, indented by two
   OperationCount operations;
   int statements = 0;
   bool along = false;  ///< has inputs of type D beside those of type T
@@ -49,5 +49,8 @@ struct FunctionBody {
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
                            const InputDeclarations& inputs, Layout layout,
                            Language language = Language::kCpp);
+
+/// The same statements, lines broken before an operator where they are longer than a page is wide.
+std::string page_text(const std::string& statements);
 
 }  // namespace catena

@@ -40,8 +40,8 @@ std::vector<std::string> ModelFunctions::table_entries(Language language) const 
           several_at_once() ? "c_accelerations" : "c_acceleration"};
 }
 
-bool ModelFunctions::several_at_once() const {
-  return !accelerations.empty() && summary.links <= (summary.mass_structured ? 1000 : 100);
+int ModelFunctions::most_links_at_once() const {
+  return accelerations.empty() ? 0 : summary.mass_structured ? 1000 : 100;
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -34,7 +34,9 @@ struct ModelFunctions {
 
   /// Whether the table has accelerations of several points at once: not where their arrays would
   /// not fit a thread's stack.
-  bool several_at_once() const;
+  bool several_at_once() const { return summary.links <= most_links_at_once(); }
+  /// Up to how many links they would fit; 0: not made for that.
+  int most_links_at_once() const;
   /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
   std::vector<std::string> table_entries(Language language) const;
 };

@@ -6,48 +6,17 @@
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/model_functions.hpp"
+#include "generator/emission/model_text.hpp"
 #include "generator/emission/table_text.hpp"
 
 namespace catena {
 
 namespace {
 
-const char* const kBanner =
-    "// Written by catena-derive. Do not edit: change the model description and derive again.\n";
-
-std::string operations_text(const FunctionBody& body) {
-  const OperationCount& count = body.operations;
-  std::ostringstream out;
-  out << count.additions << " additions, " << count.multiplications << " multiplications, "
-      << count.divisions << " divisions, " << count.functions << " functions";
-  return out.str();
-}
-
-std::string structure_text(const ModelFunctions& functions) {
-  const ModelSummary& s = functions.summary;
-  std::ostringstream out;
-  if (s.mass_structured) {
-    out << "//   M: semiseparable of rank " << s.mass_rank
-        << (s.mass_symmetric ? ", symmetric" : "") << " (proved for every pair of links)\n";
-  } else {
-    out << "//   M: no structure used: " << s.why_not << "\n";
-  }
-  if (s.structured) {
-    out << "//   ca dr/da + cv dr/dv + cq dr/dq: tridiagonal plus semiseparable, ranks "
-        << s.newton_upper_rank << " (above) and " << s.newton_lower_rank
-        << " (below the diagonal)\n";
-  } else {
-    out << "//   Newton matrix: general form: " << s.why_not << "\n";
-  }
-  if (s.stiffness_tridiagonal) out << "//   K: constant, symmetric, tridiagonal\n";
-  if (s.damping_tridiagonal) out << "//   C: constant, symmetric, tridiagonal\n";
-  return out.str();
-}
-
 std::string header_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
-  out << "// SPDX-License-Identifier: BSD-3-Clause\n" << kBanner << "//\n";
+  out << kBanner << "//\n";
   out << "// Equations of motion of a hanging chain of " << s.links << " rigid link"
       << (s.links == 1 ? "" : "s") << " with elastic, damped joints and a load";
   if (!description.effects.empty()) {
@@ -82,86 +51,23 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   }
   for (const EmittedFunction& function : functions.functions) {
     out << "\n/// " << function.comment;
-    if (function.body.statements > 0) out << "\n/// " << operations_text(function.body);
+    if (function.body.statements > 0) out << "\n/// " << operations_text(function.body.operations);
     out << (function.body.along ? "\ntemplate <class T, class D>\n" : "\ntemplate <class T>\n")
         << function.signature << " {\n"
-        << function.before << function.body.text << function.after << "}\n";
+        << function.before << page_text(function.body.text) << function.after << "}\n";
   }
   out << "\n}  // namespace catena::" << s.name << "\n";
   return out.str();
 }
 
-// As many points as a register of the processor holds numbers.
-std::string several_at_once_text(const std::string& accelerations) {
-  return "template <int sets>\n"
-         "int32_t several(const catena_point* at, double* a) {\n"
-         "  using Number = Lanes<sets>;\n"
-         "  const auto numbers = [](const double* first) {\n"
-         "    return reinterpret_cast<const Number*>(first);\n"
-         "  };\n"
-         "  const Point<Number> points{Number(at->t),  numbers(at->q), numbers(at->v), "
-         "numbers(at->a),\n"
-         "                             numbers(at->z), numbers(at->u), numbers(at->p)};\n"
-         "  return " +
-         accelerations +
-         "(points, reinterpret_cast<Number*>(a));\n}\n"
-         "#ifdef CATENA_PROCESSORS\n"
-         "__attribute__((target(\"arch=x86-64-v4\"), flatten)) int32_t eight(const catena_point* "
-         "at,\n"
-         "                                                                double* a) {\n"
-         "  return several<8>(at, a);\n}\n"
-         "__attribute__((target(\"avx2\"), flatten)) int32_t four(const catena_point* at, double* "
-         "a) {\n"
-         "  return several<4>(at, a);\n}\n"
-         "bool has_avx512() {  // what arch=x86-64-v4 stands for\n"
-         "  return __builtin_cpu_supports(\"avx512f\") && __builtin_cpu_supports(\"avx512bw\") &&\n"
-         "         __builtin_cpu_supports(\"avx512cd\") && __builtin_cpu_supports(\"avx512dq\") "
-         "&&\n"
-         "         __builtin_cpu_supports(\"avx512vl\");\n}\n"
-         "int32_t sets_at_once() {\n"
-         "  return has_avx512() ? 8 : __builtin_cpu_supports(\"avx2\") ? 4 : 2;\n}\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) {\n"
-         "  static const int32_t sets = sets_at_once();\n"
-         "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"
-         "#elif defined(__GNUC__)\n"
-         "#if defined(__AVX512F__)\n"
-         "constexpr int kSets = 8;\n"
-         "#elif defined(__AVX2__)\n"
-         "constexpr int kSets = 4;\n"
-         "#else\n"
-         "constexpr int kSets = 2;\n"
-         "#endif\n"
-         "int32_t sets_at_once() { return kSets; }\n"
-         "CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {\n"
-         "  return several<kSets>(at, a);\n}\n"
-         "#else\n"
-         "int32_t sets_at_once() { return 1; }\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, "
-         "a); }\n"
-         "#endif\n";
-}
-
 std::string source_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
-  out << "// SPDX-License-Identifier: BSD-3-Clause\n"
-      << kBanner << "#include \"" << s.name
+  out << kBanner << "#include \"" << s.name
       << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::"
       << s.name << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
-  // Without fused multiply-adds, which -ffp-contract=off forbids, all give the same bits.
-  out << "#if !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__)\n"
-         "#define CATENA_EACH_PROCESSOR\n"
-         "#elif defined(__x86_64__) && !defined(__AVX2__)\n"
-         "// Compiled twice, for AVX2 where the processor has it; the bits are the same.\n"
-         "#define CATENA_PROCESSORS\n"
-         "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), "
-         "flatten))\n"
-         "#else\n"
-         "#define CATENA_EACH_PROCESSOR __attribute__((flatten))\n"
-         "#endif\n\n";
-  out << "Point<double> point(const catena_point* p) {\n"
-         "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
+  out << processors_text();
   for (const EmittedFunction& function : functions.functions) {
     if (!function.wrapper.empty()) out << "CATENA_EACH_PROCESSOR " << function.wrapper;
   }

@@ -56,26 +56,43 @@ void table_rows(std::ostringstream& out, const std::string& type, const std::str
 
 }  // namespace
 
-std::string table_arrays(const Description& description, const ModelFunctions& functions) {
-  const ModelTable table = model_table(description, functions.summary.links);
+std::string quantity_text(const QuantityRow& row) {
+  return quoted(row.name) + ", " + quoted(row.unit);
+}
+
+std::string parameter_text(const ParameterRow& row) {
+  return quoted(row.name) + ", " + quoted(row.unit) + ", " + quoted(row.description) + ", " +
+         number(row.default_value) + ", " + number(row.lower) + ", " + number(row.upper) + ", " +
+         number(row.neutral);
+}
+
+std::string term_array(const ModelFunctions& functions) {
   std::ostringstream out;
-  const auto quantity = [&](const QuantityRow& row) {
-    out << quoted(row.name) << ", " << quoted(row.unit);
-  };
-  table_rows(out, "catena_quantity", "kCoordinateTable", table.coordinates, quantity);
-  table_rows(out, "catena_quantity", "kStateTable", table.states, quantity);
-  table_rows(out, "catena_quantity", "kSignalTable", table.signals, quantity);
-  table_rows(out, "catena_quantity", "kTermTable", functions.terms,
-             [&](const std::string& name) { out << quoted(name) << ", \"N m\""; });
-  table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
-             [&](const ParameterRow& row) {
-               out << quoted(row.name) << ", " << quoted(row.unit) << ", "
-                   << quoted(row.description) << ", " << number(row.default_value) << ", "
-                   << number(row.lower) << ", " << number(row.upper) << ", " << number(row.neutral);
-             });
+  table_rows(out, "catena_quantity", "kTermTable", functions.terms, [&](const std::string& name) {
+    out << quantity_text({name, "N m"});
+  });
+  return out.str();
+}
+
+std::string energy_array(const ModelFunctions& functions) {
+  std::ostringstream out;
   table_rows(out, "catena_energy", "kEnergyTable", functions.energies, [&](const EnergyItem& item) {
     out << quoted(item.name) << ", " << kind_text(item.kind);
   });
+  return out.str();
+}
+
+std::string table_arrays(const Description& description, const ModelFunctions& functions) {
+  const ModelTable table = model_table(description, functions.summary.links);
+  std::ostringstream out;
+  const auto quantity = [&](const QuantityRow& row) { out << quantity_text(row); };
+  table_rows(out, "catena_quantity", "kCoordinateTable", table.coordinates, quantity);
+  table_rows(out, "catena_quantity", "kStateTable", table.states, quantity);
+  table_rows(out, "catena_quantity", "kSignalTable", table.signals, quantity);
+  out << term_array(functions);
+  table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
+             [&](const ParameterRow& row) { out << parameter_text(row); });
+  out << energy_array(functions);
   return out.str();
 }
 

@@ -7,8 +7,17 @@
 
 #include "generator/description/description.hpp"
 #include "generator/emission/model_functions.hpp"
+#include "generator/emission/parameter_table.hpp"
 
 namespace catena {
+
+/// The members of a row, without braces.
+std::string quantity_text(const QuantityRow& row);
+std::string parameter_text(const ParameterRow& row);
+
+/// Arrays of terms and of energies.
+std::string term_array(const ModelFunctions& functions);
+std::string energy_array(const ModelFunctions& functions);
 
 /// Arrays of coordinates, states, signals, terms, parameters and energies.
 std::string table_arrays(const Description& description, const ModelFunctions& functions);

@@ -10,6 +10,7 @@
 #include "generator/certificate/certificate.hpp"
 #include "generator/description/input_error.hpp"
 #include "generator/description/whole_file.hpp"
+#include "generator/emission/any_links_writer.hpp"
 #include "generator/program/commands.hpp"
 #include "generator/program/model_options.hpp"
 
@@ -95,16 +96,20 @@ bool certify(const Options& options, const Description& description, int links) 
   return problems.empty();
 }
 
-// The look-up of the models and the list for CMake.
+// What the models have in common: their look-up, the list for CMake, the one for any number.
 bool certify_library(const Options& options, const Description& description) {
   const EmittedFiles files =
       emit_files(description, description.links, true, [](const ModelSummary&, double) {});
   bool same = true;
-  for (const char* name : {"models.hpp", "models.cpp", "CMakeLists.txt"}) {
+  const std::string any_links = any_links_name(description);
+  for (const std::string& name :
+       {std::string("models.hpp"), std::string("models.cpp"), std::string("CMakeLists.txt"),
+        std::string("any_links.hpp"), any_links + ".hpp", any_links + ".cpp"}) {
+    if (!files.contains(name)) continue;
     const auto text = text_of(std::filesystem::path(options.folder) / name);
     if (text && *text == files.at(name)) continue;
     same = false;
-    std::printf("%s is not %s\n", name, text ? "what is derived" : "there");
+    std::printf("%s is not %s\n", name.c_str(), text ? "what is derived" : "there");
   }
   return same;
 }
@@ -119,8 +124,7 @@ void add_certify_command(CLI::App& app, int& status) {
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();
   add_format_option(*command, options->format);
-  command->add_flag("--library", options->library,
-                    "compare the models' look-up and CMake's list too");
+  command->add_flag("--library", options->library, "compare what models have in common too");
   command->add_flag("--write", options->write, "write the certificates instead of comparing");
   command->footer(
       "Exit status 1 if a byte of the emitted code differs, a proof fails or a number\n"

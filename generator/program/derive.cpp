@@ -93,7 +93,8 @@ void add_derive_command(CLI::App& app, int& status) {
   add_model_options(*command, options->model);
   command->add_option("--output", options->output, "folder to write to")->capture_default_str();
   CLI::Option* library = command->add_flag("--library", options->library,
-                                           "write the models' look-up and CMake's list too");
+                                           "write what models have in common too: look-up,\n"
+                                           "CMake's list, the plain chain of any length");
   CLI::Option* format = add_format_option(*command, options->format);
   CLI::Option* layout =
       command

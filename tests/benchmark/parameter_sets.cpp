@@ -4,12 +4,9 @@
 // has it on this processor, with states put in before and accelerations taken out after each
 // evaluation or without, and the emitted text for each kind of processor that this one can be.
 // Results are compared bit for bit first.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <vector>
 
 #include "generated/chain_12.hpp"
@@ -20,6 +17,7 @@
 #include "runtime/eight_sets.hpp"
 #include "runtime/state.hpp"
 #include "tests/benchmark/cable.hpp"
+#include "tests/benchmark/interleaved.hpp"
 
 namespace {
 
@@ -74,32 +72,6 @@ __attribute__((target("avx2"), flatten)) int avx2(int links, int parameters, con
 __attribute__((target("arch=x86-64-v4"), flatten)) int avx512(int links, int parameters,
                                                               const Arrays& arrays) {
   return evaluate<8>(links, parameters, arrays);
-}
-
-double now() {  // ns
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-/// Medians over interleaved blocks of calls, ns a call.
-std::vector<double> nanoseconds(const std::vector<std::function<void()>>& calls) {
-  constexpr int kBlocks = 201, kCalls = 50;
-  std::vector<std::vector<double>> blocks(calls.size());
-  for (int block = 0; block < kBlocks; ++block) {
-    for (std::size_t c = 0; c < calls.size(); ++c) {
-      calls[c]();
-      const double begin = now();
-      for (int i = 0; i < kCalls; ++i) calls[c]();
-      blocks[c].push_back((now() - begin) / kCalls);
-    }
-  }
-  std::vector<double> medians;
-  for (auto& times : blocks) {
-    std::nth_element(times.begin(), times.begin() + kBlocks / 2, times.end());
-    medians.push_back(times[kBlocks / 2]);
-  }
-  return medians;
 }
 
 }  // namespace
@@ -204,7 +176,8 @@ int main() {
       }
     }
     std::printf("%d", n);
-    for (const double time : nanoseconds(calls)) std::printf(",%.1f", time / EightSets::kSets);
+    for (const double time : catena::benchmark::nanoseconds(calls))
+      std::printf(",%.1f", time / EightSets::kSets);
     for (std::size_t c = calls.size(); c < 6; ++c) std::printf(",not measured");
     std::printf("\n");
   }

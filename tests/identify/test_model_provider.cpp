@@ -3,9 +3,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
 #include "generator/description/input_error.hpp"
 #include "identify/error.hpp"
 #include "identify/model_provider.hpp"
+#include "runtime/any_links.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -25,6 +30,22 @@ ProviderOptions options_for(const testing::TemporaryFolder& folder,
   if (notices) options.notice = [notices](const std::string& line) { notices->push_back(line); };
   return options;
 }
+
+// A variable of the environment, for as long as this lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
 
 std::size_t entries(const std::filesystem::path& folder) {
   std::size_t count = 0;
@@ -85,6 +106,33 @@ TEST_CASE("what is missing or wrong is said") {
   options.derive_program = "/no/such/catena-derive";
   CHECK_THROWS_AS(provide_model({}, 5, options), ModelError);
   CHECK(entries(folder.path() / "cache") == 0);  // nothing half made is left behind
+}
+
+TEST_CASE("the plain chain does without a compiler") {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> notices;
+  const ProviderOptions options = options_for(folder, &notices);
+  auto no_compiler = std::make_unique<Environment>("CXX", "/no/such/compiler");
+  const Model model = provide_model({}, 13, options);
+  CHECK(&model.table() == &any_links_model(13).table());
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0] ==
+        "the compiler /no/such/compiler was not found: 13 links are computed by the model for any "
+        "number of links, with the same results");
+  CHECK(!std::filesystem::exists(folder.path() / "cache"));
+  // an effect, or a single link, does not
+  const auto drag = folder.write(
+      "d.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"load_drag\"]\n");
+  CHECK_THROWS_AS(provide_model(drag, 13, options), ModelError);
+  CHECK_THROWS_AS(provide_model({}, 1, options), ModelError);
+  // with a compiler it is compiled; what is in the cache needs none
+  no_compiler.reset();
+  CHECK(&provide_model({}, 13, options).table() != &model.table());
+  const Environment nothing_in_path("PATH", "/no/such/folder");
+  CHECK(&provide_model({}, 13, options).table() != &model.table());
+  const Environment by_name("CXX", "c++");
+  const Model other = provide_model({}, 14, options);
+  CHECK(&other.table() == &any_links_model(14).table());
 }
 
 TEST_CASE("two processes at once share the cache") {

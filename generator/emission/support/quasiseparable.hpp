@@ -22,12 +22,45 @@
 
 namespace catena {
 
-template <class T, int n, int upper_rank, int lower_rank>
-struct Quasiseparable {
+/// What of the matrix is kept.
+template <class T, int size, int upper_rank, int lower_rank>
+struct QuasiseparableEntries {
+  static constexpr int n = size;
   static constexpr int ru = upper_rank > 0 ? upper_rank : 1;
   static constexpr int rl = lower_rank > 0 ? lower_rank : 1;
   T upper_row[n][ru], upper_column[n][ru], lower_row[n][rl], lower_column[n][rl];
   T diagonal[n], below[n], above[n];
+};
+
+/// The same, n known at run time, in memory of the caller's: numbers(n) of them.
+template <class T, int upper_rank, int lower_rank>
+struct QuasiseparableEntries<T, kAtRunTime, upper_rank, lower_rank> {
+  static constexpr int ru = upper_rank > 0 ? upper_rank : 1;
+  static constexpr int rl = lower_rank > 0 ? lower_rank : 1;
+  static constexpr int numbers(int n) { return n * (2 * ru + 2 * rl + 3); }
+
+  QuasiseparableEntries(int size, T* memory)
+      : n(size),
+        upper_row(reinterpret_cast<T (*)[ru]>(memory)),
+        upper_column(upper_row + n),
+        lower_row(reinterpret_cast<T (*)[rl]>(upper_column + n)),
+        lower_column(lower_row + n),
+        diagonal(*(lower_column + n)),
+        below(diagonal + n),
+        above(below + n) {}
+
+  const int n;
+  T (*const upper_row)[ru], (*const upper_column)[ru];
+  T (*const lower_row)[rl], (*const lower_column)[rl];
+  T *const diagonal, *const below, *const above;
+};
+
+template <class T, int size, int upper_rank, int lower_rank>
+struct Quasiseparable : QuasiseparableEntries<T, size, upper_rank, lower_rank> {
+  using Entries = QuasiseparableEntries<T, size, upper_rank, lower_rank>;
+  using Entries::above, Entries::below, Entries::diagonal, Entries::Entries;
+  using Entries::lower_column, Entries::lower_row, Entries::upper_column, Entries::upper_row;
+  using Entries::n, Entries::ru, Entries::rl;
 
   /// Factors in place; afterwards the members hold what solve() needs:
   ///   diagonal      reciprocal pivots d

@@ -11,6 +11,9 @@
 
 namespace catena {
 
+/// In the place of a number of links that is known only when the program runs.
+inline constexpr int kAtRunTime = -1;
+
 using std::acos;
 using std::asin;
 using std::asinh;
@@ -55,9 +58,13 @@ inline void sine_cosine(const T& angle, T& sine, T& cosine) {
 }
 
 /// Sines and cosines of n angles.
+template <class T>
+inline void sines_and_cosines(int n, const T* angle, T* sine, T* cosine) {
+  for (int i = 0; i < n; ++i) sine_cosine(angle[i], sine[i], cosine[i]);
+}
 template <int n, class T>
 inline void sines_and_cosines(const T* angle, T* sine, T* cosine) {
-  for (int i = 0; i < n; ++i) sine_cosine(angle[i], sine[i], cosine[i]);
+  sines_and_cosines(n, angle, sine, cosine);
 }
 
 /// Whether a pivot of a positive definite matrix may be divided by; false for NaN.

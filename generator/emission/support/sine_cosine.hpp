@@ -63,13 +63,13 @@ inline void sine_cosine(const double& x, double& sine, double& cosine) {
 
 #ifdef __GNUC__
 /// Sines and cosines of n angles, four at a time: vectors of the compiler's, not of one processor.
-template <int n>
-inline void sines_and_cosines(const double* angle, double* sine, double* cosine) {
+[[gnu::always_inline]] inline void sines_and_cosines(int n, const double* angle, double* sine,
+                                                     double* cosine) {
   typedef double Four __attribute__((vector_size(32)));
   typedef std::uint64_t FourBits __attribute__((vector_size(32)));
   typedef double Two __attribute__((vector_size(16)));
   typedef std::uint64_t TwoBits __attribute__((vector_size(16)));
-  constexpr int whole = n - n % 4, rest = n % 4;
+  const int whole = n - n % 4, rest = n % 4;
   for (int i = 0; i < whole; i += 4) {
     Four x, s, c;
     std::memcpy(&x, angle + i, sizeof x);
@@ -77,7 +77,7 @@ inline void sines_and_cosines(const double* angle, double* sine, double* cosine)
     std::memcpy(sine + i, &s, sizeof s);
     std::memcpy(cosine + i, &c, sizeof c);
   }
-  if constexpr (rest == 3) {
+  if (rest == 3) {
     const Four x{angle[whole], angle[whole + 1], angle[whole + 2], angle[whole + 2]};
     Four s, c;
     sine_cosine_of<Four, FourBits>(x, s, c);
@@ -85,15 +85,19 @@ inline void sines_and_cosines(const double* angle, double* sine, double* cosine)
       sine[whole + k] = s[k];
       cosine[whole + k] = c[k];
     }
-  } else if constexpr (rest == 2) {
+  } else if (rest == 2) {
     Two x, s, c;
     std::memcpy(&x, angle + whole, sizeof x);
     sine_cosine_of<Two, TwoBits>(x, s, c);
     std::memcpy(sine + whole, &s, sizeof s);
     std::memcpy(cosine + whole, &c, sizeof c);
-  } else if constexpr (rest == 1) {
+  } else if (rest == 1) {
     sine_cosine(angle[whole], sine[whole], cosine[whole]);
   }
+}
+template <int n>
+inline void sines_and_cosines(const double* angle, double* sine, double* cosine) {
+  sines_and_cosines(n, angle, sine, cosine);
 }
 #endif
 
