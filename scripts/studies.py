@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies of the dissertation's chapters share: runs of catena, tables, figures."""
+import concurrent.futures
 import csv
 import json
 import os
@@ -72,27 +73,31 @@ class Fit:
 
     def measure(self):
         """Of a short fit, which anything disturbs, the time becomes the median of seven runs."""
-        if self.cpu_seconds < 0.6:
+        if self.cpu_seconds < 0.2:
             self.cpu_seconds = sorted(self.run() for _ in range(7))[3]
 
     def to_reach(self, error):
-        """The run with the fewest evaluations (the limit holds for every beginning) that ends at no
-        more than this error; None if the whole run does not."""
+        """The run of fewest evaluations (the limit holds for every beginning) that bisection finds to
+        end at no more than this error; None if the whole run does not."""
         if self.error > error:
             return None
         with open(self.case) as file:
             text = file.read()
-        for limit in range(1, self.evaluations):
-            case = f"{self.case.removesuffix('.toml')}_to_reach.toml"
+        case = f"{self.case.removesuffix('.toml')}_to_reach.toml"
+        reached, short, long = self, 0, self.evaluations
+        while long - short > 1:
+            limit = (short + long) // 2
             with open(case, "w") as file:
                 file.write(text.replace('"least_squares"\n', f'"least_squares"\nmax_evaluations = {limit}\n'))
             try:
                 shorter = Fit(self.binaries, case, f"{self.output}_to_reach")
             except Failed:  # stopped so soon, a fit may not leave its start
-                continue
-            if shorter.error <= error:
-                return shorter
-        return self
+                shorter = None
+            if shorter and shorter.error <= error:
+                reached, long = shorter, limit
+            else:
+                short = limit
+        return reached
 
 
 def columns(path):
@@ -115,9 +120,10 @@ def table(title, head, rows):
 
 def compare_methods(title, runs):
     """Nelder-Mead beside least squares; `runs`: what was fitted -> (simplex, least squares)."""
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        shorter = list(pool.map(lambda run: run[1].to_reach(run[0].error), runs.values()))
     rows = []
-    for name, (simplex, squares) in runs.items():
-        reached = squares.to_reach(simplex.error)
+    for (name, (simplex, squares)), reached in zip(runs.items(), shorter):
         for fit in (simplex, squares, *([reached] if reached else [])):
             fit.measure()
         rows.append([name, simplex.evaluations, simplex.cpu_seconds, simplex.error,
