@@ -101,14 +101,17 @@ CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca,
   newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();
 }
+const NewtonMatrix<double>& factored(const double* work) {
+  return *reinterpret_cast<const NewtonMatrix<double>*>(work);
+}
 CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
-  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);
+  factored(work).solve(x);
 }
 CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {
-  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(directions(x));
+  factored(work).solve(directions(x));
 }
 CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {
-  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);
+  factored(work).solve_transposed(x);
 }
 CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
 CATENA_EACH_PROCESSOR void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {

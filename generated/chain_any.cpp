@@ -64,6 +64,9 @@ struct Functions : Chain {
     newton_matrix(point(at), ca, cv, cq, matrix);
     return matrix.factor();
   }
+  const NewtonMatrix<double> factored(const double* work) const {
+    return {links(), const_cast<double*>(work)};  // solving only reads
+  }
   CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
     factored(work).solve(x);
   }
@@ -72,9 +75,6 @@ struct Functions : Chain {
   }
   CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {
     factored(work).solve_transposed(x);
-  }
-  const NewtonMatrix<double> factored(const double* work) const {
-    return {links(), const_cast<double*>(work)};  // solving only reads
   }
   CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
   CATENA_EACH_PROCESSOR void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {

@@ -134,7 +134,7 @@ enum class Measure {
   kMeanDistance,  ///< mean over frames and markers of the distance, (6.5), (6.6)
   kMeanAbsolute,  ///< mean over channels of the mean absolute residual, (7.1)-(7.5)
   kLikelihood,    ///< geometric mean of the channels' root mean squares: the likelihood with the
-                ///< noise of every channel unknown
+                  ///< noise of every channel unknown
 };
 
 enum class Loss { kNone, kHuber, kSoftL1, kCauchy };

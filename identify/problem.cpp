@@ -428,9 +428,10 @@ Problem Problem::alone(const Eigen::VectorXd& x, int experiment) const {
   return Problem(std::move(study), model_, {std::move(recording)});
 }
 
-Problem Problem::started(int experiment, const InitialSpec& initial) const {
+Problem Problem::started(const std::map<int, InitialSpec>& starts) const {
   Problem other = *this;
-  other.experiments_[static_cast<std::size_t>(experiment)].initial = initial;
+  for (const auto& [experiment, initial] : starts)
+    other.experiments_[static_cast<std::size_t>(experiment)].initial = initial;
   return other;
 }
 

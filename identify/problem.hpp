@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,8 @@ struct Prediction {
   Eigen::MatrixXd simulated;                 ///< channels x frames
   std::vector<Eigen::MatrixXd> sensitivity;  ///< one per direction, channels x frames
   Trajectory trajectory;                     ///< at the frames
-  Eigen::VectorXd first,
-      last;  ///< joined windows: q and v at the start, and where the next one starts
+  /// Joined windows: q and v at the start, and where the next one starts.
+  Eigen::VectorXd first, last;
   Eigen::MatrixXd first_along, last_along;  ///< their derivatives, one column per direction
   bool ok() const { return status == Status::kSuccess; }
 };
@@ -121,8 +122,8 @@ class Problem {
   Problem fixed(int unknown, double value) const;
   /// One experiment alone, all of it to be fitted, by its start only: everything else is as in x.
   Problem alone(const Eigen::VectorXd& x, int experiment) const;
-  /// The same problem, another start of one experiment.
-  Problem started(int experiment, const InitialSpec& initial) const;
+  /// The same problem, other starts of some experiments.
+  Problem started(const std::map<int, InitialSpec>& starts) const;
   /// The same problem with other measurements: one matrix (channels x frames) per experiment.
   Problem measured_as(const std::vector<Eigen::MatrixXd>& measured) const;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/checking/combination.hpp"
 
-
 namespace catena::checking {
 namespace {
 

@@ -34,7 +34,8 @@ struct Finding {
 };
 
 /// One finding for each entry of the derivation, in its order. The chain's side is derived afresh
-/// from its energies (FlatDerivation). `seed` selects the states in numbers and the points of evaluations.
+/// from its energies (FlatDerivation). `seed` selects the states in numbers and the points of
+/// evaluations.
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
 
 /// How many of the equations found to hold are independent of one another (at a random state).

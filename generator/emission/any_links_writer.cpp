@@ -162,7 +162,7 @@ class Writer {
     for (const EmittedFunction& function : model_.functions) {
       if (!function.wrapper.empty())
         functions += "CATENA_EACH_PROCESSOR " +
-                     (function.name == "newton_matrix" ? kNewton : function.wrapper);
+                     (function.name == "newton_matrix" ? newton_wrapper() : function.wrapper);
     }
     functions += several_at_once_text(model_.accelerations);
     out << indented(functions) << "};\n\n"
@@ -260,6 +260,13 @@ class Writer {
            "  const MassMatrix<T> matrix{links, row, column, diagonal};\n";
   }
 
+  static std::string newton_wrapper() {
+    return newton_text(
+        "  NewtonMatrix<double> matrix(links(), work);\n",
+        "const NewtonMatrix<double> factored(const double* work) const {\n"
+        "  return {links(), const_cast<double*>(work)};  // solving only reads\n}\n");
+  }
+
   // Lines of the preprocessor stay at the margin.
   static std::string indented(const std::string& text) {
     std::string out;
@@ -273,20 +280,6 @@ class Writer {
   }
 
   inline static const std::string kLinks = "  const int links = this->links();\n";
-  inline static const std::string kNewton =
-      "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
-      "                        double* work) {\n"
-      "  NewtonMatrix<double> matrix(links(), work);\n"
-      "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
-      "  return matrix.factor();\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
-      "  factored(work).solve(x);\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {\n"
-      "  factored(work).solve(directions(x));\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
-      "  factored(work).solve_transposed(x);\n}\n"
-      "const NewtonMatrix<double> factored(const double* work) const {\n"
-      "  return {links(), const_cast<double*>(work)};  // solving only reads\n}\n";
 
   const Description& description_;
   std::string name_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/function_builder.hpp"
+#include "generator/emission/model_text.hpp"
 
 namespace catena {
 
@@ -163,17 +164,9 @@ void FunctionBuilder::newton() {
       "void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,\n"
       "                   NewtonMatrix<T>& matrix)",
       body(all_entries(newton, false), at_),
-      "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
-      "                        double* work) {\n"
-      "  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);\n"
-      "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
-      "  return matrix.factor();\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
-      "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(x);\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {\n"
-      "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve(directions(x));\n}\n"
-      "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
-      "  reinterpret_cast<const NewtonMatrix<double>*>(work)->solve_transposed(x);\n}\n");
+      newton_text("  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);\n",
+                  "const NewtonMatrix<double>& factored(const double* work) {\n"
+                  "  return *reinterpret_cast<const NewtonMatrix<double>*>(work);\n}\n"));
 }
 
 }  // namespace catena

@@ -49,6 +49,21 @@ std::string processors_text() {
          "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
 }
 
+std::string newton_text(const std::string& matrix, const std::string& factored) {
+  return "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
+         "                        double* work) {\n" +
+         matrix +
+         "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
+         "  return matrix.factor();\n}\n" +
+         factored +
+         "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
+         "  factored(work).solve(x);\n}\n"
+         "CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {\n"
+         "  factored(work).solve(directions(x));\n}\n"
+         "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
+         "  factored(work).solve_transposed(x);\n}\n";
+}
+
 std::string several_at_once_text(const std::string& accelerations) {
   return "template <int sets>\n"
          "int32_t several(const catena_point* at, double* a) {\n"

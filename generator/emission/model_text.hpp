@@ -22,6 +22,10 @@ std::string structure_text(const ModelFunctions& functions);
 /// CATENA_EACH_PROCESSOR and point(): what the functions behind the table begin with.
 std::string processors_text();
 
+/// c_newton_factor, c_newton_solve and its like. `matrix`: a statement that makes the `matrix` to
+/// be factored in `work`; `factored`: a function of that name that gives it back.
+std::string newton_text(const std::string& matrix, const std::string& factored);
+
 /// sets_at_once() and c_accelerations, which calls `accelerations` with as many points as a
 /// register of the processor holds numbers.
 std::string several_at_once_text(const std::string& accelerations);

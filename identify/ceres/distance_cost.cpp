@@ -44,14 +44,9 @@ MatrixXd DistanceCost::bend_since(const VectorXd& y, const MatrixXd& curvature) 
   const MatrixXd& jacobian = simulated_.residuals().jacobian;
   const MatrixXd none = MatrixXd::Zero(unknowns, unknowns);
   if (!y_.size()) return none;
-  const VectorXd& r = simulated_.residuals().value;
-  VectorXd along(r.size());  // w u
-  for (const WeightedDistance& point : points_) {
-    const auto here = r.segment(point.first, point.count);
-    const double distance = here.norm();
-    along.segment(point.first, point.count) = here * (distance > 0 ? point.weight / distance : 0);
-  }
-  VectorXd change = (jacobian - jacobian_).transpose() * along;
+  const MatrixXd since = jacobian - jacobian_;
+  VectorXd change = LinearisedDistances(simulated_.residuals().value, since, points_, none)
+                        .gradient(VectorXd::Zero(unknowns), 0);
   // An unknown that came to rest at a bound, or left it, changed its column, not the motion.
   for (Index j = 0; j < unknowns; ++j)
     if (jacobian.col(j).isZero(0) || jacobian_.col(j).isZero(0)) change[j] = 0;

@@ -16,8 +16,7 @@ SimulatedResiduals::SimulatedResiduals(const Problem& problem, FitJournal& journ
 // Ceres asks for the cost of a trial point and, if it is good, for the derivatives at the same
 // point. After a good point the next is expected to be good too: cost and derivatives come from one
 // simulation. After a bad one, or where it may be the last, derivatives wait until they are asked
-// for. `new_point` also comes
-// for points that were seen a moment ago.
+// for. `new_point` also comes for points that were seen a moment ago.
 void SimulatedResiduals::PrepareForEvaluation(bool jacobians, bool) {
   const bool known = here_.size() == y_.size() && here_ == y_;
   if (known && jacobians && !with_jacobian_ && journal_.must_stop(rough_ ? 1 : 0)) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace catena {
 
@@ -20,6 +21,7 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
                                                     const std::atomic<bool>* stop) {
   FitOptions options;
   options.stop = stop;
+  std::map<int, InitialSpec> starts;
   for (std::size_t e = 0; e < problem->experiments().size(); ++e) {
     const Experiment& experiment = problem->experiments()[e];
     const InitialSpec& initial = experiment.initial;
@@ -28,10 +30,9 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
     const Problem alone = problem->alone(x, static_cast<int>(e));
     const FitResult result = least_squares(alone, options);
     if (result.status == FitStatus::kFailed || result.x.size() == 0) continue;
-    problem = std::make_shared<const Problem>(
-        problem->started(static_cast<int>(e), alone.initial_of(result.x, 0)));
+    starts[static_cast<int>(e)] = alone.initial_of(result.x, 0);
   }
-  return problem;
+  return starts.empty() ? problem : std::make_shared<const Problem>(problem->started(starts));
 }
 
 }  // namespace

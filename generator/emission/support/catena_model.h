@@ -84,16 +84,15 @@ typedef struct catena_model {
   int32_t energies;    /* length of the energy output */
   int32_t uses_time;   /* 1 if t or a signal enters the equations */
   int32_t observes;    /* 1 if a sensor effect changes what is observed */
-  int32_t structured;  /* 1: the Newton matrix is factored in O(links); 0: the entries newton_* are
-                          null */
+  int32_t structured;  /* 1: the Newton matrix is factored in O(links); 0: newton_* are null */
   int32_t newton_work; /* doubles of work space for newton_factor and newton_solve */
 
   const catena_quantity* coordinate;
   const catena_quantity* state;
   const catena_quantity* signal;
   const catena_parameter* parameter;
-  const catena_quantity*
-      term; /* "inertia", "coriolis", "gravity", "elastic", "friction", "torque", effects' ids */
+  /* "inertia", "coriolis", "gravity", "elastic", "friction", "torque", effects' ids */
+  const catena_quantity* term;
   const catena_energy* energy_item;
 
   /* r[coordinates] and its directional derivative */
@@ -119,8 +118,7 @@ typedef struct catena_model {
   void (*newton_solve)(const double* work, double* x);
   /* energies and powers, energies entries in the order of energy_item */
   void (*energy)(const catena_point* at, double* e);
-  /* side[links + 2], down[links + 2]: the support (0), the far end of link i (i), the load (links +
-   * 1) */
+  /* side[links + 2], down[links + 2]: the support, the far ends of links 1 to n, the load */
   void (*positions)(const catena_point* at, double* side, double* down);
   void (*positions_tangent)(const catena_point* at, const catena_point* along, double* dside,
                             double* ddown);
