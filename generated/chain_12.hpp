@@ -651,8 +651,8 @@ void mass_matrix(const Point<T>& at, T* M) {
   for (int i = 1; i <= 12; ++i) {
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
   }
   T mass_cut_force_down_per_joint_down_acceleration[13];
   mass_cut_force_down_per_joint_down_acceleration[12] = mass[12] + load_mass;
@@ -661,19 +661,19 @@ void mass_matrix(const Point<T>& at, T* M) {
         + mass_cut_force_down_per_joint_down_acceleration[i + 1];
   }
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration[2]);
   for (int i = 2; i <= 11; ++i) {
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
   }
-  matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-  matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+  matrix.row[0][11] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+  matrix.row[1][11] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
   matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
       + load_mass);
   matrix.to_dense(M);
@@ -708,7 +708,7 @@ int acceleration(const Point<T>& at, T* a) {
     const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
     const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
     matrix.column[0][0] = mass_joint_down_acceleration_gain;
-    matrix.column[0][1] = mass_joint_side_acceleration_gain;
+    matrix.column[1][0] = mass_joint_side_acceleration_gain;
   }
   for (int i = 2; i <= 12; ++i) {
     const T joint_angle = theta[i] - theta[i - 1];
@@ -718,8 +718,8 @@ int acceleration(const Point<T>& at, T* a) {
     span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
   }
   T joint_down_acceleration_bias[13];
   T joint_side_acceleration_bias[13];
@@ -775,7 +775,7 @@ int acceleration(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias[2]
         + ratio<T>(1, 2) * centre_side_force_bias[1];
     matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+    matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
     matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
         + mass_cut_force_down_per_joint_down_acceleration[2]);
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
@@ -786,9 +786,9 @@ int acceleration(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_down_force_bias[i];
     const T span_side_force_bias = cut_force_side_bias[i + 1]
         + ratio<T>(1, 2) * centre_side_force_bias[i];
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
@@ -800,8 +800,8 @@ int acceleration(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_down_force_bias[12];
     const T span_side_force_bias = cut_force_side_bias[13]
         + ratio<T>(1, 2) * centre_side_force_bias[12];
-    matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.row[0][11] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.row[1][11] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
     matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
         + load_mass);
     a[11] = torque[12] - joint_moment[12] + length[12] * (sine[12] * span_down_force_bias
@@ -847,7 +847,7 @@ int accelerations(const Point<T>& at, T* a) {
     const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
     const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
     matrix.column[0][0] = mass_joint_down_acceleration_gain;
-    matrix.column[0][1] = mass_joint_side_acceleration_gain;
+    matrix.column[1][0] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     span_side_acceleration_bias_last = span_side_acceleration_bias;
   }
@@ -869,7 +869,7 @@ int accelerations(const Point<T>& at, T* a) {
     centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[2] * sine[2];
     const T mass_joint_side_acceleration_gain = length[2] * cosine[2];
-    matrix.column[1][0] = mass_joint_down_acceleration_gain;
+    matrix.column[0][1] = mass_joint_down_acceleration_gain;
     matrix.column[1][1] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     joint_down_acceleration_bias_last = joint_down_acceleration_bias;
@@ -894,8 +894,8 @@ int accelerations(const Point<T>& at, T* a) {
     centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     joint_down_acceleration_bias_last = joint_down_acceleration_bias;
     span_side_acceleration_bias_last = span_side_acceleration_bias;
@@ -918,8 +918,8 @@ int accelerations(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias_last
         + ratio<T>(1, 2) * centre_side_force_bias[12];
     const T mass_cut_force_down_per_joint_down_acceleration = mass[12] + load_mass;
-    matrix.row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.row[0][11] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.row[1][11] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
     matrix.diagonal[11] = inertia[12] + length[12] * length[12] * (ratio<T>(1, 4) * mass[12]
         + load_mass);
     a[11] = torque[12] - joint_moment[12] + length[12] * (sine[12] * span_down_force_bias
@@ -937,9 +937,9 @@ int accelerations(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_side_force_bias[i];
     const T mass_cut_force_down_per_joint_down_acceleration = mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last;
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
@@ -955,7 +955,7 @@ int accelerations(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias_last
         + ratio<T>(1, 2) * centre_side_force_bias[1];
     matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
+    matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
     matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
         + mass_cut_force_down_per_joint_down_acceleration_last);
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
@@ -994,9 +994,9 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
       + theta_dot[1] * cosine[1] * cq));
   matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[0][1] = length[1] * cosine[1];
+  matrix.upper_row[1][0] = length[1] * cosine[1];
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-  matrix.lower_column[0][1] = newton_joint_side_acceleration_gain[1];
+  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
   matrix.below[0] = T(0);
   matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
   for (int i = 2; i <= 11; ++i) {
@@ -1009,10 +1009,10 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
     newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
         - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
         + theta_dot[i] * cosine[i] * cq));
-    matrix.upper_row[i - 1][0] = -length[i] * sine[i];
-    matrix.upper_row[i - 1][1] = length[i] * cosine[i];
-    matrix.lower_column[i - 1][0] = newton_joint_down_acceleration_gain[i];
-    matrix.lower_column[i - 1][1] = newton_joint_side_acceleration_gain[i];
+    matrix.upper_row[0][i - 1] = -length[i] * sine[i];
+    matrix.upper_row[1][i - 1] = length[i] * cosine[i];
+    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
+    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
     matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
     matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
   }
@@ -1026,10 +1026,10 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   newton_joint_side_acceleration_gain[12] = length[12] * (cosine[12] * ca
       - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
       + theta_dot[12] * cosine[12] * cq));
-  matrix.upper_row[11][0] = T(0);
-  matrix.upper_row[11][1] = T(0);
-  matrix.lower_column[11][0] = newton_joint_down_acceleration_gain[12];
-  matrix.lower_column[11][1] = newton_joint_side_acceleration_gain[12];
+  matrix.upper_row[0][11] = T(0);
+  matrix.upper_row[1][11] = T(0);
+  matrix.lower_column[0][11] = newton_joint_down_acceleration_gain[12];
+  matrix.lower_column[1][11] = newton_joint_side_acceleration_gain[12];
   matrix.below[11] = -(stiffness[12] * cq + damping[12] * cv);
   matrix.above[11] = T(0);
   T joint_side_acceleration[13];
@@ -1075,11 +1075,11 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
     const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
     matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration[2]
         * newton_joint_down_acceleration_gain[1];
-    matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration[2]
+    matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration[2]
         * newton_joint_side_acceleration_gain[1];
     matrix.lower_row[0][0] = -length[1] * sine[1]
         * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.lower_row[0][1] = length[1] * cosine[1]
+    matrix.lower_row[1][0] = length[1] * cosine[1]
         * mass_cut_force_down_per_joint_down_acceleration[2];
     matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
         + damping[2]) + length[1] * (length[1]
@@ -1091,17 +1091,17 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   for (int i = 2; i <= 11; ++i) {
     const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
     const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
-    matrix.upper_column[i - 1][0] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+    matrix.upper_column[0][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
         * newton_joint_down_acceleration_gain[i]
         + length[i] * mass[i] * (theta_dot[i] * (ratio<T>(1, 2) * theta_dot[i] * sine[i] * cq
         - cosine[i] * cv) - ratio<T>(1, 2) * (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
-    matrix.upper_column[i - 1][1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+    matrix.upper_column[1][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
         * newton_joint_side_acceleration_gain[i]
         + length[i] * mass[i] * (ratio<T>(1, 2) * (cosine[i] * ca - theta_ddot[i] * sine[i] * cq)
         - theta_dot[i] * (sine[i] * cv + ratio<T>(1, 2) * theta_dot[i] * cosine[i] * cq));
-    matrix.lower_row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.lower_row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.lower_row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.lower_row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] * ca + cq * (stiffness[i] + stiffness[i + 1])
         + cv * (damping[i] + damping[i + 1])
@@ -1113,18 +1113,18 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   {
     const T span_down_force = cut_force_down[13] + ratio<T>(1, 2) * centre_down_force[12];
     const T span_side_force = cut_force_side[13] + ratio<T>(1, 2) * centre_side_force[12];
-    matrix.upper_column[11][0] = length[12] * (load_mass * (theta_dot[12] * (theta_dot[12]
+    matrix.upper_column[0][11] = length[12] * (load_mass * (theta_dot[12] * (theta_dot[12]
         * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
         + sine[12] * ca)) + mass[12] * (theta_dot[12] * (ratio<T>(1, 2) * theta_dot[12]
         * sine[12] * cq - cosine[12] * cv) - ratio<T>(1, 2) * (theta_ddot[12] * cosine[12] * cq
         + sine[12] * ca)));
-    matrix.upper_column[11][1] = length[12] * (load_mass * (cosine[12] * ca
+    matrix.upper_column[1][11] = length[12] * (load_mass * (cosine[12] * ca
         - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
         + theta_dot[12] * cosine[12] * cq)) + mass[12] * (ratio<T>(1, 2) * (cosine[12] * ca
         - theta_ddot[12] * sine[12] * cq) - theta_dot[12] * (sine[12] * cv
         + ratio<T>(1, 2) * theta_dot[12] * cosine[12] * cq)));
-    matrix.lower_row[11][0] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
-    matrix.lower_row[11][1] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.lower_row[0][11] = -length[12] * sine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
+    matrix.lower_row[1][11] = length[12] * cosine[12] * (ratio<T>(1, 2) * mass[12] + load_mass);
     matrix.diagonal[11] = inertia[12] * ca + stiffness[12] * cq + damping[12] * cv
         + length[12] * (length[12] * (load_mass * (ca - theta_dot[12] * theta_dot[12] * cq)
         + ratio<T>(1, 4) * mass[12] * (ca - theta_dot[12] * theta_dot[12] * cq))

@@ -468,12 +468,12 @@ void mass_matrix(const Point<T>& at, T* M) {
   const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2] + load_mass;
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
-  matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
-  matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
+  matrix.column[1][0] = mass_joint_side_acceleration_gain_1;
+  matrix.column[0][1] = mass_joint_down_acceleration_gain_2;
   matrix.column[1][1] = mass_joint_side_acceleration_gain_2;
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration_2);
@@ -540,12 +540,12 @@ int acceleration(const Point<T>& at, T* a) {
   const T mass_joint_side_acceleration_gain_2 = length[2] * cosine[2];
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2] + load_mass;
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
-  matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
-  matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
+  matrix.column[1][0] = mass_joint_side_acceleration_gain_1;
+  matrix.column[0][1] = mass_joint_down_acceleration_gain_2;
   matrix.column[1][1] = mass_joint_side_acceleration_gain_2;
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration_2);
@@ -615,14 +615,14 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       - theta_ddot[2] * sine[2] * cq - theta_dot[2] * (T(2) * sine[2] * cv
       + theta_dot[2] * cosine[2] * cq));
   matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[0][1] = length[1] * cosine[1];
-  matrix.upper_row[1][0] = T(0);
+  matrix.upper_row[1][0] = length[1] * cosine[1];
+  matrix.upper_row[0][1] = T(0);
   matrix.upper_row[1][1] = T(0);
   matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_down_acceleration_gain_1;
-  matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration_2
+  matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_side_acceleration_gain_1;
-  matrix.upper_column[1][0] = length[2] * (load_mass * (theta_dot[2] * (theta_dot[2] * sine[2]
+  matrix.upper_column[0][1] = length[2] * (load_mass * (theta_dot[2] * (theta_dot[2] * sine[2]
       * cq - T(2) * cosine[2] * cv) - (theta_ddot[2] * cosine[2] * cq + sine[2] * ca))
       + mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine[2] * cq - cosine[2] * cv)
       - ratio<T>(1, 2) * (theta_ddot[2] * cosine[2] * cq + sine[2] * ca)));
@@ -632,13 +632,13 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       - theta_ddot[2] * sine[2] * cq) - theta_dot[2] * (sine[2] * cv
       + ratio<T>(1, 2) * theta_dot[2] * cosine[2] * cq)));
   matrix.lower_row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[0][1] = length[1] * cosine[1]
+  matrix.lower_row[1][0] = length[1] * cosine[1]
       * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
+  matrix.lower_row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.lower_row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2] + load_mass);
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain_1;
-  matrix.lower_column[0][1] = newton_joint_side_acceleration_gain_1;
-  matrix.lower_column[1][0] = newton_joint_down_acceleration_gain_2;
+  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain_1;
+  matrix.lower_column[0][1] = newton_joint_down_acceleration_gain_2;
   matrix.lower_column[1][1] = newton_joint_side_acceleration_gain_2;
   matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
       + damping[2]) + length[1] * (length[1] * (mass_cut_force_down_per_joint_down_acceleration_2

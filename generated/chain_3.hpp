@@ -615,19 +615,19 @@ void mass_matrix(const Point<T>& at, T* M) {
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
   matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[0][2] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[1][2] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
-  matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
-  matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
+  matrix.column[1][0] = mass_joint_side_acceleration_gain_1;
+  matrix.column[0][1] = mass_joint_down_acceleration_gain_2;
   matrix.column[1][1] = mass_joint_side_acceleration_gain_2;
-  matrix.column[2][0] = mass_joint_down_acceleration_gain_3;
-  matrix.column[2][1] = mass_joint_side_acceleration_gain_3;
+  matrix.column[0][2] = mass_joint_down_acceleration_gain_3;
+  matrix.column[1][2] = mass_joint_side_acceleration_gain_3;
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration_2);
   matrix.diagonal[1] = inertia[2] + length[2] * length[2] * (ratio<T>(1, 4) * mass[2]
@@ -720,19 +720,19 @@ int acceleration(const Point<T>& at, T* a) {
   const T mass_cut_force_down_per_joint_down_acceleration_2 = mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3;
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
+  matrix.row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
   matrix.row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[0][2] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.row[1][2] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.column[0][0] = mass_joint_down_acceleration_gain_1;
-  matrix.column[0][1] = mass_joint_side_acceleration_gain_1;
-  matrix.column[1][0] = mass_joint_down_acceleration_gain_2;
+  matrix.column[1][0] = mass_joint_side_acceleration_gain_1;
+  matrix.column[0][1] = mass_joint_down_acceleration_gain_2;
   matrix.column[1][1] = mass_joint_side_acceleration_gain_2;
-  matrix.column[2][0] = mass_joint_down_acceleration_gain_3;
-  matrix.column[2][1] = mass_joint_side_acceleration_gain_3;
+  matrix.column[0][2] = mass_joint_down_acceleration_gain_3;
+  matrix.column[1][2] = mass_joint_side_acceleration_gain_3;
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration_2);
   matrix.diagonal[1] = inertia[2] + length[2] * length[2] * (ratio<T>(1, 4) * mass[2]
@@ -828,16 +828,16 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       - theta_ddot[3] * sine[3] * cq - theta_dot[3] * (T(2) * sine[3] * cv
       + theta_dot[3] * cosine[3] * cq));
   matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[0][1] = length[1] * cosine[1];
-  matrix.upper_row[1][0] = -length[2] * sine[2];
+  matrix.upper_row[1][0] = length[1] * cosine[1];
+  matrix.upper_row[0][1] = -length[2] * sine[2];
   matrix.upper_row[1][1] = length[2] * cosine[2];
-  matrix.upper_row[2][0] = T(0);
-  matrix.upper_row[2][1] = T(0);
+  matrix.upper_row[0][2] = T(0);
+  matrix.upper_row[1][2] = T(0);
   matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_down_acceleration_gain_1;
-  matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration_2
+  matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration_2
       * newton_joint_side_acceleration_gain_1;
-  matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration_3
+  matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration_3
       * newton_joint_down_acceleration_gain_2
       + length[2] * mass[2] * (theta_dot[2] * (ratio<T>(1, 2) * theta_dot[2] * sine[2] * cq
       - cosine[2] * cv) - ratio<T>(1, 2) * (theta_ddot[2] * cosine[2] * cq + sine[2] * ca));
@@ -845,30 +845,30 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       * newton_joint_side_acceleration_gain_2
       + length[2] * mass[2] * (ratio<T>(1, 2) * (cosine[2] * ca - theta_ddot[2] * sine[2] * cq)
       - theta_dot[2] * (sine[2] * cv + ratio<T>(1, 2) * theta_dot[2] * cosine[2] * cq));
-  matrix.upper_column[2][0] = length[3] * (load_mass * (theta_dot[3] * (theta_dot[3] * sine[3]
+  matrix.upper_column[0][2] = length[3] * (load_mass * (theta_dot[3] * (theta_dot[3] * sine[3]
       * cq - T(2) * cosine[3] * cv) - (theta_ddot[3] * cosine[3] * cq + sine[3] * ca))
       + mass[3] * (theta_dot[3] * (ratio<T>(1, 2) * theta_dot[3] * sine[3] * cq - cosine[3] * cv)
       - ratio<T>(1, 2) * (theta_ddot[3] * cosine[3] * cq + sine[3] * ca)));
-  matrix.upper_column[2][1] = length[3] * (load_mass * (cosine[3] * ca
+  matrix.upper_column[1][2] = length[3] * (load_mass * (cosine[3] * ca
       - theta_ddot[3] * sine[3] * cq - theta_dot[3] * (T(2) * sine[3] * cv
       + theta_dot[3] * cosine[3] * cq)) + mass[3] * (ratio<T>(1, 2) * (cosine[3] * ca
       - theta_ddot[3] * sine[3] * cq) - theta_dot[3] * (sine[3] * cv
       + ratio<T>(1, 2) * theta_dot[3] * cosine[3] * cq)));
   matrix.lower_row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[0][1] = length[1] * cosine[1]
+  matrix.lower_row[1][0] = length[1] * cosine[1]
       * mass_cut_force_down_per_joint_down_acceleration_2;
-  matrix.lower_row[1][0] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
+  matrix.lower_row[0][1] = -length[2] * sine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
   matrix.lower_row[1][1] = length[2] * cosine[2] * (ratio<T>(1, 2) * mass[2]
       + mass_cut_force_down_per_joint_down_acceleration_3);
-  matrix.lower_row[2][0] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
-  matrix.lower_row[2][1] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.lower_row[0][2] = -length[3] * sine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
+  matrix.lower_row[1][2] = length[3] * cosine[3] * (ratio<T>(1, 2) * mass[3] + load_mass);
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain_1;
-  matrix.lower_column[0][1] = newton_joint_side_acceleration_gain_1;
-  matrix.lower_column[1][0] = newton_joint_down_acceleration_gain_2;
+  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain_1;
+  matrix.lower_column[0][1] = newton_joint_down_acceleration_gain_2;
   matrix.lower_column[1][1] = newton_joint_side_acceleration_gain_2;
-  matrix.lower_column[2][0] = newton_joint_down_acceleration_gain_3;
-  matrix.lower_column[2][1] = newton_joint_side_acceleration_gain_3;
+  matrix.lower_column[0][2] = newton_joint_down_acceleration_gain_3;
+  matrix.lower_column[1][2] = newton_joint_side_acceleration_gain_3;
   matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
       + damping[2]) + length[1] * (length[1] * (mass_cut_force_down_per_joint_down_acceleration_2
       * (ca - theta_dot[1] * theta_dot[1] * cq) + ratio<T>(1, 4) * mass[1] * (ca

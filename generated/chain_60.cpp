@@ -464,10 +464,11 @@ static const catena_energy kEnergyTable[] = {
 
 #if !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__)
 #define CATENA_EACH_PROCESSOR
-#elif defined(__x86_64__) && !defined(__AVX2__)
-// Compiled twice, for AVX2 where the processor has it; the bits are the same.
+#elif defined(__x86_64__) && !(defined(__AVX2__) && defined(__FMA__))
+// Compiled twice, for processors with AVX2 and fused multiply-add too; the bits are the same.
 #define CATENA_PROCESSORS
-#define CATENA_EACH_PROCESSOR __attribute__((target_clones("avx2", "default"), flatten))
+#define CATENA_EACH_PROCESSOR \
+  __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
 #else
 #define CATENA_EACH_PROCESSOR __attribute__((flatten))
 #endif
@@ -495,7 +496,7 @@ CATENA_EACH_PROCESSOR int32_t c_acceleration(const catena_point* at, double* a) 
   return acceleration(point(at), a);
 }
 CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
-                        double* work) {
+                        double* __restrict work) {
   auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);
   newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();
@@ -558,16 +559,14 @@ __attribute__((target("arch=x86-64-v4"), flatten)) int32_t eight(const catena_po
                                                                 double* a) {
   return several<8>(at, a);
 }
-__attribute__((target("avx2"), flatten)) int32_t four(const catena_point* at, double* a) {
+__attribute__((target("arch=x86-64-v3"), flatten)) int32_t four(const catena_point* at,
+                                                               double* a) {
   return several<4>(at, a);
 }
-bool has_avx512() {  // what arch=x86-64-v4 stands for
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl");
-}
 int32_t sets_at_once() {
-  return has_avx512() ? 8 : __builtin_cpu_supports("avx2") ? 4 : 2;
+  return __builtin_cpu_supports("x86-64-v4")   ? 8
+         : __builtin_cpu_supports("x86-64-v3") ? 4
+                                                 : 2;
 }
 int32_t c_accelerations(const catena_point* at, double* a) {
   static const int32_t sets = sets_at_once();

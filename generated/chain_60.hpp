@@ -651,8 +651,8 @@ void mass_matrix(const Point<T>& at, T* M) {
   for (int i = 1; i <= 60; ++i) {
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
   }
   T mass_cut_force_down_per_joint_down_acceleration[61];
   mass_cut_force_down_per_joint_down_acceleration[60] = mass[60] + load_mass;
@@ -661,19 +661,19 @@ void mass_matrix(const Point<T>& at, T* M) {
         + mass_cut_force_down_per_joint_down_acceleration[i + 1];
   }
   matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-  matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+  matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
   matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
       + mass_cut_force_down_per_joint_down_acceleration[2]);
   for (int i = 2; i <= 59; ++i) {
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
   }
-  matrix.row[59][0] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
-  matrix.row[59][1] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+  matrix.row[0][59] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+  matrix.row[1][59] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
   matrix.diagonal[59] = inertia[60] + length[60] * length[60] * (ratio<T>(1, 4) * mass[60]
       + load_mass);
   matrix.to_dense(M);
@@ -708,7 +708,7 @@ int acceleration(const Point<T>& at, T* a) {
     const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
     const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
     matrix.column[0][0] = mass_joint_down_acceleration_gain;
-    matrix.column[0][1] = mass_joint_side_acceleration_gain;
+    matrix.column[1][0] = mass_joint_side_acceleration_gain;
   }
   for (int i = 2; i <= 60; ++i) {
     const T joint_angle = theta[i] - theta[i - 1];
@@ -718,8 +718,8 @@ int acceleration(const Point<T>& at, T* a) {
     span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
   }
   T joint_down_acceleration_bias[61];
   T joint_side_acceleration_bias[61];
@@ -775,7 +775,7 @@ int acceleration(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias[2]
         + ratio<T>(1, 2) * centre_side_force_bias[1];
     matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+    matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
     matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
         + mass_cut_force_down_per_joint_down_acceleration[2]);
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
@@ -786,9 +786,9 @@ int acceleration(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_down_force_bias[i];
     const T span_side_force_bias = cut_force_side_bias[i + 1]
         + ratio<T>(1, 2) * centre_side_force_bias[i];
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
@@ -800,8 +800,8 @@ int acceleration(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_down_force_bias[60];
     const T span_side_force_bias = cut_force_side_bias[61]
         + ratio<T>(1, 2) * centre_side_force_bias[60];
-    matrix.row[59][0] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
-    matrix.row[59][1] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.row[0][59] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.row[1][59] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
     matrix.diagonal[59] = inertia[60] + length[60] * length[60] * (ratio<T>(1, 4) * mass[60]
         + load_mass);
     a[59] = torque[60] - joint_moment[60] + length[60] * (sine[60] * span_down_force_bias
@@ -847,7 +847,7 @@ int accelerations(const Point<T>& at, T* a) {
     const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
     const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
     matrix.column[0][0] = mass_joint_down_acceleration_gain;
-    matrix.column[0][1] = mass_joint_side_acceleration_gain;
+    matrix.column[1][0] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     span_side_acceleration_bias_last = span_side_acceleration_bias;
   }
@@ -869,7 +869,7 @@ int accelerations(const Point<T>& at, T* a) {
     centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[2] * sine[2];
     const T mass_joint_side_acceleration_gain = length[2] * cosine[2];
-    matrix.column[1][0] = mass_joint_down_acceleration_gain;
+    matrix.column[0][1] = mass_joint_down_acceleration_gain;
     matrix.column[1][1] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     joint_down_acceleration_bias_last = joint_down_acceleration_bias;
@@ -894,8 +894,8 @@ int accelerations(const Point<T>& at, T* a) {
     centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
     const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
     const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-    matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-    matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+    matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+    matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
     span_down_acceleration_bias_last = span_down_acceleration_bias;
     joint_down_acceleration_bias_last = joint_down_acceleration_bias;
     span_side_acceleration_bias_last = span_side_acceleration_bias;
@@ -918,8 +918,8 @@ int accelerations(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias_last
         + ratio<T>(1, 2) * centre_side_force_bias[60];
     const T mass_cut_force_down_per_joint_down_acceleration = mass[60] + load_mass;
-    matrix.row[59][0] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
-    matrix.row[59][1] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.row[0][59] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.row[1][59] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
     matrix.diagonal[59] = inertia[60] + length[60] * length[60] * (ratio<T>(1, 4) * mass[60]
         + load_mass);
     a[59] = torque[60] - joint_moment[60] + length[60] * (sine[60] * span_down_force_bias
@@ -937,9 +937,9 @@ int accelerations(const Point<T>& at, T* a) {
         + ratio<T>(1, 2) * centre_side_force_bias[i];
     const T mass_cut_force_down_per_joint_down_acceleration = mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last;
-    matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
-    matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
     matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration_last);
@@ -955,7 +955,7 @@ int accelerations(const Point<T>& at, T* a) {
     const T span_side_force_bias = cut_force_side_bias_last
         + ratio<T>(1, 2) * centre_side_force_bias[1];
     matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
+    matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration_last;
     matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
         + mass_cut_force_down_per_joint_down_acceleration_last);
     a[0] = torque[1] - joint_moment[1] + joint_moment[2]
@@ -994,9 +994,9 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
       - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
       + theta_dot[1] * cosine[1] * cq));
   matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[0][1] = length[1] * cosine[1];
+  matrix.upper_row[1][0] = length[1] * cosine[1];
   matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-  matrix.lower_column[0][1] = newton_joint_side_acceleration_gain[1];
+  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
   matrix.below[0] = T(0);
   matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
   for (int i = 2; i <= 59; ++i) {
@@ -1009,10 +1009,10 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
     newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
         - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
         + theta_dot[i] * cosine[i] * cq));
-    matrix.upper_row[i - 1][0] = -length[i] * sine[i];
-    matrix.upper_row[i - 1][1] = length[i] * cosine[i];
-    matrix.lower_column[i - 1][0] = newton_joint_down_acceleration_gain[i];
-    matrix.lower_column[i - 1][1] = newton_joint_side_acceleration_gain[i];
+    matrix.upper_row[0][i - 1] = -length[i] * sine[i];
+    matrix.upper_row[1][i - 1] = length[i] * cosine[i];
+    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
+    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
     matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
     matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
   }
@@ -1026,10 +1026,10 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   newton_joint_side_acceleration_gain[60] = length[60] * (cosine[60] * ca
       - theta_ddot[60] * sine[60] * cq - theta_dot[60] * (T(2) * sine[60] * cv
       + theta_dot[60] * cosine[60] * cq));
-  matrix.upper_row[59][0] = T(0);
-  matrix.upper_row[59][1] = T(0);
-  matrix.lower_column[59][0] = newton_joint_down_acceleration_gain[60];
-  matrix.lower_column[59][1] = newton_joint_side_acceleration_gain[60];
+  matrix.upper_row[0][59] = T(0);
+  matrix.upper_row[1][59] = T(0);
+  matrix.lower_column[0][59] = newton_joint_down_acceleration_gain[60];
+  matrix.lower_column[1][59] = newton_joint_side_acceleration_gain[60];
   matrix.below[59] = -(stiffness[60] * cq + damping[60] * cv);
   matrix.above[59] = T(0);
   T joint_side_acceleration[61];
@@ -1075,11 +1075,11 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
     const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
     matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration[2]
         * newton_joint_down_acceleration_gain[1];
-    matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration[2]
+    matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration[2]
         * newton_joint_side_acceleration_gain[1];
     matrix.lower_row[0][0] = -length[1] * sine[1]
         * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.lower_row[0][1] = length[1] * cosine[1]
+    matrix.lower_row[1][0] = length[1] * cosine[1]
         * mass_cut_force_down_per_joint_down_acceleration[2];
     matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2]) + cv * (damping[1]
         + damping[2]) + length[1] * (length[1]
@@ -1091,17 +1091,17 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   for (int i = 2; i <= 59; ++i) {
     const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
     const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
-    matrix.upper_column[i - 1][0] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+    matrix.upper_column[0][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
         * newton_joint_down_acceleration_gain[i]
         + length[i] * mass[i] * (theta_dot[i] * (ratio<T>(1, 2) * theta_dot[i] * sine[i] * cq
         - cosine[i] * cv) - ratio<T>(1, 2) * (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
-    matrix.upper_column[i - 1][1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+    matrix.upper_column[1][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
         * newton_joint_side_acceleration_gain[i]
         + length[i] * mass[i] * (ratio<T>(1, 2) * (cosine[i] * ca - theta_ddot[i] * sine[i] * cq)
         - theta_dot[i] * (sine[i] * cv + ratio<T>(1, 2) * theta_dot[i] * cosine[i] * cq));
-    matrix.lower_row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.lower_row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-    matrix.lower_row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+    matrix.lower_row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
         + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     matrix.diagonal[i - 1] = inertia[i] * ca + cq * (stiffness[i] + stiffness[i + 1])
         + cv * (damping[i] + damping[i + 1])
@@ -1113,18 +1113,18 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   {
     const T span_down_force = cut_force_down[61] + ratio<T>(1, 2) * centre_down_force[60];
     const T span_side_force = cut_force_side[61] + ratio<T>(1, 2) * centre_side_force[60];
-    matrix.upper_column[59][0] = length[60] * (load_mass * (theta_dot[60] * (theta_dot[60]
+    matrix.upper_column[0][59] = length[60] * (load_mass * (theta_dot[60] * (theta_dot[60]
         * sine[60] * cq - T(2) * cosine[60] * cv) - (theta_ddot[60] * cosine[60] * cq
         + sine[60] * ca)) + mass[60] * (theta_dot[60] * (ratio<T>(1, 2) * theta_dot[60]
         * sine[60] * cq - cosine[60] * cv) - ratio<T>(1, 2) * (theta_ddot[60] * cosine[60] * cq
         + sine[60] * ca)));
-    matrix.upper_column[59][1] = length[60] * (load_mass * (cosine[60] * ca
+    matrix.upper_column[1][59] = length[60] * (load_mass * (cosine[60] * ca
         - theta_ddot[60] * sine[60] * cq - theta_dot[60] * (T(2) * sine[60] * cv
         + theta_dot[60] * cosine[60] * cq)) + mass[60] * (ratio<T>(1, 2) * (cosine[60] * ca
         - theta_ddot[60] * sine[60] * cq) - theta_dot[60] * (sine[60] * cv
         + ratio<T>(1, 2) * theta_dot[60] * cosine[60] * cq)));
-    matrix.lower_row[59][0] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
-    matrix.lower_row[59][1] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.lower_row[0][59] = -length[60] * sine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
+    matrix.lower_row[1][59] = length[60] * cosine[60] * (ratio<T>(1, 2) * mass[60] + load_mass);
     matrix.diagonal[59] = inertia[60] * ca + stiffness[60] * cq + damping[60] * cv
         + length[60] * (length[60] * (load_mass * (ca - theta_dot[60] * theta_dot[60] * cq)
         + ratio<T>(1, 4) * mass[60] * (ca - theta_dot[60] * theta_dot[60] * cq))

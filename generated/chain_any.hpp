@@ -695,8 +695,8 @@ struct Chain {
   template <class T>
   void mass_matrix(const Point<T>& at, T* M) const {
     const int links = this->links();
-    T row[links][2], column[links][2], diagonal[links];
-    const MassMatrix<T> matrix{links, row, column, diagonal};
+    T row[2][links], column[2][links], diagonal[links];
+    const MassMatrix<T> matrix{links, {row[0], row[1]}, {column[0], column[1]}, diagonal};
     const FromOne<T> length(at.p);
     const FromOne<T> mass(at.p + links);
     const FromOne<T> inertia(at.p + 2 * links);
@@ -706,8 +706,8 @@ struct Chain {
     for (int i = 1; i <= links; ++i) {
       const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
       const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-      matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-      matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+      matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+      matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
     }
     T mass_cut_force_down_per_joint_down_acceleration[links + 1];
     mass_cut_force_down_per_joint_down_acceleration[links] = mass[links] + load_mass;
@@ -716,20 +716,20 @@ struct Chain {
           + mass_cut_force_down_per_joint_down_acceleration[i + 1];
     }
     matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-    matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+    matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
     matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
         + mass_cut_force_down_per_joint_down_acceleration[2]);
     for (int i = 2; i <= links - 1; ++i) {
-      matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-      matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
       matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
     }
-    matrix.row[links - 1][0] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
+    matrix.row[0][links - 1] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
         + load_mass);
-    matrix.row[links - 1][1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
+    matrix.row[1][links - 1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
         + load_mass);
     matrix.diagonal[links - 1] = inertia[links]
         + length[links] * length[links] * (ratio<T>(1, 4) * mass[links] + load_mass);
@@ -741,8 +741,8 @@ struct Chain {
   template <class T>
   int acceleration(const Point<T>& at, T* a) const {
     const int links = this->links();
-    T row[links][2], column[links][2], diagonal[links];
-    const MassMatrix<T> matrix{links, row, column, diagonal};
+    T row[2][links], column[2][links], diagonal[links];
+    const MassMatrix<T> matrix{links, {row[0], row[1]}, {column[0], column[1]}, diagonal};
     const FromOne<T> length(at.p);
     const FromOne<T> mass(at.p + links);
     const FromOne<T> inertia(at.p + 2 * links);
@@ -767,7 +767,7 @@ struct Chain {
       const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
       const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
       matrix.column[0][0] = mass_joint_down_acceleration_gain;
-      matrix.column[0][1] = mass_joint_side_acceleration_gain;
+      matrix.column[1][0] = mass_joint_side_acceleration_gain;
     }
     for (int i = 2; i <= links; ++i) {
       const T joint_angle = theta[i] - theta[i - 1];
@@ -777,8 +777,8 @@ struct Chain {
       span_side_acceleration_bias[i] = -length[i] * theta_dot[i] * theta_dot[i] * sine[i];
       const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
       const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-      matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-      matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+      matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+      matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
     }
     T joint_down_acceleration_bias[links + 1];
     T joint_side_acceleration_bias[links + 1];
@@ -836,7 +836,7 @@ struct Chain {
       const T span_side_force_bias = cut_force_side_bias[2]
           + ratio<T>(1, 2) * centre_side_force_bias[1];
       matrix.row[0][0] = -length[1] * sine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
-      matrix.row[0][1] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
+      matrix.row[1][0] = length[1] * cosine[1] * mass_cut_force_down_per_joint_down_acceleration[2];
       matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
           + mass_cut_force_down_per_joint_down_acceleration[2]);
       a[0] = torque[1] - joint_moment[1] + joint_moment[2]
@@ -847,9 +847,9 @@ struct Chain {
           + ratio<T>(1, 2) * centre_down_force_bias[i];
       const T span_side_force_bias = cut_force_side_bias[i + 1]
           + ratio<T>(1, 2) * centre_side_force_bias[i];
-      matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-      matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
       matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
@@ -861,9 +861,9 @@ struct Chain {
           + ratio<T>(1, 2) * centre_down_force_bias[links];
       const T span_side_force_bias = cut_force_side_bias[links + 1]
           + ratio<T>(1, 2) * centre_side_force_bias[links];
-      matrix.row[links - 1][0] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
+      matrix.row[0][links - 1] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
           + load_mass);
-      matrix.row[links - 1][1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
+      matrix.row[1][links - 1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
           + load_mass);
       matrix.diagonal[links - 1] = inertia[links]
           + length[links] * length[links] * (ratio<T>(1, 4) * mass[links] + load_mass);
@@ -879,8 +879,8 @@ struct Chain {
   template <class T>
   int accelerations(const Point<T>& at, T* a) const {
     const int links = this->links();
-    T row[links][2], column[links][2], diagonal[links];
-    const MassMatrix<T> matrix{links, row, column, diagonal};
+    T row[2][links], column[2][links], diagonal[links];
+    const MassMatrix<T> matrix{links, {row[0], row[1]}, {column[0], column[1]}, diagonal};
     const FromOne<T> length(at.p);
     const FromOne<T> mass(at.p + links);
     const FromOne<T> inertia(at.p + 2 * links);
@@ -913,7 +913,7 @@ struct Chain {
       const T mass_joint_down_acceleration_gain = -length[1] * sine[1];
       const T mass_joint_side_acceleration_gain = length[1] * cosine[1];
       matrix.column[0][0] = mass_joint_down_acceleration_gain;
-      matrix.column[0][1] = mass_joint_side_acceleration_gain;
+      matrix.column[1][0] = mass_joint_side_acceleration_gain;
       span_down_acceleration_bias_last = span_down_acceleration_bias;
       span_side_acceleration_bias_last = span_side_acceleration_bias;
     }
@@ -935,7 +935,7 @@ struct Chain {
       centre_side_force_bias[2] = mass[2] * centre_side_acceleration_bias;
       const T mass_joint_down_acceleration_gain = -length[2] * sine[2];
       const T mass_joint_side_acceleration_gain = length[2] * cosine[2];
-      matrix.column[1][0] = mass_joint_down_acceleration_gain;
+      matrix.column[0][1] = mass_joint_down_acceleration_gain;
       matrix.column[1][1] = mass_joint_side_acceleration_gain;
       span_down_acceleration_bias_last = span_down_acceleration_bias;
       joint_down_acceleration_bias_last = joint_down_acceleration_bias;
@@ -960,8 +960,8 @@ struct Chain {
       centre_side_force_bias[i] = mass[i] * centre_side_acceleration_bias;
       const T mass_joint_down_acceleration_gain = -length[i] * sine[i];
       const T mass_joint_side_acceleration_gain = length[i] * cosine[i];
-      matrix.column[i - 1][0] = mass_joint_down_acceleration_gain;
-      matrix.column[i - 1][1] = mass_joint_side_acceleration_gain;
+      matrix.column[0][i - 1] = mass_joint_down_acceleration_gain;
+      matrix.column[1][i - 1] = mass_joint_side_acceleration_gain;
       span_down_acceleration_bias_last = span_down_acceleration_bias;
       joint_down_acceleration_bias_last = joint_down_acceleration_bias;
       span_side_acceleration_bias_last = span_side_acceleration_bias;
@@ -984,9 +984,9 @@ struct Chain {
       const T span_side_force_bias = cut_force_side_bias_last
           + ratio<T>(1, 2) * centre_side_force_bias[links];
       const T mass_cut_force_down_per_joint_down_acceleration = mass[links] + load_mass;
-      matrix.row[links - 1][0] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
+      matrix.row[0][links - 1] = -length[links] * sine[links] * (ratio<T>(1, 2) * mass[links]
           + load_mass);
-      matrix.row[links - 1][1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
+      matrix.row[1][links - 1] = length[links] * cosine[links] * (ratio<T>(1, 2) * mass[links]
           + load_mass);
       matrix.diagonal[links - 1] = inertia[links]
           + length[links] * length[links] * (ratio<T>(1, 4) * mass[links] + load_mass);
@@ -1006,9 +1006,9 @@ struct Chain {
           + ratio<T>(1, 2) * centre_side_force_bias[i];
       const T mass_cut_force_down_per_joint_down_acceleration = mass[i]
           + mass_cut_force_down_per_joint_down_acceleration_last;
-      matrix.row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration_last);
-      matrix.row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration_last);
       matrix.diagonal[i - 1] = inertia[i] + length[i] * length[i] * (ratio<T>(1, 4) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration_last);
@@ -1025,7 +1025,7 @@ struct Chain {
           + ratio<T>(1, 2) * centre_side_force_bias[1];
       matrix.row[0][0] = -length[1] * sine[1]
           * mass_cut_force_down_per_joint_down_acceleration_last;
-      matrix.row[0][1] = length[1] * cosine[1]
+      matrix.row[1][0] = length[1] * cosine[1]
           * mass_cut_force_down_per_joint_down_acceleration_last;
       matrix.diagonal[0] = inertia[1] + length[1] * length[1] * (ratio<T>(1, 4) * mass[1]
           + mass_cut_force_down_per_joint_down_acceleration_last);
@@ -1066,9 +1066,9 @@ struct Chain {
         - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
         + theta_dot[1] * cosine[1] * cq));
     matrix.upper_row[0][0] = -length[1] * sine[1];
-    matrix.upper_row[0][1] = length[1] * cosine[1];
+    matrix.upper_row[1][0] = length[1] * cosine[1];
     matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-    matrix.lower_column[0][1] = newton_joint_side_acceleration_gain[1];
+    matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
     matrix.below[0] = T(0);
     matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
     for (int i = 2; i <= links - 1; ++i) {
@@ -1082,10 +1082,10 @@ struct Chain {
       newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
           - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
           + theta_dot[i] * cosine[i] * cq));
-      matrix.upper_row[i - 1][0] = -length[i] * sine[i];
-      matrix.upper_row[i - 1][1] = length[i] * cosine[i];
-      matrix.lower_column[i - 1][0] = newton_joint_down_acceleration_gain[i];
-      matrix.lower_column[i - 1][1] = newton_joint_side_acceleration_gain[i];
+      matrix.upper_row[0][i - 1] = -length[i] * sine[i];
+      matrix.upper_row[1][i - 1] = length[i] * cosine[i];
+      matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
+      matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
       matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
       matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
     }
@@ -1099,10 +1099,10 @@ struct Chain {
     newton_joint_side_acceleration_gain[links] = length[links] * (cosine[links] * ca
         - theta_ddot[links] * sine[links] * cq - theta_dot[links] * (T(2) * sine[links] * cv
         + theta_dot[links] * cosine[links] * cq));
-    matrix.upper_row[links - 1][0] = T(0);
-    matrix.upper_row[links - 1][1] = T(0);
-    matrix.lower_column[links - 1][0] = newton_joint_down_acceleration_gain[links];
-    matrix.lower_column[links - 1][1] = newton_joint_side_acceleration_gain[links];
+    matrix.upper_row[0][links - 1] = T(0);
+    matrix.upper_row[1][links - 1] = T(0);
+    matrix.lower_column[0][links - 1] = newton_joint_down_acceleration_gain[links];
+    matrix.lower_column[1][links - 1] = newton_joint_side_acceleration_gain[links];
     matrix.below[links - 1] = -(stiffness[links] * cq + damping[links] * cv);
     matrix.above[links - 1] = T(0);
     T joint_side_acceleration[links + 1];
@@ -1148,11 +1148,11 @@ struct Chain {
       const T span_side_force = cut_force_side[2] + ratio<T>(1, 2) * centre_side_force[1];
       matrix.upper_column[0][0] = mass_cut_force_down_per_joint_down_acceleration[2]
           * newton_joint_down_acceleration_gain[1];
-      matrix.upper_column[0][1] = mass_cut_force_down_per_joint_down_acceleration[2]
+      matrix.upper_column[1][0] = mass_cut_force_down_per_joint_down_acceleration[2]
           * newton_joint_side_acceleration_gain[1];
       matrix.lower_row[0][0] = -length[1] * sine[1]
           * mass_cut_force_down_per_joint_down_acceleration[2];
-      matrix.lower_row[0][1] = length[1] * cosine[1]
+      matrix.lower_row[1][0] = length[1] * cosine[1]
           * mass_cut_force_down_per_joint_down_acceleration[2];
       matrix.diagonal[0] = inertia[1] * ca + cq * (stiffness[1] + stiffness[2])
           + cv * (damping[1] + damping[2]) + length[1] * (length[1]
@@ -1164,18 +1164,18 @@ struct Chain {
     for (int i = 2; i <= links - 1; ++i) {
       const T span_down_force = cut_force_down[i + 1] + ratio<T>(1, 2) * centre_down_force[i];
       const T span_side_force = cut_force_side[i + 1] + ratio<T>(1, 2) * centre_side_force[i];
-      matrix.upper_column[i - 1][0] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+      matrix.upper_column[0][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
           * newton_joint_down_acceleration_gain[i]
           + length[i] * mass[i] * (theta_dot[i] * (ratio<T>(1, 2) * theta_dot[i] * sine[i] * cq
           - cosine[i] * cv) - ratio<T>(1, 2) * (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
-      matrix.upper_column[i - 1][1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
+      matrix.upper_column[1][i - 1] = mass_cut_force_down_per_joint_down_acceleration[i + 1]
           * newton_joint_side_acceleration_gain[i]
           + length[i] * mass[i] * (ratio<T>(1, 2) * (cosine[i] * ca
           - theta_ddot[i] * sine[i] * cq) - theta_dot[i] * (sine[i] * cv
           + ratio<T>(1, 2) * theta_dot[i] * cosine[i] * cq));
-      matrix.lower_row[i - 1][0] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.lower_row[0][i - 1] = -length[i] * sine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
-      matrix.lower_row[i - 1][1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
+      matrix.lower_row[1][i - 1] = length[i] * cosine[i] * (ratio<T>(1, 2) * mass[i]
           + mass_cut_force_down_per_joint_down_acceleration[i + 1]);
       matrix.diagonal[i - 1] = inertia[i] * ca + cq * (stiffness[i] + stiffness[i + 1])
           + cv * (damping[i] + damping[i + 1])
@@ -1189,21 +1189,21 @@ struct Chain {
           + ratio<T>(1, 2) * centre_down_force[links];
       const T span_side_force = cut_force_side[links + 1]
           + ratio<T>(1, 2) * centre_side_force[links];
-      matrix.upper_column[links - 1][0] = length[links] * (load_mass * (theta_dot[links]
+      matrix.upper_column[0][links - 1] = length[links] * (load_mass * (theta_dot[links]
           * (theta_dot[links] * sine[links] * cq - T(2) * cosine[links] * cv)
           - (theta_ddot[links] * cosine[links] * cq + sine[links] * ca))
           + mass[links] * (theta_dot[links] * (ratio<T>(1, 2) * theta_dot[links] * sine[links]
           * cq - cosine[links] * cv) - ratio<T>(1, 2) * (theta_ddot[links] * cosine[links] * cq
           + sine[links] * ca)));
-      matrix.upper_column[links - 1][1] = length[links] * (load_mass * (cosine[links] * ca
+      matrix.upper_column[1][links - 1] = length[links] * (load_mass * (cosine[links] * ca
           - theta_ddot[links] * sine[links] * cq - theta_dot[links] * (T(2) * sine[links] * cv
           + theta_dot[links] * cosine[links] * cq))
           + mass[links] * (ratio<T>(1, 2) * (cosine[links] * ca
           - theta_ddot[links] * sine[links] * cq) - theta_dot[links] * (sine[links] * cv
           + ratio<T>(1, 2) * theta_dot[links] * cosine[links] * cq)));
-      matrix.lower_row[links - 1][0] = -length[links] * sine[links] * (ratio<T>(1, 2)
+      matrix.lower_row[0][links - 1] = -length[links] * sine[links] * (ratio<T>(1, 2)
           * mass[links] + load_mass);
-      matrix.lower_row[links - 1][1] = length[links] * cosine[links] * (ratio<T>(1, 2)
+      matrix.lower_row[1][links - 1] = length[links] * cosine[links] * (ratio<T>(1, 2)
           * mass[links] + load_mass);
       matrix.diagonal[links - 1] = inertia[links] * ca + stiffness[links] * cq
           + damping[links] * cv + length[links] * (length[links] * (load_mass * (ca

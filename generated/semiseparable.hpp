@@ -17,7 +17,7 @@ struct SymmetricSemiseparableEntries {
   static_assert(rank > 0 || size == 1);
   static constexpr int n = size;
   static constexpr int rr = rank > 0 ? rank : 1;
-  T row[n][rr], column[n][rr], diagonal[n];
+  T row[rr][n], column[rr][n], diagonal[n];
 };
 
 /// The same, n known at run time, from 5 on, in arrays of the caller's.
@@ -26,7 +26,7 @@ struct SymmetricSemiseparableEntries<T, kAtRunTime, rank> {
   static_assert(rank > 0);
   static constexpr int rr = rank;
   int n;
-  T (*row)[rr], (*column)[rr], *diagonal;
+  T *row[rr], *column[rr], *diagonal;
 };
 
 template <class T, int size, int rank>
@@ -51,7 +51,8 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
       matrix[i * n + i] = diagonal[i];
       for (int j = 0; j < i; ++j) {
         T entry = T(0);
-        for (int r = 0; r < rank; ++r) entry += row[i][r] * column[j][r];
+        CATENA_UNROLLED
+        for (int r = 0; r < rank; ++r) entry += row[r][i] * column[r][j];
         matrix[i * n + j] = matrix[j * n + i] = entry;
       }
     }
@@ -78,57 +79,72 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
     const Both zero{T(0), T(0)}, one{T(1), T(1)};
     Both scaled[m][rr], solved[m];
     Both w[rr][rr], carried[rr];
+    CATENA_UNROLLED
     for (int r = 0; r < rr; ++r) {
       carried[r] = zero;
+      CATENA_UNROLLED
       for (int s = 0; s < rr; ++s) w[r][s] = zero;
     }
 #pragma GCC unroll 4
     for (int i = 0; i < m; i += 2) {
       // `own` couples a row to those left, `other` those left to it, which W reaches.
       Both own[2][rr], other[2][rr], pivot[2], y[2], reached[rr];
+      CATENA_UNROLLED
       for (int k = 0; k < 2; ++k) {
         const int top = i + k, bottom = n - 1 - top;
+        CATENA_UNROLLED
         for (int r = 0; r < rank; ++r) {
-          own[k][r] = Both{column[top][r], row[bottom][r]};
-          other[k][r] = Both{row[top][r], column[bottom][r]};
+          own[k][r] = Both{column[r][top], row[r][bottom]};
+          other[k][r] = Both{row[r][top], column[r][bottom]};
         }
         pivot[k] = Both{diagonal[top], diagonal[bottom]};
-        y[k] = Both{x[top], x[bottom]} - product(other[k], carried);
+        y[k] = less_product(Both{x[top], x[bottom]}, other[k], carried);
       }
       pivot[0] = reduced_pivot(pivot[0], other[0], w);
+      CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) {
-        own[0][r] = own[0][r] - product_with_row(w, r, other[0]);
+        own[0][r] = less_product_with_row(own[0][r], w, r, other[0]);
         reached[r] = product_with_row(w, r, other[1]);
         own[1][r] = own[1][r] - reached[r];
       }
-      pivot[1] = pivot[1] - product(other[1], reached);
+      pivot[1] = less_product(pivot[1], other[1], reached);
       const Both gamma = product(own[0], other[1]);
-      const Both determinant = pivot[0] * pivot[1] - gamma * gamma;
+      const Both determinant = negative_multiply_add(gamma, gamma, pivot[0] * pivot[1]);
       if (!positive_pivot(pivot[0].first())) return i + 1;
       if (!positive_pivot(pivot[0].second())) return n - i;
       if (!positive_pivot(determinant.first())) return i + 2;
       if (!positive_pivot(determinant.second())) return n - i - 1;
       const Both reciprocal[2] = {one / pivot[0], pivot[0] / determinant};
       const Both factor = gamma * reciprocal[0];
-      y[1] = y[1] - factor * y[0];
-      for (int r = 0; r < rank; ++r) own[1][r] = own[1][r] - factor * own[0][r];
+      y[1] = negative_multiply_add(factor, y[0], y[1]);
+      CATENA_UNROLLED
+      for (int r = 0; r < rank; ++r)
+        own[1][r] = negative_multiply_add(factor, own[0][r], own[1][r]);
+      CATENA_UNROLLED
       for (int k = 0; k < 2; ++k) {
         solved[i + k] = y[k] * reciprocal[k];
+        CATENA_UNROLLED
         for (int r = 0; r < rank; ++r) {
           scaled[i + k][r] = own[k][r] * reciprocal[k];
-          carried[r] = carried[r] + own[k][r] * solved[i + k];
+          carried[r] = multiply_add(own[k][r], solved[i + k], carried[r]);
         }
       }
+      CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) {
-        for (int s = 0; s <= r; ++s)
-          w[r][s] = (w[r][s] + scaled[i][r] * own[0][s]) + (own[1][r] * own[1][s]) * reciprocal[1];
+        CATENA_UNROLLED
+        for (int s = 0; s <= r; ++s) {
+          const Both first = multiply_add(scaled[i][r], own[0][s], w[r][s]);
+          w[r][s] = multiply_add(own[1][r] * own[1][s], reciprocal[1], first);
+        }
       }
     }
 
     T v_top[rr][rr], w_bottom[rr][rr], sum[rr], known[rr];
+    CATENA_UNROLLED
     for (int r = 0; r < rr; ++r) {
       sum[r] = carried[r].first();
       known[r] = carried[r].second();
+      CATENA_UNROLLED
       for (int s = 0; s <= r; ++s) {
         v_top[r][s] = v_top[s][r] = w[r][s].first();
         w_bottom[r][s] = w_bottom[s][r] = w[r][s].second();
@@ -140,26 +156,33 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
     }
     join(v_top, w_bottom, sum, known);
     for (int j = m; j < n - m; ++j) {
-      x[j] -= product(middle_scaled[j - m], sum);
-      for (int r = 0; r < rank; ++r) sum[r] += column[j][r] * x[j];
+      x[j] = less_product(x[j], middle_scaled[j - m], sum);
+      CATENA_UNROLLED
+      for (int r = 0; r < rank; ++r) sum[r] = multiply_add(column[r][j], x[j], sum[r]);
     }
 
-    // x = solved - scaled . from, and `from` grows by other x: with x put in, a step of `from`
-    // waits for one product and two sums.
+    // x = solved - scaled . from, and `from` grows by other x: with x put in, `from` becomes
+    // (1 - other scaled') from + other solved, and a step waits for two operations.
     Both from[rr];
+    CATENA_UNROLLED
     for (int r = 0; r < rr; ++r) from[r] = Both{known[r], sum[r]};
 #pragma GCC unroll 6
     for (int i = m - 1; i >= 0; --i) {
-      const Both solution = solved[i] - product(scaled[i], from);
+      const Both solution = less_product(solved[i], scaled[i], from);
       x[i] = solution.first();
       x[n - 1 - i] = solution.second();
-      Both next[rr], other[rr];
-      for (int r = 0; r < rank; ++r) other[r] = Both{row[i][r], column[n - 1 - i][r]};
+      Both next[rr];
+      CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) {
-        Both removed = (other[r] * scaled[i][0]) * from[0];
-        for (int s = 1; s < rank; ++s) removed = removed + (other[r] * scaled[i][s]) * from[s];
-        next[r] = (from[r] + other[r] * solved[i]) - removed;
+        const Both other{row[r][i], column[r][n - 1 - i]};
+        next[r] = other * solved[i];
+        CATENA_UNROLLED
+        for (int s = 0; s < rank; ++s) {
+          if (s != r) next[r] = negative_multiply_add(other * scaled[i][s], from[s], next[r]);
+        }
+        next[r] = multiply_add(negative_multiply_add(other, scaled[i][r], one), from[r], next[r]);
       }
+      CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) from[r] = next[r];
     }
     return 0;
@@ -170,16 +193,22 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
   // The same for one row, as the bottom's last: overwrites x, its right-hand side, with what a
   // solution would be if nothing were left.
   bool eliminate(int j, T (&w)[rr][rr], T* carried, T* scaled, T& x) const {
-    const T pivot = reduced_pivot(diagonal[j], column[j], w);
+    T other[rr];
+    CATENA_UNROLLED
+    for (int r = 0; r < rr; ++r) other[r] = column[r][j];
+    const T pivot = reduced_pivot(diagonal[j], other, w);
     if (!positive_pivot(pivot)) return false;
     const T reciprocal = T(1) / pivot;
-    const T y = x - product(column[j], carried);
+    const T y = less_product(x, other, carried);
     T own[rr];
-    for (int r = 0; r < rank; ++r) own[r] = row[j][r] - product_with_row(w, r, column[j]);
+    CATENA_UNROLLED
+    for (int r = 0; r < rank; ++r) own[r] = less_product_with_row(row[r][j], w, r, other);
+    CATENA_UNROLLED
     for (int r = 0; r < rank; ++r) {
-      for (int s = 0; s < rank; ++s) w[r][s] += (own[r] * own[s]) * reciprocal;
+      CATENA_UNROLLED
+      for (int s = 0; s < rank; ++s) w[r][s] = multiply_add(own[r] * own[s], reciprocal, w[r][s]);
       scaled[r] = own[r] * reciprocal;
-      carried[r] += scaled[r] * y;
+      carried[r] = multiply_add(scaled[r], y, carried[r]);
     }
     x = y * reciprocal;
     return true;
@@ -188,8 +217,18 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
   template <class Number>
   static Number product(const Number* a, const Number* b) {
     Number sum = a[0] * b[0];
-    for (int r = 1; r < rank; ++r) sum = sum + a[r] * b[r];
+    CATENA_UNROLLED
+    for (int r = 1; r < rank; ++r) sum = multiply_add(a[r], b[r], sum);
     return sum;
+  }
+
+  // number - a . b
+  template <class Number>
+  static Number less_product(const Number& number, const Number* a, const Number* b) {
+    Number rest = number;
+    CATENA_UNROLLED
+    for (int r = 0; r < rank; ++r) rest = negative_multiply_add(a[r], b[r], rest);
+    return rest;
   }
 
   // Entry r of the product of a symmetric matrix, of which the lower triangle is read, and a
@@ -197,24 +236,37 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
   template <class Number>
   static Number product_with_row(const Number (&w)[rr][rr], int r, const Number* vector) {
     Number sum = w[r][0] * vector[0];
-    for (int s = 1; s < rank; ++s) sum = sum + (s <= r ? w[r][s] : w[s][r]) * vector[s];
+    CATENA_UNROLLED
+    for (int s = 1; s < rank; ++s) sum = multiply_add(s <= r ? w[r][s] : w[s][r], vector[s], sum);
     return sum;
+  }
+  template <class Number>
+  static Number less_product_with_row(const Number& number, const Number (&w)[rr][rr], int r,
+                                      const Number* vector) {
+    Number rest = number;
+    CATENA_UNROLLED
+    for (int s = 0; s < rank; ++s)
+      rest = negative_multiply_add(s <= r ? w[r][s] : w[s][r], vector[s], rest);
+    return rest;
   }
 
   // diagonal - other' W other; the products of `other` alone do not wait for W.
   template <class Number>
   static Number reduced_pivot(const Number& diagonal, const Number* other,
                               const Number (&w)[rr][rr]) {
-    const Number reduced = diagonal - (other[0] * other[0]) * w[0][0];
+    const Number reduced = negative_multiply_add(other[0] * other[0], w[0][0], diagonal);
     if constexpr (rank == 1) {
       return reduced;
     } else {
       Number rest = (other[1] * other[1]) * w[1][1];
-      for (int r = 2; r < rank; ++r) rest = rest + (other[r] * other[r]) * w[r][r];
+      CATENA_UNROLLED
+      for (int r = 2; r < rank; ++r) rest = multiply_add(other[r] * other[r], w[r][r], rest);
+      CATENA_UNROLLED
       for (int r = 1; r < rank; ++r) {
+        CATENA_UNROLLED
         for (int s = 0; s < r; ++s) {
           const Number half = other[r] * other[s];
-          rest = rest + (half + half) * w[r][s];
+          rest = multiply_add(half + half, w[r][s], rest);
         }
       }
       return reduced - rest;
@@ -224,33 +276,45 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
   // (1 - V W) sum = sum_0 - V carried_0, by elimination; then carried.
   static void join(const T (&v)[rr][rr], const T (&w)[rr][rr], T* sum, T* carried) {
     T a[rr][rr];
+    CATENA_UNROLLED
     for (int r = 0; r < rank; ++r) {
+      CATENA_UNROLLED
       for (int s = 0; s < rank; ++s) {
         a[r][s] = T(r == s ? 1 : 0);
-        for (int t = 0; t < rank; ++t) a[r][s] -= v[r][t] * w[t][s];
-        sum[r] -= v[r][s] * carried[s];
+        CATENA_UNROLLED
+        for (int t = 0; t < rank; ++t) a[r][s] = negative_multiply_add(v[r][t], w[t][s], a[r][s]);
+        sum[r] = negative_multiply_add(v[r][s], carried[s], sum[r]);
       }
     }
     if constexpr (rank == 2) {  // the second pivot again without waiting for the first's reciprocal
-      const T determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+      const T determinant = negative_multiply_add(a[0][1], a[1][0], a[0][0] * a[1][1]);
       const T reciprocal = T(1) / a[0][0], second = a[0][0] / determinant;
-      sum[1] = (sum[1] - a[1][0] * reciprocal * sum[0]) * second;
-      sum[0] = (sum[0] - a[0][1] * sum[1]) * reciprocal;
+      sum[1] = negative_multiply_add(a[1][0] * reciprocal, sum[0], sum[1]) * second;
+      sum[0] = negative_multiply_add(a[0][1], sum[1], sum[0]) * reciprocal;
     } else {
+      CATENA_UNROLLED
       for (int k = 0; k < rank; ++k) {
+        CATENA_UNROLLED
         for (int r = k + 1; r < rank; ++r) {
           const T factor = a[r][k] / a[k][k];
-          for (int s = k + 1; s < rank; ++s) a[r][s] -= factor * a[k][s];
-          sum[r] -= factor * sum[k];
+          CATENA_UNROLLED
+          for (int s = k + 1; s < rank; ++s)
+            a[r][s] = negative_multiply_add(factor, a[k][s], a[r][s]);
+          sum[r] = negative_multiply_add(factor, sum[k], sum[r]);
         }
       }
+      CATENA_UNROLLED
       for (int k = rank - 1; k >= 0; --k) {
-        for (int s = k + 1; s < rank; ++s) sum[k] -= a[k][s] * sum[s];
+        CATENA_UNROLLED
+        for (int s = k + 1; s < rank; ++s) sum[k] = negative_multiply_add(a[k][s], sum[s], sum[k]);
         sum[k] = sum[k] / a[k][k];
       }
     }
+    CATENA_UNROLLED
     for (int r = 0; r < rank; ++r) {
-      for (int s = 0; s < rank; ++s) carried[r] -= w[r][s] * sum[s];
+      CATENA_UNROLLED
+      for (int s = 0; s < rank; ++s)
+        carried[r] = negative_multiply_add(w[r][s], sum[s], carried[r]);
     }
   }
 
@@ -260,38 +324,44 @@ struct SymmetricSemiseparable : SymmetricSemiseparableEntries<T, size, rank> {
   template <int rows>
   int solve_short(T* right) const {
     T a[rows][rows], x[rows], reciprocal[rows];
-#pragma GCC unroll 8
+    CATENA_UNROLLED
     for (int i = 0; i < rows; ++i) {
       x[i] = right[i];
       a[i][i] = diagonal[i];
-#pragma GCC unroll 8
-      for (int j = 0; j < i; ++j) a[i][j] = product(row[i], column[j]);
+      CATENA_UNROLLED
+      for (int j = 0; j < i; ++j) {
+        a[i][j] = row[0][i] * column[0][j];
+        CATENA_UNROLLED
+        for (int r = 1; r < rank; ++r) a[i][j] = multiply_add(row[r][i], column[r][j], a[i][j]);
+      }
     }
-#pragma GCC unroll 8
+    CATENA_UNROLLED
     for (int j = 0; j < rows; j += 2) {
       if (!positive_pivot(a[j][j])) return j + 1;
       reciprocal[j] = T(1) / a[j][j];
       if (j + 1 < rows) {
-        const T determinant = a[j][j] * a[j + 1][j + 1] - a[j + 1][j] * a[j + 1][j];
+        const T determinant =
+            negative_multiply_add(a[j + 1][j], a[j + 1][j], a[j][j] * a[j + 1][j + 1]);
         if (!positive_pivot(determinant)) return j + 2;
         reciprocal[j + 1] = a[j][j] / determinant;
       }
       const int end = j + 2 < rows ? j + 2 : rows;
-#pragma GCC unroll 2
+      CATENA_UNROLLED
       for (int k = j; k < end; ++k) {
-#pragma GCC unroll 8
+        CATENA_UNROLLED
         for (int i = k + 1; i < rows; ++i) {
           const T scaled = a[i][k] * reciprocal[k];
-          x[i] -= scaled * x[k];
-#pragma GCC unroll 8
-          for (int c = k + 1; c <= i; ++c) a[i][c] -= scaled * a[c][k];
+          x[i] = negative_multiply_add(scaled, x[k], x[i]);
+          CATENA_UNROLLED
+          for (int c = k + 1; c <= i; ++c)
+            a[i][c] = negative_multiply_add(scaled, a[c][k], a[i][c]);
         }
       }
     }
-#pragma GCC unroll 8
+    CATENA_UNROLLED
     for (int j = rows - 1; j >= 0; --j) {
-#pragma GCC unroll 8
-      for (int i = rows - 1; i > j; --i) x[j] -= a[i][j] * x[i];
+      CATENA_UNROLLED
+      for (int i = rows - 1; i > j; --i) x[j] = negative_multiply_add(a[i][j], x[i], x[j]);
       right[j] = x[j] = x[j] * reciprocal[j];
     }
     return 0;

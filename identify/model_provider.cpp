@@ -30,9 +30,9 @@ fs::path cache_directory(const ProviderOptions& options) {
   return fs::temp_directory_path() / "catena-cache";
 }
 
-bool has_avx2() {
+bool has_fused_multiply_add() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  return __builtin_cpu_supports("avx2");
+  return __builtin_cpu_supports("x86-64-v3");
 #else
   return false;
 #endif
@@ -168,7 +168,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   std::vector<std::string> flags = {
       "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   // For this processor alone takes the compiler half the time.
-  if (has_avx2()) flags.push_back("-mavx2");
+  if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         identity_of(derive) + "\n" + "interface " +
                         std::to_string(CATENA_MODEL_ABI) + ", " +

@@ -254,10 +254,18 @@ class Writer {
   // A matrix that a function has for itself needs arrays.
   std::string before(const EmittedFunction& function) const {
     if (function.before != "  MassMatrix<T> matrix;\n") return function.before;
-    const std::string rank = "[" + std::to_string(model_.summary.mass_rank) + "]";
-    return "  T row[links]" + rank + ", column[links]" + rank +
+    const int rank = model_.summary.mass_rank;
+    const std::string of_rank = "[" + std::to_string(rank) + "][links]";
+    const auto arrays = [&](const std::string& name) {
+      std::string list;
+      for (int r = 0; r < rank; ++r)
+        list += (r == 0 ? "" : ", ") + name + "[" + std::to_string(r) + "]";
+      return "{" + list + "}";
+    };
+    return "  T row" + of_rank + ", column" + of_rank +
            ", diagonal[links];\n"
-           "  const MassMatrix<T> matrix{links, row, column, diagonal};\n";
+           "  const MassMatrix<T> matrix{links, " +
+           arrays("row") + ", " + arrays("column") + ", diagonal};\n";
   }
 
   static std::string newton_wrapper() {

@@ -13,8 +13,8 @@ void add_entries(std::vector<Output>& outputs, const std::string& array,
                  const std::vector<std::vector<ex>>& rows) {
   for (size_t i = 1; i + 1 < rows.size(); ++i) {
     for (size_t r = 0; r < rows[i].size(); ++r) {
-      outputs.push_back({"matrix." + array + "[", static_cast<int>(i), -1,
-                         "][" + std::to_string(r) + "]", rows[i][r]});
+      outputs.push_back({"matrix." + array + "[" + std::to_string(r) + "][", static_cast<int>(i),
+                         -1, "]", rows[i][r]});
     }
   }
 }

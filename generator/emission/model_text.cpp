@@ -34,14 +34,14 @@ std::string structure_text(const ModelFunctions& functions) {
 }
 
 std::string processors_text() {
-  // Without fused multiply-adds, which -ffp-contract=off forbids, all give the same bits.
   return "#if !defined(__GNUC__) || defined(__clang__) || defined(__SANITIZE_ADDRESS__)\n"
          "#define CATENA_EACH_PROCESSOR\n"
-         "#elif defined(__x86_64__) && !defined(__AVX2__)\n"
-         "// Compiled twice, for AVX2 where the processor has it; the bits are the same.\n"
+         "#elif defined(__x86_64__) && !(defined(__AVX2__) && defined(__FMA__))\n"
+         "// Compiled twice, for processors with AVX2 and fused multiply-add too; the bits are the "
+         "same.\n"
          "#define CATENA_PROCESSORS\n"
-         "#define CATENA_EACH_PROCESSOR __attribute__((target_clones(\"avx2\", \"default\"), "
-         "flatten))\n"
+         "#define CATENA_EACH_PROCESSOR \\\n"
+         "  __attribute__((target_clones(\"arch=x86-64-v3\", \"default\"), flatten))\n"
          "#else\n"
          "#define CATENA_EACH_PROCESSOR __attribute__((flatten))\n"
          "#endif\n\n"
@@ -51,7 +51,7 @@ std::string processors_text() {
 
 std::string newton_text(const std::string& matrix, const std::string& factored) {
   return "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
-         "                        double* work) {\n" +
+         "                        double* __restrict work) {\n" +
          matrix +
          "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
          "  return matrix.factor();\n}\n" +
@@ -82,16 +82,14 @@ std::string several_at_once_text(const std::string& accelerations) {
          "at,\n"
          "                                                                double* a) {\n"
          "  return several<8>(at, a);\n}\n"
-         "__attribute__((target(\"avx2\"), flatten)) int32_t four(const catena_point* at, double* "
-         "a) {\n"
+         "__attribute__((target(\"arch=x86-64-v3\"), flatten)) int32_t four(const catena_point* "
+         "at,\n"
+         "                                                               double* a) {\n"
          "  return several<4>(at, a);\n}\n"
-         "bool has_avx512() {  // what arch=x86-64-v4 stands for\n"
-         "  return __builtin_cpu_supports(\"avx512f\") && __builtin_cpu_supports(\"avx512bw\") &&\n"
-         "         __builtin_cpu_supports(\"avx512cd\") && __builtin_cpu_supports(\"avx512dq\") "
-         "&&\n"
-         "         __builtin_cpu_supports(\"avx512vl\");\n}\n"
          "int32_t sets_at_once() {\n"
-         "  return has_avx512() ? 8 : __builtin_cpu_supports(\"avx2\") ? 4 : 2;\n}\n"
+         "  return __builtin_cpu_supports(\"x86-64-v4\")   ? 8\n"
+         "         : __builtin_cpu_supports(\"x86-64-v3\") ? 4\n"
+         "                                                 : 2;\n}\n"
          "int32_t c_accelerations(const catena_point* at, double* a) {\n"
          "  static const int32_t sets = sets_at_once();\n"
          "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"

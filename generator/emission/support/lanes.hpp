@@ -11,8 +11,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "scalar.hpp"
+
+#if __has_builtin(__builtin_assoc_barrier)
+#define CATENA_APART __builtin_assoc_barrier
+#else
+#define CATENA_APART
+#endif
 
 namespace catena {
 
@@ -54,6 +61,14 @@ class alignas(count * sizeof(double)) Lanes {
   explicit Lanes(int value) : Lanes(static_cast<double>(value)) {}
   explicit Lanes(const Vector& values) : values_(values) {}
 
+  /// From and to an array, at any place.
+  static Lanes of(const double* values) {
+    Lanes lanes;
+    std::memcpy(&lanes.values_, values, sizeof lanes.values_);
+    return lanes;
+  }
+  void put(double* values) const { std::memcpy(values, &values_, sizeof values_); }
+
   double operator[](int lane) const { return values_[lane]; }
   void set(int lane, double value) { values_[lane] = value; }
   const Vector& values() const { return values_; }
@@ -67,6 +82,20 @@ class alignas(count * sizeof(double)) Lanes {
   friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.values_ - b.values_); }
   friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.values_ * b.values_); }
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
+  [[gnu::always_inline]] friend Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
+    return fused(a.values_, b.values_, c.values_, Every());
+  }
+  [[gnu::always_inline]] friend Lanes multiply_add(double a, const Lanes& b, const Lanes& c) {
+    return multiply_add(Lanes(a), b, c);
+  }
+  [[gnu::always_inline]] friend Lanes negative_multiply_add(const Lanes& a, const Lanes& b,
+                                                            const Lanes& c) {
+    return multiply_add(-a, b, c);
+  }
+  [[gnu::always_inline]] friend Lanes negative_multiply_add(double a, const Lanes& b,
+                                                            const Lanes& c) {
+    return multiply_add(Lanes(-a), b, c);
+  }
   friend Lanes operator*(double a, const Lanes& b) { return Lanes(a * b.values_); }
   friend Lanes operator*(const Lanes& a, double b) { return Lanes(a.values_ * b); }
   friend Lanes operator/(const Lanes& a, double b) { return Lanes(a.values_ / b); }
@@ -80,7 +109,9 @@ class alignas(count * sizeof(double)) Lanes {
   }
 
   friend void sine_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
-    sine_cosine_of<Vector, Bits>(angle.values_, sine.values_, cosine.values_);
+    Lanes shifted;
+    sine_cosine_reduced(angle, sine, cosine, shifted);
+    turn_by_quarters<Vector, Bits>(shifted.values_, sine.values_, cosine.values_);
   }
 
 #define CATENA_LANE_BY_LANE(function)                                                   \
@@ -105,6 +136,15 @@ class alignas(count * sizeof(double)) Lanes {
 #undef CATENA_LANE_BY_LANE
 
  private:
+  using Every = std::make_integer_sequence<int, count>;
+  // One instruction of all lanes: the compiler sees that they are alike if it sees them apart from
+  // what comes before and after.
+  template <int... lane>
+  [[gnu::always_inline]] static Lanes fused(const Vector& a, const Vector& b, const Vector& c,
+                                            std::integer_sequence<int, lane...>) {
+    return Lanes(CATENA_APART(Vector{std::fma(a[lane], b[lane], c[lane])...}));
+  }
+
   // Masks of all bits or none, halved until two are left.
   static bool all_greater(const Vector& a, const Vector& b) {
     typedef std::int64_t Two __attribute__((vector_size(16)));
@@ -119,6 +159,40 @@ class alignas(count * sizeof(double)) Lanes {
 
   Vector values_;
 };
+
+/// Sines and cosines of n angles, four at a time.
+[[gnu::always_inline]] inline void sines_and_cosines(int n, const double* angle, double* sine,
+                                                     double* cosine) {
+  using Four = Lanes<4>;
+  using Two = Lanes<2>;
+  const int whole = n - n % 4, rest = n % 4;
+  for (int i = 0; i < whole; i += 4) {
+    Four s, c;
+    sine_cosine(Four::of(angle + i), s, c);
+    s.put(sine + i);
+    c.put(cosine + i);
+  }
+  if (rest == 3) {
+    const double last[4] = {angle[whole], angle[whole + 1], angle[whole + 2], angle[whole + 2]};
+    Four s, c;
+    sine_cosine(Four::of(last), s, c);
+    for (int k = 0; k < 3; ++k) {
+      sine[whole + k] = s[k];
+      cosine[whole + k] = c[k];
+    }
+  } else if (rest == 2) {
+    Two s, c;
+    sine_cosine(Two::of(angle + whole), s, c);
+    s.put(sine + whole);
+    c.put(cosine + whole);
+  } else if (rest == 1) {
+    sine_cosine(angle[whole], sine[whole], cosine[whole]);
+  }
+}
+template <int n>
+inline void sines_and_cosines(const double* angle, double* sine, double* cosine) {
+  sines_and_cosines(n, angle, sine, cosine);
+}
 
 }  // namespace catena
 

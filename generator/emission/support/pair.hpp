@@ -4,6 +4,9 @@
 // processor computes with at the price of one number.
 #pragma once
 
+#include "lanes.hpp"
+#include "multiply_add.hpp"
+
 namespace catena {
 
 template <class T>
@@ -26,6 +29,15 @@ class Pair {
   friend Pair operator/(const Pair& a, const Pair& b) {
     return {a.first_ / b.first_, a.second_ / b.second_};
   }
+  [[gnu::always_inline]] friend Pair multiply_add(const Pair& a, const Pair& b, const Pair& c) {
+    return {multiply_add(a.first_, b.first_, c.first_),
+            multiply_add(a.second_, b.second_, c.second_)};
+  }
+  [[gnu::always_inline]] friend Pair negative_multiply_add(const Pair& a, const Pair& b,
+                                                           const Pair& c) {
+    return {negative_multiply_add(a.first_, b.first_, c.first_),
+            negative_multiply_add(a.second_, b.second_, c.second_)};
+  }
 
  private:
   T first_, second_;
@@ -35,10 +47,8 @@ class Pair {
 template <>
 class Pair<double> {
  public:
-  typedef double Vector __attribute__((vector_size(16)));
-
   Pair() = default;
-  Pair(double first, double second) : values_{first, second} {}
+  Pair(double first, double second) : values_(CATENA_APART(Lanes<2>::Vector{first, second})) {}
   double first() const { return values_[0]; }
   double second() const { return values_[1]; }
 
@@ -46,11 +56,18 @@ class Pair<double> {
   friend Pair operator-(const Pair& a, const Pair& b) { return Pair(a.values_ - b.values_); }
   friend Pair operator*(const Pair& a, const Pair& b) { return Pair(a.values_ * b.values_); }
   friend Pair operator/(const Pair& a, const Pair& b) { return Pair(a.values_ / b.values_); }
+  [[gnu::always_inline]] friend Pair multiply_add(const Pair& a, const Pair& b, const Pair& c) {
+    return Pair(multiply_add(a.values_, b.values_, c.values_));
+  }
+  [[gnu::always_inline]] friend Pair negative_multiply_add(const Pair& a, const Pair& b,
+                                                           const Pair& c) {
+    return Pair(negative_multiply_add(a.values_, b.values_, c.values_));
+  }
 
  private:
-  explicit Pair(const Vector& values) : values_(values) {}
+  explicit Pair(const Lanes<2>& values) : values_(values) {}
 
-  Vector values_;
+  Lanes<2> values_;
 };
 #endif
 

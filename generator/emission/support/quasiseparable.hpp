@@ -8,14 +8,17 @@
 //     A_ij = lower_row_i . lower_column_j + below_i       j = i - 1
 //     A_ij = lower_row_i . lower_column_j                 j < i - 1
 //
+// An array for each entry of these vectors, so that what fills them vectorises.
+//
 // Elimination from the last row up. What is left of the matrix after the rows below j are gone is
 // of the same form, with the correction
 //
-//     A_ik - upper_row_i . W lower_column_k  (and W's neighbours for row and column j alone),
+//     A_ik - upper_row_i . W lower_column_k,
 //
-// W an upper_rank x lower_rank matrix that each step updates by a rank-one term. No pivoting:
-// stable for positive definite matrices, as the mass matrix is, and for Newton matrices M + (small)
-// that an integrator's step size keeps near one.
+// W an upper_rank x lower_rank matrix that each step updates by a rank-one term; in row and column
+// j - 1 the whole entries beside the diagonal take part too. No pivoting: stable for positive
+// definite matrices, as the mass matrix is, and for Newton matrices M + (small) that an
+// integrator's step size keeps near one.
 #pragma once
 
 #include "scalar.hpp"
@@ -28,7 +31,7 @@ struct QuasiseparableEntries {
   static constexpr int n = size;
   static constexpr int ru = upper_rank > 0 ? upper_rank : 1;
   static constexpr int rl = lower_rank > 0 ? lower_rank : 1;
-  T upper_row[n][ru], upper_column[n][ru], lower_row[n][rl], lower_column[n][rl];
+  T upper_row[ru][n], upper_column[ru][n], lower_row[rl][n], lower_column[rl][n];
   T diagonal[n], below[n], above[n];
 };
 
@@ -39,20 +42,19 @@ struct QuasiseparableEntries<T, kAtRunTime, upper_rank, lower_rank> {
   static constexpr int rl = lower_rank > 0 ? lower_rank : 1;
   static constexpr int numbers(int n) { return n * (2 * ru + 2 * rl + 3); }
 
-  QuasiseparableEntries(int size, T* memory)
-      : n(size),
-        upper_row(reinterpret_cast<T (*)[ru]>(memory)),
-        upper_column(upper_row + n),
-        lower_row(reinterpret_cast<T (*)[rl]>(upper_column + n)),
-        lower_column(lower_row + n),
-        diagonal(*(lower_column + n)),
-        below(diagonal + n),
-        above(below + n) {}
+  QuasiseparableEntries(int size, T* memory) : n(size) {
+    for (int r = 0; r < ru; ++r, memory += n) upper_row[r] = memory;
+    for (int r = 0; r < ru; ++r, memory += n) upper_column[r] = memory;
+    for (int s = 0; s < rl; ++s, memory += n) lower_row[s] = memory;
+    for (int s = 0; s < rl; ++s, memory += n) lower_column[s] = memory;
+    diagonal = memory;
+    below = diagonal + n;
+    above = below + n;
+  }
 
   const int n;
-  T (*const upper_row)[ru], (*const upper_column)[ru];
-  T (*const lower_row)[rl], (*const lower_column)[rl];
-  T *const diagonal, *const below, *const above;
+  T *upper_row[ru], *upper_column[ru], *lower_row[rl], *lower_column[rl];
+  T *diagonal, *below, *above;
 };
 
 template <class T, int size, int upper_rank, int lower_rank>
@@ -70,60 +72,77 @@ struct Quasiseparable : QuasiseparableEntries<T, size, upper_rank, lower_rank> {
   ///   d_i
   /// Returns 0, or the 1-based row whose pivot vanished.
   ///
-  /// The steps depend on each other through W, so that the time of a sweep is the latency of its
-  /// longest chain of operations: products that do not need W are formed apart from it.
+  /// A step waits for the division of the one before. So it prepares what of the next row does not
+  /// need the quotient, and the pivots, one product away from it, come first.
   int factor() {
-    T w[ru][rl], w_column[ru], w_row[rl], w_corner = T(0);
+    T w[ru][rl], column[ru], row[rl];  // of the rows below j; of row j, corrected
+    CATENA_UNROLLED
     for (int r = 0; r < ru; ++r) {
-      w_column[r] = T(0);
+      column[r] = upper_column[r][n - 1];
+      CATENA_UNROLLED
       for (int s = 0; s < rl; ++s) w[r][s] = T(0);
     }
-    for (int s = 0; s < rl; ++s) w_row[s] = T(0);
+    CATENA_UNROLLED
+    for (int s = 0; s < rl; ++s) row[s] = lower_row[s][n - 1];
+    above[n - 1] = T(0);
+    T pivot = diagonal[n - 1];
     for (int j = n - 1; j >= 0; --j) {
-      T* column = upper_column[j];
-      T* row = lower_row[j];
-      T known = w_corner;
-      for (int r = 0; r < upper_rank; ++r) {
-        T terms = upper_row[j][r] * w_column[r];
-        for (int s = 0; s < lower_rank; ++s)
-          terms += upper_row[j][r] * lower_column[j][s] * w[r][s];
-        known += terms;
-      }
-      for (int s = 0; s < lower_rank; ++s) known += lower_column[j][s] * w_row[s];
-      const T pivot = diagonal[j] - known;
-      for (int r = 0; r < upper_rank; ++r) {
-        T w_q = w_column[r];
-        for (int s = 0; s < lower_rank; ++s) w_q += w[r][s] * lower_column[j][s];
-        column[r] -= w_q;
-      }
-      for (int s = 0; s < lower_rank; ++s) {
-        T w_p = w_row[s];
-        for (int r = 0; r < upper_rank; ++r) w_p += w[r][s] * upper_row[j][r];
-        row[s] -= w_p;
-      }
       if (!usable_pivot(pivot)) return j + 1;
       const T reciprocal = T(1) / pivot;
       diagonal[j] = reciprocal;
-      if (j == 0) break;
-      const T before = above[j - 1] * reciprocal;
+      above[j] *= reciprocal;
+      T scaled_row[rl];
+      CATENA_UNROLLED
       for (int r = 0; r < upper_rank; ++r) {
-        for (int s = 0; s < lower_rank; ++s) w[r][s] += column[r] * row[s] * reciprocal;
-        w_column[r] = column[r] * below[j] * reciprocal;
+        upper_column[r][j] = column[r];
+        upper_row[r][j] *= reciprocal;
       }
-      for (int s = 0; s < lower_rank; ++s) w_row[s] = before * row[s];
-      w_corner = before * below[j];
-    }
-    for (int j = 0; j < n; ++j) {
-      if (j + 1 < n) {
-        for (int r = 0; r < upper_rank; ++r) above[j] += upper_row[j][r] * upper_column[j + 1][r];
-        above[j] *= diagonal[j];
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s) lower_row[s][j] = scaled_row[s] = row[s] * reciprocal;
+      if (j == 0) break;
+
+      T upper[ru], lower[rl];
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r) upper[r] = upper_row[r][j - 1];
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s) lower[s] = lower_column[s][j - 1];
+      T entry_above = above[j - 1], entry_below = below[j];
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r)
+        entry_above = multiply_add(upper[r], column[r], entry_above);
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s)
+        entry_below = multiply_add(row[s], lower[s], entry_below);
+      pivot = diagonal[j - 1];
+      T next_column[ru], next_row[rl];
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r) {
+        T w_lower = T(0);
+        CATENA_UNROLLED
+        for (int s = 0; s < lower_rank; ++s) w_lower = multiply_add(w[r][s], lower[s], w_lower);
+        pivot = negative_multiply_add(upper[r], w_lower, pivot);
+        next_column[r] = upper_column[r][j - 1] - w_lower;
       }
-      if (j > 0) {
-        for (int s = 0; s < lower_rank; ++s) below[j] += lower_row[j][s] * lower_column[j - 1][s];
-        below[j] *= diagonal[j];
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s) {
+        next_row[s] = lower_row[s][j - 1];
+        CATENA_UNROLLED
+        for (int r = 0; r < upper_rank; ++r)
+          next_row[s] = negative_multiply_add(upper[r], w[r][s], next_row[s]);
       }
-      for (int r = 0; r < upper_rank; ++r) upper_row[j][r] *= diagonal[j];
-      for (int s = 0; s < lower_rank; ++s) lower_row[j][s] *= diagonal[j];
+      pivot = negative_multiply_add(entry_above * entry_below, reciprocal, pivot);
+      above[j - 1] = entry_above;
+      below[j] = entry_below * reciprocal;
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r) {
+        CATENA_UNROLLED
+        for (int s = 0; s < lower_rank; ++s)
+          w[r][s] = multiply_add(column[r], scaled_row[s], w[r][s]);
+        column[r] = negative_multiply_add(column[r], below[j], next_column[r]);
+      }
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s)
+        row[s] = negative_multiply_add(entry_above, scaled_row[s], next_row[s]);
     }
     return 0;
   }
@@ -134,27 +153,37 @@ struct Quasiseparable : QuasiseparableEntries<T, size, upper_rank, lower_rank> {
   template <class X>
   void solve(X* x) const {
     X carried[ru], sum[rl];
+    CATENA_UNROLLED
     for (int r = 0; r < ru; ++r) carried[r] = X(0);
+    CATENA_UNROLLED
     for (int s = 0; s < rl; ++s) sum[s] = X(0);
     X last = X(0), last_but_one = X(0);
     for (int j = n - 1; j >= 0; --j) {
       if (j + 2 < n) {
-        for (int r = 0; r < upper_rank; ++r) carried[r] += upper_column[j + 2][r] * last_but_one;
+        CATENA_UNROLLED
+        for (int r = 0; r < upper_rank; ++r)
+          carried[r] = multiply_add(upper_column[r][j + 2], last_but_one, carried[r]);
       }
       X rest = x[j] * diagonal[j];
-      for (int r = 0; r < upper_rank; ++r) rest -= upper_row[j][r] * carried[r];
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r)
+        rest = negative_multiply_add(upper_row[r][j], carried[r], rest);
       last_but_one = last;
-      last = j + 1 < n ? rest - above[j] * last : rest;
+      last = j + 1 < n ? negative_multiply_add(above[j], last, rest) : rest;
       x[j] = last;
     }
     for (int j = 1; j < n; ++j) {  // last is x[0]
       if (j > 1) {
-        for (int s = 0; s < lower_rank; ++s) sum[s] += lower_column[j - 2][s] * last_but_one;
+        CATENA_UNROLLED
+        for (int s = 0; s < lower_rank; ++s)
+          sum[s] = multiply_add(lower_column[s][j - 2], last_but_one, sum[s]);
       }
       X rest = x[j];
-      for (int s = 0; s < lower_rank; ++s) rest -= lower_row[j][s] * sum[s];
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s)
+        rest = negative_multiply_add(lower_row[s][j], sum[s], rest);
       last_but_one = last;
-      last = rest - below[j] * last;
+      last = negative_multiply_add(below[j], last, rest);
       x[j] = last;
     }
   }
@@ -162,22 +191,32 @@ struct Quasiseparable : QuasiseparableEntries<T, size, upper_rank, lower_rank> {
   /// The same with the transpose of the matrix.
   void solve_transposed(T* x) const {
     T carried[ru], sum[rl];
+    CATENA_UNROLLED
     for (int r = 0; r < ru; ++r) carried[r] = T(0);
+    CATENA_UNROLLED
     for (int s = 0; s < rl; ++s) sum[s] = T(0);
     for (int j = n - 2; j >= 0; --j) {
       if (j + 2 < n) {
-        for (int s = 0; s < lower_rank; ++s) sum[s] += lower_row[j + 2][s] * x[j + 2];
+        CATENA_UNROLLED
+        for (int s = 0; s < lower_rank; ++s)
+          sum[s] = multiply_add(lower_row[s][j + 2], x[j + 2], sum[s]);
       }
-      for (int s = 0; s < lower_rank; ++s) x[j] -= lower_column[j][s] * sum[s];
-      x[j] -= below[j + 1] * x[j + 1];
+      CATENA_UNROLLED
+      for (int s = 0; s < lower_rank; ++s)
+        x[j] = negative_multiply_add(lower_column[s][j], sum[s], x[j]);
+      x[j] = negative_multiply_add(below[j + 1], x[j + 1], x[j]);
     }
     // x is divided by the pivots where the rows after it have used it undivided
     for (int j = 1; j < n; ++j) {
       if (j > 1) {
-        for (int r = 0; r < upper_rank; ++r) carried[r] += upper_row[j - 2][r] * x[j - 2];
+        CATENA_UNROLLED
+        for (int r = 0; r < upper_rank; ++r)
+          carried[r] = multiply_add(upper_row[r][j - 2], x[j - 2], carried[r]);
       }
-      for (int r = 0; r < upper_rank; ++r) x[j] -= upper_column[j][r] * carried[r];
-      x[j] -= above[j - 1] * x[j - 1];
+      CATENA_UNROLLED
+      for (int r = 0; r < upper_rank; ++r)
+        x[j] = negative_multiply_add(upper_column[r][j], carried[r], x[j]);
+      x[j] = negative_multiply_add(above[j - 1], x[j - 1], x[j]);
     }
     for (int j = 0; j < n; ++j) x[j] *= diagonal[j];
   }
@@ -188,10 +227,10 @@ struct Quasiseparable : QuasiseparableEntries<T, size, upper_rank, lower_rank> {
       for (int j = 0; j < n; ++j) {
         T entry = i == j ? diagonal[i] : T(0);
         if (j > i) {
-          for (int r = 0; r < upper_rank; ++r) entry += upper_row[i][r] * upper_column[j][r];
+          for (int r = 0; r < upper_rank; ++r) entry += upper_row[r][i] * upper_column[r][j];
           if (j == i + 1) entry += above[i];
         } else if (j < i) {
-          for (int s = 0; s < lower_rank; ++s) entry += lower_row[i][s] * lower_column[j][s];
+          for (int s = 0; s < lower_rank; ++s) entry += lower_row[s][i] * lower_column[s][j];
           if (j == i - 1) entry += below[i];
         }
         matrix[i * n + j] = entry;

@@ -7,7 +7,11 @@
 
 #include <cmath>
 
+#include "multiply_add.hpp"
 #include "sine_cosine.hpp"
+
+/// Before a loop of a few steps: writes them out, so that small arrays become registers.
+#define CATENA_UNROLLED _Pragma("GCC unroll 8")
 
 namespace catena {
 
