@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What emitted models need of a scalar type T: + - * /, construction from int and double, and sin,
-// cos, sqrt ... found in namespace catena or by argument-dependent look-up. double, long double,
+// cos, sqrt ... found in namespace catena or by argument-dependent look-up; multiply_add and
+// negative_multiply_add of its own, if it has one operation for them. double, long double,
 // automatic differentiation and SIMD types will do.
 #pragma once
 

@@ -29,7 +29,7 @@ static void sines_and_cosines(const double* angle, double* sine, double* cosine)
 // last up.
 const char* const kSemiseparable = R"(
 typedef struct {
-  double row[kLinks][kRank], column[kLinks][kRank], diagonal[kLinks];
+  double row[kRank][kLinks], column[kRank][kLinks], diagonal[kLinks];
 } MassMatrix; /* M_ij = row_i . column_j for j < i, symmetric */
 
 static void to_dense(const MassMatrix* matrix, double* M) {
@@ -37,7 +37,7 @@ static void to_dense(const MassMatrix* matrix, double* M) {
     M[i * kLinks + i] = matrix->diagonal[i];
     for (int j = 0; j < i; ++j) {
       double entry = 0.0;
-      for (int r = 0; r < kRank; ++r) entry += matrix->row[i][r] * matrix->column[j][r];
+      for (int r = 0; r < kRank; ++r) entry += matrix->row[r][i] * matrix->column[r][j];
       M[i * kLinks + j] = entry;
       M[j * kLinks + i] = entry;
     }
@@ -49,15 +49,18 @@ static void to_dense(const MassMatrix* matrix, double* M) {
 static int32_t solve_in_place(MassMatrix* matrix, double* x) {
   double w[kRank][kRank] = {{0.0}}, carried[kRank] = {0.0}, sum[kRank] = {0.0};
   for (int j = kLinks - 1; j >= 0; --j) {
-    const double* column = matrix->column[j];
-    double* row = matrix->row[j];
+    double column[kRank], row[kRank];
+    for (int r = 0; r < kRank; ++r) {
+      column[r] = matrix->column[r][j];
+      row[r] = matrix->row[r][j];
+    }
     double pivot = matrix->diagonal[j];
     for (int r = 0; r < kRank; ++r) {
       double product = 0.0;
       for (int s = 0; s < kRank; ++s) product += w[r][s] * column[s];
       pivot -= column[r] * product;
       x[j] -= column[r] * carried[r];
-      row[r] -= product;
+      matrix->row[r][j] = row[r] -= product;
     }
     if (!(pivot > 0.0)) return j + 1;
     matrix->diagonal[j] = 1.0 / pivot;
@@ -69,9 +72,9 @@ static int32_t solve_in_place(MassMatrix* matrix, double* x) {
   }
   for (int j = 0; j < kLinks; ++j) {
     double product = 0.0;
-    for (int r = 0; r < kRank; ++r) product += matrix->row[j][r] * sum[r];
+    for (int r = 0; r < kRank; ++r) product += matrix->row[r][j] * sum[r];
     x[j] -= product * matrix->diagonal[j];
-    for (int r = 0; r < kRank; ++r) sum[r] += matrix->column[j][r] * x[j];
+    for (int r = 0; r < kRank; ++r) sum[r] += matrix->column[r][j] * x[j];
   }
   return 0;
 }
