@@ -15,6 +15,8 @@
 
 #include "scalar.hpp"
 
+// A vector that the compiler does not look into from outside: taken to pieces, it may not be put
+// together again.
 #if __has_builtin(__builtin_assoc_barrier)
 #define CATENA_APART __builtin_assoc_barrier
 #else
@@ -137,8 +139,7 @@ class alignas(count * sizeof(double)) Lanes {
 
  private:
   using Every = std::make_integer_sequence<int, count>;
-  // One instruction of all lanes: the compiler sees that they are alike if it sees them apart from
-  // what comes before and after.
+  // The compiler makes one instruction of all lanes.
   template <int... lane>
   [[gnu::always_inline]] static Lanes fused(const Vector& a, const Vector& b, const Vector& c,
                                             std::integer_sequence<int, lane...>) {
