@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies of the dissertation's chapters share: runs of catena, tables, figures."""
+import argparse
 import concurrent.futures
 import csv
 import json
@@ -26,14 +27,24 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BLUE, RED = "#0072b2", "#d55e00"  # told apart by everyone
 
 
+def command_line(study, *rest, **how):
+    """What the command line says: `output`, which is made, `binaries`, and one thing more."""
+    parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("output", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/{study}")
+    parser.add_argument("binaries", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/release")
+    if rest:
+        parser.add_argument(*rest, **how)
+    said = parser.parse_args()
+    if not os.path.exists(f"{said.binaries}/bin/catena"):
+        parser.error(f"no catena in {said.binaries}/bin; build it, or name the folder")
+    os.makedirs(said.output, exist_ok=True)
+    return said
+
+
 def folders(study):
-    """OUTPUT and BINARIES of the command line; the first is made."""
-    output = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else f"{ROOT}/build/{study}")
-    binaries = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else f"{ROOT}/build/release")
-    if not os.path.exists(f"{binaries}/bin/catena"):
-        sys.exit(f"{sys.argv[0]}: no catena in {binaries}/bin; build it, or name the folder")
-    os.makedirs(output, exist_ok=True)
-    return output, binaries
+    said = command_line(study)
+    return said.output, said.binaries
 
 
 class Failed(Exception):
