@@ -43,6 +43,8 @@ TEST_CASE("texts that differ in more are refused") {
   CHECK_THROWS_AS(text("a[12] = b;", "a[13] = c;"), std::logic_error);
   CHECK_THROWS_AS(text("a[12] = b;", "a[13] = b; c[1] = d;"), std::logic_error);
   CHECK_THROWS_AS(text("a[12] = b; c[1] = d;", "a[13] = b;"), std::logic_error);
+  CHECK_THROWS_AS(text("of 12", "of "), std::logic_error);
+  CHECK_THROWS_AS(text("of ", "of 13"), std::logic_error);
   // what would need brackets, or is a type
   CHECK_THROWS_AS(text("a - 12", "a - 13"), std::logic_error);
   CHECK_THROWS_AS(text("Lanes<12> a;", "Lanes<13> a;"), std::logic_error);
