@@ -41,6 +41,22 @@ struct Cable {
   double load = 1.47, gravity = 9.81;
 };
 
+/// Link i, from 0, as an engine wants it: the load is part of the last.
+struct RigidLink {
+  RigidLink(const Cable& cable, int i) {
+    const double load = i + 1 == cable.links ? cable.load : 0.0;
+    mass = cable.mass + load;
+    centre = (cable.mass / 2 + load) * cable.length / mass;
+    inertia = cable.inertia +
+              cable.mass * (centre - cable.length / 2) * (centre - cable.length / 2) +
+              load * (cable.length - centre) * (cable.length - centre);
+  }
+
+  double mass;     ///< kg
+  double centre;   ///< of mass, from the upper joint, m
+  double inertia;  ///< about the centre, kg m^2
+};
+
 inline Eigen::VectorXd relative_angles(const Eigen::VectorXd& absolute) {
   Eigen::VectorXd relative = absolute;
   relative.tail(absolute.size() - 1) -= absolute.head(absolute.size() - 1);

@@ -21,16 +21,11 @@ class DartPeer : public Peer {
       if (i > 0) joint.mT_ParentBodyToJoint.translation() << 0, -cable.length, 0;
       joint.mSpringStiffnesses[0] = cable.stiffness;
       joint.mDampingCoefficients[0] = cable.damping;
-      // the load is part of the last link
-      const double load = i + 1 == cable.links ? cable.load : 0.0, mass = cable.mass + load;
-      const double centre = (cable.mass / 2 + load) * cable.length / mass;
-      const double inertia =
-          cable.inertia + cable.mass * (centre - cable.length / 2) * (centre - cable.length / 2) +
-          load * (cable.length - centre) * (cable.length - centre);
+      const RigidLink link(cable, i);
       dart::dynamics::BodyNode::Properties body;
       body.mName = "link_" + std::to_string(i);
-      body.mInertia = dart::dynamics::Inertia(mass, Eigen::Vector3d(0, -centre, 0),
-                                              inertia * Eigen::Matrix3d::Identity());
+      body.mInertia = dart::dynamics::Inertia(link.mass, Eigen::Vector3d(0, -link.centre, 0),
+                                              link.inertia * Eigen::Matrix3d::Identity());
       parent = skeleton_->createJointAndBodyNodePair<RevoluteJoint>(parent, joint, body).second;
     }
     skeleton_->setGravity(Eigen::Vector3d(0, -cable.gravity, 0));

@@ -120,6 +120,9 @@ int main(int argc, char** argv) {
 #ifdef CATENA_BENCHMARK_RBDL
   makers.push_back(catena::benchmark::make_rbdl);
 #endif
+#ifdef CATENA_BENCHMARK_PINOCCHIO
+  makers.push_back(catena::benchmark::make_pinocchio);
+#endif
   std::vector<std::unique_ptr<Peer>> peers;
   for (const auto& [n, model] : models) {
     const std::string size = "/" + std::to_string(n);

@@ -22,17 +22,12 @@ std::string description(const Cable& cable, double rest_angle, const std::string
        << "><flag contact='disable' constraint='disable' equality='disable' limit='disable' "
           "frictionloss='disable'/></option><worldbody>";
   for (int i = 0; i < n; ++i) {
-    // the load is part of the last link
-    const double load = i + 1 == n ? cable.load : 0.0, mass = cable.mass + load;
-    const double centre = (cable.mass / 2 + load) * cable.length / mass;
-    const double inertia = cable.inertia +
-                           cable.mass * (centre - cable.length / 2) * (centre - cable.length / 2) +
-                           load * (cable.length - centre) * (cable.length - centre);
+    const RigidLink link(cable, i);
     text << "<body pos='0 0 " << (i == 0 ? 0.0 : -cable.length)
          << "'><joint type='hinge' axis='0 -1 0' stiffness='" << cable.stiffness << "' damping='"
          << cable.damping << "' springref='" << (i == 0 ? rest_angle : 0.0)
-         << "'/><inertial pos='0 0 " << -centre << "' mass='" << mass << "' diaginertia='"
-         << inertia << ' ' << inertia << ' ' << inertia << "'/>";
+         << "'/><inertial pos='0 0 " << -link.centre << "' mass='" << link.mass << "' diaginertia='"
+         << link.inertia << ' ' << link.inertia << ' ' << link.inertia << "'/>";
   }
   for (int i = 0; i < n; ++i) text << "</body>";
   text << "</worldbody></mujoco>";

@@ -29,7 +29,9 @@ struct Solution {
 std::unique_ptr<Peer> make_mujoco(const Cable& cable);
 std::unique_ptr<Peer> make_simbody(const Cable& cable);
 std::unique_ptr<Peer> make_dart(const Cable& cable);
-std::unique_ptr<Peer> make_rbdl(const Cable& cable);  // if compiled with CATENA_BENCHMARK_RBDL
+// If compiled with CATENA_BENCHMARK_RBDL and CATENA_BENCHMARK_PINOCCHIO:
+std::unique_ptr<Peer> make_rbdl(const Cable& cable);
+std::unique_ptr<Peer> make_pinocchio(const Cable& cable);
 
 /// Simbody's CPodes (BDF) at the given accuracy.
 Solution simulate_simbody(const Cable& cable, double rest_angle, const std::vector<double>& times,

@@ -18,14 +18,9 @@ class Rbdl : public Peer {
     model_.gravity = rbd::Math::Vector3d(0, 0, -cable.gravity);
     unsigned parent = 0;
     for (int i = 0; i < cable.links; ++i) {
-      // the load is part of the last link
-      const double load = i + 1 == cable.links ? cable.load : 0.0, mass = cable.mass + load;
-      const double centre = (cable.mass / 2 + load) * cable.length / mass;
-      const double inertia =
-          cable.inertia + cable.mass * (centre - cable.length / 2) * (centre - cable.length / 2) +
-          load * (cable.length - centre) * (cable.length - centre);
-      const rbd::Body body(mass, rbd::Math::Vector3d(0, 0, -centre),
-                           rbd::Math::Vector3d(inertia, inertia, inertia));
+      const RigidLink link(cable, i);
+      const rbd::Body body(link.mass, rbd::Math::Vector3d(0, 0, -link.centre),
+                           rbd::Math::Vector3d(link.inertia, link.inertia, link.inertia));
       parent = model_.AddBody(
           parent, rbd::Math::Xtrans(rbd::Math::Vector3d(0, 0, i == 0 ? 0.0 : -cable.length)),
           rbd::Joint(rbd::JointTypeRevoluteY), body);
