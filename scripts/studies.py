@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the studies of the dissertation's chapters share: runs of catena, tables, figures."""
-import argparse
 import concurrent.futures
 import csv
 import json
@@ -8,6 +7,9 @@ import os
 import re
 import subprocess
 import sys
+
+import command_line
+from command_line import ROOT
 
 try:
     import matplotlib
@@ -23,27 +25,11 @@ matplotlib.rcParams.update({
 })  # fmt: skip
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BLUE, RED = "#0072b2", "#d55e00"  # told apart by everyone
 
 
-def command_line(study, *rest, **how):
-    """What the command line says: `output`, which is made, `binaries`, and one thing more."""
-    parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("output", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/{study}")
-    parser.add_argument("binaries", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/release")
-    if rest:
-        parser.add_argument(*rest, **how)
-    said = parser.parse_args()
-    if not os.path.exists(f"{said.binaries}/bin/catena"):
-        parser.error(f"no catena in {said.binaries}/bin; build it, or name the folder")
-    os.makedirs(said.output, exist_ok=True)
-    return said
-
-
 def folders(study):
-    said = command_line(study)
+    said = command_line.of_study(study)
     return said.output, said.binaries
 
 

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the scripts' command lines share. Usage errors end with status 2."""
+import argparse
+import os
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def parser():
+    """With the script's own text as help."""
+    return argparse.ArgumentParser(description=sys.modules["__main__"].__doc__,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def of_study(name, *rest, **how):
+    """`output`, which is made, `binaries`, and one thing more."""
+    said = parser()
+    said.add_argument("output", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/{name}")
+    said.add_argument("binaries", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/release")
+    if rest:
+        said.add_argument(*rest, **how)
+    values = said.parse_args()
+    if not os.path.exists(f"{values.binaries}/bin/catena"):
+        said.error(f"no catena in {values.binaries}/bin; build it, or name the folder")
+    os.makedirs(values.output, exist_ok=True)
+    return values
