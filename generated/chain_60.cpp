@@ -496,7 +496,7 @@ CATENA_EACH_PROCESSOR int32_t c_acceleration(const catena_point* at, double* a) 
   return acceleration(point(at), a);
 }
 CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
-                        double* __restrict work) {
+                        double* work) {
   auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);
   newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();

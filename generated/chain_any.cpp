@@ -60,7 +60,7 @@ struct Functions : Chain {
     return acceleration(point(at), a);
   }
   CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
-                          double* __restrict work) {
+                          double* work) {
     NewtonMatrix<double> matrix(links(), work);
     newton_matrix(point(at), ca, cv, cq, matrix);
     return matrix.factor();

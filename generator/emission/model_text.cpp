@@ -51,7 +51,7 @@ std::string processors_text() {
 
 std::string newton_text(const std::string& matrix, const std::string& factored) {
   return "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
-         "                        double* __restrict work) {\n" +
+         "                        double* work) {\n" +
          matrix +
          "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
          "  return matrix.factor();\n}\n" +
