@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Pinocchio's articulated-body algorithm, where Pinocchio is installed.
+#include <unistd.h>
+
+#include <cmath>
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/multibody/data.hpp>
 #include <pinocchio/multibody/model.hpp>
+#include <stdexcept>
 
 #include "tests/benchmark/peer.hpp"
 
@@ -27,6 +31,16 @@ class Pinocchio : public Peer {
       const RigidLink link(cable, i);
       model_.appendBodyToJoint(parent, pin::Inertia(link.mass, Eigen::Vector3d(0, 0, -link.centre),
                                                     link.inertia * Eigen::Matrix3d::Identity()));
+    }
+    // Data holds the second derivatives of the torques whether they are asked for or not, and fills
+    // them with zeros: without room for them the system would end the program.
+    const double room = 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<double>(sysconf(_SC_PAGESIZE));
+    const double tensors = 4 * std::pow(cable.links, 3) * sizeof(double);
+    if (tensors > room) {
+      throw std::runtime_error("Pinocchio's Data takes " +
+                               std::to_string(std::lround(tensors / 1e9)) +
+                               " GB, more than half of this machine's memory");
     }
     data_ = std::make_unique<pin::Data>(model_);
   }
