@@ -249,7 +249,8 @@ class Physician {
       workshop_.stop_if_asked();
       for (const Explanation& second : beside) {
         if (!second.refitted || second.candidate < 0 ||
-            second.comparison.misfit_share < kWorthwhile)
+            second.comparison.misfit_share < kWorthwhile ||
+            !as_well(second.held_out, first.held_out))
           continue;
         const Comparison both = compare(base.model, second.model, result_.floors);
         const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
@@ -367,8 +368,10 @@ class Physician {
   }
 
   /// Whether a model that leaves this predicts what no fit has seen as well as the present one.
-  bool generalises(const GapTest& held_out) {
-    return held_out.count == 0 || held_out.rms <= kNotWorse * stage().held_out.rms;
+  bool generalises(const GapTest& held_out) { return as_well(held_out, stage().held_out); }
+
+  static bool as_well(const GapTest& held_out, const GapTest& before) {
+    return held_out.count == 0 || held_out.rms <= kNotWorse * before.rms;
   }
 
   bool acceptable(const Explanation& explanation) {
@@ -490,9 +493,10 @@ class Physician {
     return without;
   }
 
-  /// An effect is needless if the model without it leaves no more gap than the model with it.
+  /// An effect is needless if the model without it leaves no more gap than the model with it, or
+  /// predicts better what no fit has seen: with others in place it may fit what is not its own.
   bool needless(const Stage& without) {
-    if (!without.fit.present) return true;
+    if (!without.fit.present || !as_well(stage().held_out, without.held_out)) return true;
     const Comparison gain = compare(without.model, stage().model, result_.floors);
     return gain.log10_p + std::log10(std::max(1, result_.tried)) > kCertain ||
            gain.misfit_share < kWorthwhile || !more_than_a_detail(gain);
