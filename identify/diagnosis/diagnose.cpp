@@ -25,8 +25,6 @@ constexpr double kCertain = -3;      // log10 of the probability of a false name
 constexpr double kWorthwhile = 0.1;  // share of the squared misfit an effect must explain
 constexpr double kDetail = 0.01;     // of the squared misfit before the first effect
 constexpr double kWrongLaw = 0.005;  // of the same: more than a law slightly wrong leaves of it
-constexpr double kNotWorse =
-    1.05;  // held-out error of a better model, over that of the present one
 constexpr std::size_t kTriedWithMoreLinks = 3, kFirstsOfPairs = 4;
 constexpr int kSecondsOfPairs = 3;
 constexpr int kRounds = 2, kMostSwaps = 3;
@@ -250,7 +248,7 @@ class Physician {
       for (const Explanation& second : beside) {
         if (!second.refitted || second.candidate < 0 ||
             second.comparison.misfit_share < kWorthwhile ||
-            !as_well(second.held_out, first.held_out))
+            !predicts_as_well(second.held_out, first.held_out))
           continue;
         const Comparison both = compare(base.model, second.model, result_.floors);
         const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const Pair& pair) {
@@ -368,10 +366,8 @@ class Physician {
   }
 
   /// Whether a model that leaves this predicts what no fit has seen as well as the present one.
-  bool generalises(const GapTest& held_out) { return as_well(held_out, stage().held_out); }
-
-  static bool as_well(const GapTest& held_out, const GapTest& before) {
-    return held_out.count == 0 || held_out.rms <= kNotWorse * before.rms;
+  bool generalises(const GapTest& held_out) {
+    return predicts_as_well(held_out, stage().held_out);
   }
 
   bool acceptable(const Explanation& explanation) {
@@ -496,7 +492,7 @@ class Physician {
   /// An effect is needless if the model without it leaves no more gap than the model with it, or
   /// predicts better what no fit has seen: with others in place it may fit what is not its own.
   bool needless(const Stage& without) {
-    if (!without.fit.present || !as_well(stage().held_out, without.held_out)) return true;
+    if (!without.fit.present || !predicts_as_well(stage().held_out, without.held_out)) return true;
     const Comparison gain = compare(without.model, stage().model, result_.floors);
     return gain.log10_p + std::log10(std::max(1, result_.tried)) > kCertain ||
            gain.misfit_share < kWorthwhile || !more_than_a_detail(gain);

@@ -13,6 +13,7 @@ constexpr double kTrace = 0.15;           // of the noise
 constexpr double kTraceSignificance = 4;  // deviations
 constexpr double kTooSmallToName = 0.6;   // misfit over noise below which nothing is called missing
 constexpr double kImitated = 0.02;        // of the squared misfit before the first effect
+constexpr double kNotWorse = 1.05;        // held-out error over the other's
 
 }  // namespace
 
@@ -22,6 +23,10 @@ bool gap_left(const Stage& stage) {
 
 bool trace_left(const Stage& stage) {
   return stage.fit.colour > kTraceSignificance && stage.fit.misfit > kTrace * stage.fit.floor;
+}
+
+bool predicts_as_well(const GapTest& held_out, const GapTest& other) {
+  return held_out.count == 0 || held_out.rms <= kNotWorse * other.rms;
 }
 
 double misfit_without_effects(const std::vector<Stage>& stages) {

@@ -14,6 +14,10 @@ bool gap_left(const Stage& stage);
 /// Too little for an effect to be sought, but not there by chance.
 bool trace_left(const Stage& stage);
 
+/// Whether a model that leaves `held_out` of what no fit has seen predicts it as well as one that
+/// leaves `other`: an effect must, beside the model without it. True where nothing is held out.
+bool predicts_as_well(const GapTest& held_out, const GapTest& other);
+
 /// Misfit of the last stage that had no effect; 0 if none had.
 double misfit_without_effects(const std::vector<Stage>& stages);
 

@@ -102,6 +102,18 @@ TEST_CASE("what is left of a gap tells imitations from what is missing") {
   CHECK_FALSE(with_misfit(0.45e-3));
 }
 
+TEST_CASE("an effect predicts as well as the model without it up to a twentieth") {
+  catena::GapTest with, without;
+  CHECK(catena::predicts_as_well(with, without));  // nothing held out
+  with.count = without.count = 100;
+  without.rms = 4e-3;
+  with.rms = 4.1e-3;
+  CHECK(catena::predicts_as_well(with, without));
+  with.rms = 4.3e-3;
+  CHECK_FALSE(catena::predicts_as_well(with, without));
+  CHECK(catena::predicts_as_well(without, with));
+}
+
 TEST_CASE("the colour factor is one for white noise and grows with correlation") {
   CHECK(catena::colour_factor({white(24, 400, 1, 1)}) < 1.3);
   CHECK(catena::colour_factor({smooth(24, 400, 1, 1, 60)}) > 5);
