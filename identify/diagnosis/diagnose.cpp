@@ -366,9 +366,7 @@ class Physician {
   }
 
   /// Whether a model that leaves this predicts what no fit has seen as well as the present one.
-  bool generalises(const GapTest& held_out) {
-    return predicts_as_well(held_out, stage().held_out);
-  }
+  bool generalises(const GapTest& held_out) { return predicts_as_well(held_out, stage().held_out); }
 
   bool acceptable(const Explanation& explanation) {
     if (!explanation.refitted) return false;
