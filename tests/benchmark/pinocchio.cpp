@@ -27,7 +27,6 @@ class Pinocchio : public Peer {
       const pin::SE3 place(Eigen::Matrix3d::Identity(),
                            Eigen::Vector3d(0, 0, i == 0 ? 0.0 : -cable.length));
       parent = model_.addJoint(parent, pin::JointModelRY(), place, "joint_" + std::to_string(i));
-      // the load is part of the last link
       const RigidLink link(cable, i);
       model_.appendBodyToJoint(parent, pin::Inertia(link.mass, Eigen::Vector3d(0, 0, -link.centre),
                                                     link.inertia * Eigen::Matrix3d::Identity()));
