@@ -13,11 +13,11 @@
 
 #include <chrono>
 
-#include "generator/description/input_error.hpp"
-#include "identify/model_provider.hpp"
-#include "runtime/initial_shape.hpp"
+#include "common/input_error.hpp"
+#include "identify/models/model_provider.hpp"
 #include "runtime/model.hpp"
 #include "runtime/positions.hpp"
+#include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 

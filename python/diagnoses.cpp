@@ -9,9 +9,9 @@
 #include <future>
 #include <memory>
 
-#include "generator/description/input_error.hpp"
-#include "identify/ceres/least_squares.hpp"
+#include "common/input_error.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
+#include "identify/least_squares/least_squares.hpp"
 #include "python/core.hpp"
 
 namespace py = pybind11;

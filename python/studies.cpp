@@ -10,11 +10,11 @@
 #include <atomic>
 #include <memory>
 
-#include "identify/ceres/least_squares.hpp"
-#include "identify/error.hpp"
-#include "identify/fit.hpp"
-#include "identify/model_provider.hpp"
-#include "identify/problem.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "identify/models/model_provider.hpp"
+#include "identify/problem/problem.hpp"
 #include "python/core.hpp"
 
 namespace py = pybind11;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "runtime/number_text.hpp"
+#include "common/number_text.hpp"
 
 namespace catena {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/input_error.hpp"
 #include "generated/chain_any.hpp"
-#include "generator/description/input_error.hpp"
 
 namespace catena {
 namespace {

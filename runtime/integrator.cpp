@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "runtime/number_text.hpp"
+#include "common/number_text.hpp"
 
 namespace catena {
 namespace {

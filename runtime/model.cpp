@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
+#include "common/number_text.hpp"
 #include "generated/models.hpp"
-#include "generator/description/input_error.hpp"
-#include "generator/description/nearest_name.hpp"
-#include "runtime/number_text.hpp"
 
 namespace catena {
 namespace {

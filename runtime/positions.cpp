@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/number_text.hpp"
+#include "common/number_text.hpp"
 
 namespace catena {
 namespace {

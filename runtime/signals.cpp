@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "runtime/number_text.hpp"
+#include "common/number_text.hpp"
 
 namespace catena {
 namespace {

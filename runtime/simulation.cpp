@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/number_text.hpp"
+#include "common/parallel.hpp"
 #include "runtime/adjoint_solver.hpp"
 #include "runtime/integrator.hpp"
-#include "runtime/number_text.hpp"
-#include "runtime/parallel.hpp"
 #include "runtime/sensitivity.hpp"
 
 namespace catena {

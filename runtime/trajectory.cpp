@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "generator/description/whole_file.hpp"
-#include "runtime/number_text.hpp"
+#include "common/number_text.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 

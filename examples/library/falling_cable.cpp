@@ -4,8 +4,8 @@
 // place after one second changes with the stiffness of the joints.
 #include <cstdio>
 
-#include "runtime/initial_shape.hpp"
 #include "runtime/positions.hpp"
+#include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 
 int main() {

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <random>
 
-#include "identify/error.hpp"
-#include "identify/fit.hpp"
-#include "identify/problem.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "identify/minimise.hpp"
+#include "identify/fit/minimise.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "runtime/any_links.hpp"
-#include "runtime/initial_shape.hpp"
 #include "runtime/positions.hpp"
+#include "runtime/rest_states.hpp"
 #include "runtime/simulation.hpp"
 
 int main(int count, char** arguments) {

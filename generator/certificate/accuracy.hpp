@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "description/description.hpp"
 #include "generated/catena_model.h"
-#include "generator/description/description.hpp"
 
 namespace catena {
 

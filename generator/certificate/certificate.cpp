@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/sha256.hpp"
 #include "generator/certificate/accuracy.hpp"
 #include "generator/certificate/compiled_model.hpp"
 #include "generator/certificate/exact_evaluation.hpp"

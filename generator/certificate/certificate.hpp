@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/emitted_files.hpp"
 
 namespace catena {

@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
+#include "description/description.hpp"
 #include "generator/derivation/definitions.hpp"
-#include "generator/description/description.hpp"
 
 namespace catena {
 

@@ -17,8 +17,8 @@
 
 #include <string>
 
+#include "description/description.hpp"
 #include "generated/catena_model.h"
-#include "generator/description/description.hpp"
 
 namespace catena {
 

@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "generator/certificate/random_point.hpp"
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
 
 namespace catena {
 namespace {

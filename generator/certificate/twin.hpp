@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An emitted model against the closed forms of chapter 4 (runtime/reference), in numbers.
+// An emitted model against the closed forms of chapter 4 (reference), in numbers.
 #pragma once
 
 #include <string>

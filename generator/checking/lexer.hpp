@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/input_error.hpp"
 #include "generator/checking/syntax_tree.hpp"
-#include "generator/description/input_error.hpp"
 
 namespace catena::checking {
 

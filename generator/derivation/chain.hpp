@@ -24,9 +24,9 @@
 #include <string>
 #include <vector>
 
+#include "description/description.hpp"
 #include "generator/derivation/definitions.hpp"
 #include "generator/derivation/effect_expression.hpp"
-#include "generator/description/description.hpp"
 
 namespace catena {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
+#include "description/expression_syntax.hpp"
 #include "generator/derivation/chain.hpp"
-#include "generator/description/expression_syntax.hpp"
 
 namespace catena {
 

@@ -6,10 +6,10 @@
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/derivation/written_out.hpp"
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
 
 namespace catena {
 

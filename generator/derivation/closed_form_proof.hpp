@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact comparison with the closed forms of chapter 4 (runtime/reference), all symbols kept: the
+// Exact comparison with the closed forms of chapter 4 (reference), all symbols kept: the
 // difference of each entry, with sines and cosines of differences written out, expands to zero.
 #pragma once
 

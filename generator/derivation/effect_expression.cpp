@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "generator/description/expression_syntax.hpp"
-#include "generator/description/nearest_name.hpp"
+#include "common/nearest_name.hpp"
+#include "description/expression_syntax.hpp"
 
 namespace catena {
 namespace {

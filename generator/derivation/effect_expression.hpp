@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The expressions of effect files (grammar: generator/description/expression_syntax.hpp), checked
+// The expressions of effect files (grammar: description/expression_syntax.hpp), checked
 // and turned into GiNaC's. Numbers are exact: 0.1 is one tenth. `pi` is a number; every other name
 // must be a symbol of the place the expression stands at. An exponent must come out as a rational
 // number p/q. Units are checked on the text as written, before GiNaC may reorder or cancel
@@ -14,8 +14,8 @@
 #include <string>
 #include <utility>
 
-#include "generator/description/effect.hpp"
-#include "generator/description/unit.hpp"
+#include "description/effect.hpp"
+#include "description/unit.hpp"
 
 namespace catena {
 

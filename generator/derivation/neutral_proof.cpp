@@ -4,10 +4,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/number_text.hpp"
+#include "common/toml_reader.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/effect_expression.hpp"
 #include "generator/derivation/written_out.hpp"
-#include "generator/description/toml_reader.hpp"
 
 namespace catena {
 

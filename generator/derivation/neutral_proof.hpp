@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "description/description.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
-#include "generator/description/description.hpp"
 
 namespace catena {
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/sha256.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/model_text.hpp"
 #include "generator/emission/parameter_table.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 
 namespace catena {
 

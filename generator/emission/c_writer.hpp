@@ -5,7 +5,7 @@
 // O(n) where the mass matrix has the structure for it.
 #pragma once
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/model_writer.hpp"
 
 namespace catena {

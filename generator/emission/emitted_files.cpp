@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/sha256.hpp"
 #include "generator/emission/any_links_writer.hpp"
 #include "generator/emission/c_writer.hpp"
 #include "generator/emission/support_text.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/model_writer.hpp"
 
 namespace catena {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string_view>
 
+#include "description/formula.hpp"
 #include "generator/derivation/chain.hpp"
-#include "generator/description/formula.hpp"
 #include "generator/emission/latex_polynomial.hpp"
 
 namespace catena {

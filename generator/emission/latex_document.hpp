@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 
 namespace catena {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/function_body.hpp"
 
 namespace catena {

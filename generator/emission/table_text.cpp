@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/sha256.hpp"
 #include "generator/emission/parameter_table.hpp"
 
 namespace catena {

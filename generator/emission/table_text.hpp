@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/parameter_table.hpp"
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <sstream>
 
+#include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "generator/certificate/certificate.hpp"
-#include "generator/description/input_error.hpp"
-#include "generator/description/whole_file.hpp"
 #include "generator/emission/any_links_writer.hpp"
 #include "generator/program/commands.hpp"
 #include "generator/program/model_options.hpp"

@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/input_error.hpp"
 #include "generator/checking/comparison.hpp"
 #include "generator/checking/evaluator.hpp"
 #include "generator/checking/parser.hpp"
 #include "generator/checking/report.hpp"
-#include "generator/description/input_error.hpp"
 #include "generator/program/commands.hpp"
 
 namespace catena {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "generator/description/input_error.hpp"
-#include "generator/description/whole_file.hpp"
+#include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "generator/emission/emitted_files.hpp"
 #include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "generator/description/input_error.hpp"
+#include "common/input_error.hpp"
+#include "common/manual.hpp"
 #include "generator/program/commands.hpp"
-#include "install/manual.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app("Derives the equations of motion of hanging chains", "catena-derive");

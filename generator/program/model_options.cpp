@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/program/model_options.hpp"
 
-#include "generator/description/input_error.hpp"
+#include "common/input_error.hpp"
+#include "common/sha256.hpp"
 
 namespace catena {
 

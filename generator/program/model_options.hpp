@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "generator/emission/polynomial_text.hpp"
 
 namespace catena {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "common/input_error.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
-#include "generator/description/input_error.hpp"
 #include "generator/program/commands.hpp"
 
 namespace catena {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/parallel.hpp"
 #include "identify/diagnosis/compare.hpp"
-#include "runtime/parallel.hpp"
 
 namespace catena {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/case.hpp"
+#include "identify/cases/case.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
 #include "identify/diagnosis/workshop.hpp"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
-#include "generator/description/effect.hpp"
-#include "identify/case.hpp"
-#include "identify/problem.hpp"
+#include "description/description.hpp"
+#include "description/effect.hpp"
+#include "identify/cases/case.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace catena {
 

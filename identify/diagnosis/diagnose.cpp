@@ -5,13 +5,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "generator/description/input_error.hpp"
-#include "generator/description/nearest_name.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
+#include "common/parallel.hpp"
 #include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/verdict.hpp"
-#include "runtime/parallel.hpp"
 
 namespace catena {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/case.hpp"
+#include "identify/cases/case.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
 #include "identify/diagnosis/rivals.hpp"
 #include "identify/diagnosis/search.hpp"

@@ -3,9 +3,9 @@
 
 #include <unistd.h>
 
-#include "generator/description/input_error.hpp"
-#include "generator/description/whole_file.hpp"
-#include "identify/process.hpp"
+#include "common/input_error.hpp"
+#include "common/whole_file.hpp"
+#include "identify/models/process.hpp"
 
 namespace catena {
 namespace {

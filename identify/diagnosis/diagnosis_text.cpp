@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "generator/description/formula.hpp"
-#include "identify/result_writer.hpp"
+#include "common/sha256.hpp"
+#include "description/formula.hpp"
+#include "identify/results/result_writer.hpp"
 
 namespace catena {
 namespace {

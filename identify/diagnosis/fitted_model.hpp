@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "identify/diagnosis/noise.hpp"
-#include "identify/fit.hpp"
-#include "identify/problem.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace catena {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/parallel.hpp"
 #include "identify/diagnosis/variant.hpp"
-#include "runtime/parallel.hpp"
 
 namespace catena {
 

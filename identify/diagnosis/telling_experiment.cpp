@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "identify/prediction.hpp"
+#include "identify/problem/prediction.hpp"
 #include "runtime/positions.hpp"
 #include "runtime/simulation.hpp"
 

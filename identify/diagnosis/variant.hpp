@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "identify/case.hpp"
+#include "identify/cases/case.hpp"
 #include "identify/diagnosis/candidate.hpp"
-#include "identify/problem.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace catena {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "generator/description/nearest_name.hpp"
+#include "common/nearest_name.hpp"
 #include "identify/diagnosis/final_model.hpp"
 
 namespace catena {

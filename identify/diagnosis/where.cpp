@@ -10,7 +10,7 @@
 #include <random>
 
 #include "identify/diagnosis/search.hpp"
-#include "identify/initial_shape.hpp"
+#include "identify/problem/initial_state.hpp"
 #include "runtime/positions.hpp"
 
 namespace catena {

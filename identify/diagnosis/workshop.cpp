@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/sha256.hpp"
+
 namespace catena {
 
 namespace fs = std::filesystem;

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/description.hpp"
+#include "description/description.hpp"
 #include "identify/diagnosis/candidate.hpp"
-#include "identify/fit.hpp"
-#include "identify/model_provider.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/models/model_provider.hpp"
 
 namespace catena {
 

@@ -5,8 +5,8 @@
 #include <csignal>
 #include <iostream>
 
-#include "generator/description/input_error.hpp"
-#include "generator/description/whole_file.hpp"
+#include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 namespace {

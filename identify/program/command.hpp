@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "identify/model_provider.hpp"
-#include "identify/problem.hpp"
+#include "identify/models/model_provider.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace catena {
 

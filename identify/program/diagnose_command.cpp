@@ -3,8 +3,8 @@
 
 #include <iostream>
 
-#include "identify/ceres/least_squares.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
+#include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
 
 namespace catena {

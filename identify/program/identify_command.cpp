@@ -5,17 +5,20 @@
 #include <iostream>
 #include <thread>
 
-#include "generator/description/description.hpp"
-#include "generator/description/input_error.hpp"
-#include "identify/case_words.hpp"
-#include "identify/ceres/least_squares.hpp"
-#include "identify/error.hpp"
-#include "identify/links_study.hpp"
-#include "identify/multi_start.hpp"
+#include "common/input_error.hpp"
+#include "common/sha256.hpp"
+#include "description/description.hpp"
+#include "identify/cases/case_words.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/fit/links_study.hpp"
+#include "identify/fit/multi_start.hpp"
+#include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
-#include "identify/result_writer.hpp"
+#include "identify/results/result_writer.hpp"
+#include "identify/uncertainty/bootstrap.hpp"
+#include "identify/uncertainty/profile.hpp"
 
 namespace catena {
 namespace {

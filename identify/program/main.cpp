@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 
-#include "generator/description/input_error.hpp"
-#include "identify/process.hpp"
+#include "common/input_error.hpp"
+#include "common/manual.hpp"
+#include "identify/models/process.hpp"
 #include "identify/program/command.hpp"
-#include "install/manual.hpp"
 
 namespace catena {
 namespace {

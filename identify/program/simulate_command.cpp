@@ -4,11 +4,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "generator/description/input_error.hpp"
-#include "identify/motion.hpp"
+#include "common/input_error.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/tables.hpp"
-#include "identify/result_writer.hpp"
+#include "identify/results/result_writer.hpp"
+#include "identify/results/simulated_motion.hpp"
 
 namespace catena {
 namespace {

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identify/error.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/uncertainty/profile.hpp"
 
 namespace catena {
 namespace {

@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "identify/fit.hpp"
-#include "identify/links_study.hpp"
-#include "identify/motion.hpp"
-#include "identify/uncertainty.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/fit/links_study.hpp"
+#include "identify/results/simulated_motion.hpp"
+#include "identify/uncertainty/profile.hpp"
+#include "identify/uncertainty/uncertainty.hpp"
 
 namespace catena {
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "generator/description/effect.hpp"
-#include "generator/description/effect_reader.hpp"
-#include "generator/description/formula.hpp"
-#include "generator/description/toml_reader.hpp"
+#include "common/toml_reader.hpp"
+#include "description/effect.hpp"
+#include "description/effect_reader.hpp"
+#include "description/formula.hpp"
 
 namespace catena::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/report/result_file.hpp"
+#include "identify/results/result_file.hpp"
 
 namespace catena::report {
 

@@ -9,6 +9,7 @@
 
 #include "identify/report/report_figures.hpp"
 #include "identify/report/ticks.hpp"
+#include "identify/uncertainty/profile.hpp"
 
 namespace catena::report {
 namespace {

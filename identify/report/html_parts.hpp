@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/report/result_file.hpp"
+#include "identify/results/result_file.hpp"
 
 /// The sections of the HTML report that are words and tables. Each is empty where there is nothing
 /// to say.

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "generator/description/input_error.hpp"
-#include "generator/description/whole_file.hpp"
+#include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "identify/report/figure.hpp"
 #include "identify/report/html.hpp"
 #include "identify/report/payload.hpp"

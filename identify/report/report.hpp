@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "identify/report/result_file.hpp"
+#include "identify/results/result_file.hpp"
 
 namespace catena::report {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "identify/report/figure.hpp"
-#include "identify/report/result_file.hpp"
+#include "identify/results/result_file.hpp"
 
 namespace catena::report {
 

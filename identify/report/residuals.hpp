@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "identify/report/result_file.hpp"
+#include "identify/results/result_file.hpp"
 
 namespace catena::report {
 

@@ -32,7 +32,7 @@ def of(trial, strengths, binaries):
     row["amplitudes"] = "+".join(amplitudes)
     with tempfile.TemporaryDirectory() as folder:
         made = subprocess.run(
-            [binaries / "test_programs" / "make_recording", "--output", folder, *strength.CABLE,
+            [binaries / "bin" / "make_recording", "--output", folder, *strength.CABLE,
              "--links", str(trial.links), "--case-links", "12", "--noise", str(trial.noise),
              "--rate", str(trial.rate), "--seed", str(trial.seed), "--lost", str(trial.lost),
              "--pixel", str(trial.pixel), *effects], capture_output=True, check=False)

@@ -13,7 +13,7 @@ fixed order in which every beginning is balanced; of each kind (quiet, single, d
 library) a beginning was run (`--kind`). Every line of `docs/power/trials.csv` is one: a cable of 1.2 m
 with EI 0.1 N m², 24 to 60 links (the case has 12), filmed for 4 s at 30, 60 or 120 Hz with 12 markers
 and 0.5, 1 or 3 mm of noise, now and then with lost markers or whole pixels; the last 30 % held out.
-What is hidden is coded apart from the models (`tests/truth`) and integrated by another method. An
+What is hidden is coded apart from the models (`truth`) and integrated by another method. An
 effect's strength is what a refitted baseline leaves of it, in units of the noise
 (`docs/power/strengths.csv`). Rates are the observed ones with their 95 % intervals (Wilson). The limits
 of the diagnosis were set while looking at other seeds of the same kinds of recordings. An effect whose

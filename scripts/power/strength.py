@@ -93,7 +93,7 @@ class Strengths:
     def residual(self, name, amplitude):
         with tempfile.TemporaryDirectory() as folder:
             made = subprocess.run(
-                [self.binaries / "test_programs" / "make_recording", "--output", folder, *CABLE,
+                [self.binaries / "bin" / "make_recording", "--output", folder, *CABLE,
                  "--links", str(LINKS), "--case-links", str(LINKS), "--noise", "0", "--rate", "30",
                  *arguments(name, amplitude)], capture_output=True, check=False)
             if made.returncode != 0:

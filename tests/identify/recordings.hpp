@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/problem.hpp"
+#include "identify/problem/problem.hpp"
 
 namespace catena::testing {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "runtime/any_links.hpp"
-#include "runtime/initial_shape.hpp"
+#include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/reference_model.hpp"

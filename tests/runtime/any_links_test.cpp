@@ -11,11 +11,11 @@
 #include <string>
 #include <thread>
 
+#include "common/input_error.hpp"
 #include "generated/any_links.hpp"
-#include "generator/description/input_error.hpp"
 #include "runtime/adjoint.hpp"
 #include "runtime/eight_sets.hpp"
-#include "runtime/initial_shape.hpp"
+#include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "tests/runtime/cable_case.hpp"
 

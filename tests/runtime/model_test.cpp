@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "generator/description/input_error.hpp"
+#include "common/input_error.hpp"
 #include "tests/runtime/reference_model.hpp"
 
 namespace {

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "generated/catena_model.h"
-#include "runtime/reference/chain.hpp"
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
+#include "reference/chain.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
 #include "tests/runtime/dual_number.hpp"
 
-/// A model table of the plain chain, built from the closed forms of runtime/reference and nothing
+/// A model table of the plain chain, built from the closed forms of reference and nothing
 /// emitted: the twin of the emitted tables, and a stand-in where none is at hand. Dense, slow,
 /// exact; tangents by dual numbers.
 namespace catena::testing {

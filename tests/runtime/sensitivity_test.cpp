@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "runtime/initial_shape.hpp"
+#include "runtime/rest_states.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/driven_model.hpp"
 

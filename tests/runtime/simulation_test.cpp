@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "runtime/initial_shape.hpp"
+#include "runtime/rest_states.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/driven_model.hpp"
 #include "tests/runtime/reference_model.hpp"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "generator/description/input_error.hpp"
+#include "common/input_error.hpp"
 #include "tests/runtime/driven_model.hpp"
 
 namespace {

@@ -8,13 +8,13 @@
 #include <limits>
 #include <random>
 
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/four_links.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
-#include "runtime/reference/three_links.hpp"
-#include "runtime/reference/two_links.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/four_links.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
+#include "reference/three_links.hpp"
+#include "reference/two_links.hpp"
 #include "tests/runtime/dual_number.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <doctest/doctest.h>
 
 #include "generator/checking/normal_form.hpp"
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
 
 using namespace catena;
 using namespace catena::checking;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/description/input_error.hpp"
+#include "common/input_error.hpp"
 #include "tests/generator/checking/text.hpp"
 
 using namespace catena;

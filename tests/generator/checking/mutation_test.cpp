@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "generator/checking/lexer.hpp"
-#include "runtime/reference/coriolis.hpp"
-#include "runtime/reference/gravity.hpp"
-#include "runtime/reference/joint_matrix.hpp"
-#include "runtime/reference/mass_matrix.hpp"
+#include "reference/coriolis.hpp"
+#include "reference/gravity.hpp"
+#include "reference/joint_matrix.hpp"
+#include "reference/mass_matrix.hpp"
 #include "tests/generator/checking/text.hpp"
 
 using namespace catena;

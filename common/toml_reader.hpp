@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace catena {
+
+/// Reads one table of a TOML file and says exactly what is wrong with it. Every failure is an
+/// InputError "file:line: key: value; rule and what to do".
+///
+///     TomlTable file = TomlTable::read(path, "case");   // checks format = 1 and kind = "case"
+///     std::string title = file.text("title");           // required: an error if it is not there
+///     double length = file.table("cable").number("length");
+///     file.finish();                                    // unknown keys anywhere are errors
+///
+/// A key is known once it has been asked for, under whatever name, whether it was there or not.
+/// Copies look at the same document.
+class TomlTable {
+ public:
+  /// Parses a file. Fails on a missing file, on bad TOML, on another `format` or `kind`.
+  static TomlTable read(const std::filesystem::path& path, std::string_view kind);
+  /// The same for a text; `name` stands for the file in messages.
+  static TomlTable parse(std::string_view text, std::string_view name, std::string_view kind);
+
+  bool has(std::string_view key) const;
+
+  /// The value of a key. The first of each pair fails when the key is missing.
+  std::string text(std::string_view key) const;
+  std::optional<std::string> optional_text(std::string_view key) const;
+  double number(std::string_view key) const;  ///< whole numbers too; inf allowed, nan never
+  std::optional<double> optional_number(std::string_view key) const;
+  long integer(std::string_view key) const;
+  std::optional<long> optional_integer(std::string_view key) const;
+  std::optional<bool> optional_flag(std::string_view key) const;
+  bool is_text(std::string_view key) const;  ///< false also if the key is missing
+  bool is_table(std::string_view key) const;
+
+  /// Lists; empty if the key is missing.
+  std::vector<double> numbers(std::string_view key) const;
+  std::vector<long> integers(std::string_view key) const;
+  std::vector<std::string> texts(std::string_view key) const;
+
+  TomlTable table(std::string_view key) const;
+  std::optional<TomlTable> optional_table(std::string_view key) const;
+  /// [[key]]: in the order of the file; empty if missing.
+  std::vector<TomlTable> tables(std::string_view key) const;
+  /// [key.NAME]: name and table, in the order of the file; empty if missing.
+  std::vector<std::pair<std::string, TomlTable>> named_tables(std::string_view key) const;
+
+  /// One of the words, as its index; the first if the key is missing and `required` is false.
+  std::size_t choice(std::string_view key, const std::vector<std::string>& words,
+                     bool required = true) const;
+
+  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do. An
+  /// empty key is the table itself.
+  [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
+  /// The same at the table itself.
+  [[noreturn]] void fail(const std::string& problem) const;
+
+  /// Fails on the first key, in this table or below, that was never asked for, naming the nearest
+  /// known one. Call it on the outermost table once all is read.
+  void finish() const;
+
+  const std::string& file() const;
+  int line() const;                              ///< of the table's header
+  int line(std::string_view key) const;          ///< of the key's value; of the table if missing
+  std::string path(std::string_view key) const;  ///< "cable.length"
+
+ private:
+  struct Document;
+  TomlTable(std::shared_ptr<Document> document, const void* table, std::string path);
+  [[noreturn]] void fail_missing(std::string_view key, std::string_view what) const;
+  [[noreturn]] void fail_type(std::string_view key, std::string_view wanted) const;
+
+  std::shared_ptr<Document> document_;
+  const void* table_;  // const toml::table*, kept out of this header for the compile time
+  std::string path_;
+};
+
+}  // namespace catena

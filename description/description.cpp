@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "description/description.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
+#include "common/toml_reader.hpp"
+#include "common/whole_file.hpp"
+
+namespace catena {
+namespace {
+
+const std::string kBuiltInPrefix = "built in: ";
+
+Effect named_effect(const TomlTable& file, const std::string& name) {
+  if (name.ends_with(".toml")) {
+    const auto path = std::filesystem::path(file.file()).parent_path() / name;
+    if (!std::filesystem::exists(path)) {
+      file.fail("effects", "there is no file \"" + path.string() +
+                               "\"; effects are given by path relative to this file, or by the id "
+                               "of a built-in one");
+    }
+    return read_effect(path);
+  }
+  const auto ids = built_in_effect_ids();
+  if (std::find(ids.begin(), ids.end(), name) == ids.end()) {
+    file.fail("effects", "\"" + name + "\" is not a built-in effect" + suggestion(name, ids) +
+                             " A file is given by its path, ending in .toml");
+  }
+  return built_in_effect(name);
+}
+
+bool is_identifier(const std::string& text) {
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+}  // namespace
+
+Description plain_chain() {
+  Description description;
+  description.id = "chain";
+  description.source_file = kBuiltInPrefix + "chain";
+  return description;
+}
+
+Description read_description(const std::filesystem::path& path) {
+  const TomlTable file = TomlTable::read(path, "model");
+  Description description;
+  description.source_file = path.string();
+  description.id = file.text("id");
+  if (!is_identifier(description.id)) {
+    file.fail("id", "\"" + description.id +
+                        "\" is not a name; a name is a letter, then letters, digits, _");
+  }
+  for (const long count : file.integers("links")) {
+    if (count < 1 || count > 100000) {
+      file.fail("links", std::to_string(count) + " is not a link count; give whole numbers from 1");
+    }
+    description.links.push_back(static_cast<int>(count));
+  }
+  const auto names = file.texts("effects");
+  file.optional_text("title");
+  file.optional_text("description");
+  file.finish();
+  for (const std::string& name : names) description.effects.push_back(named_effect(file, name));
+  if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
+    file.fail("effects", conflict);
+  }
+  return description;
+}
+
+std::string conflict_between(const std::vector<Effect>& effects) {
+  std::set<std::string> ids, names;
+  std::string conflict;
+  for (const Effect& effect : effects) {
+    if (!ids.insert(effect.id).second) {
+      return "\"" + effect.id + "\" stands there twice; name each effect once";
+    }
+    // Signals are columns of data by their own names, coordinates and states are told apart alike.
+    const auto check = [&](const std::string& name) {
+      if (!names.insert(name).second) {
+        conflict = "two effects both add \"" + name + "\"; rename one in its file";
+      }
+    };
+    for (const Coordinate& coordinate : effect.coordinates) check(coordinate.name);
+    for (const ExtraState& state : effect.states) check(state.name);
+    for (const SignalChannel& signal : effect.signals) check(signal.name);
+  }
+  return conflict;
+}
+
+void write_description(const Description& description, const std::filesystem::path& path) {
+  std::string text = "format = 1\nkind = \"model\"\nid = \"" + description.id + "\"\n";
+  if (!description.links.empty()) {
+    text += "links = [";
+    for (std::size_t i = 0; i < description.links.size(); ++i) {
+      text += (i > 0 ? ", " : "") + std::to_string(description.links[i]);
+    }
+    text += "]\n";
+  }
+  text += "effects = [";
+  for (std::size_t i = 0; i < description.effects.size(); ++i) {
+    const Effect& effect = description.effects[i];
+    std::string name = effect.id;
+    if (!effect.source_file.starts_with(kBuiltInPrefix)) {
+      const auto folder = std::filesystem::absolute(path).parent_path();
+      name =
+          std::filesystem::relative(std::filesystem::absolute(effect.source_file), folder).string();
+    }
+    text += (i > 0 ? ", \"" : "\"") + name + "\"";
+  }
+  text += "]\n";
+  write_whole_file(path, text);
+}
+
+}  // namespace catena

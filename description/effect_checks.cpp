@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "description/effect_checks.hpp"
+
+#include <set>
+
+#include "common/input_error.hpp"
+#include "description/expression_syntax.hpp"
+
+namespace catena {
+namespace {
+
+class Checks {
+ public:
+  explicit Checks(const Effect& effect) : effect_(effect) {}
+
+  void check_physics() const {
+    bool changes_kinematics = false;
+    each_kinematic([&](const Expression&) { changes_kinematics = true; });
+    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.side.given() &&
+        !effect_.support.down.given() && !changes_kinematics && !effect_.sensor.given()) {
+      fail(
+          "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
+          "support, kinematics or sensor");
+    }
+    if (!effect_.coordinates.empty() && effect_.scalars.empty() && effect_.forces.empty()) {
+      fail("a new coordinate needs a potential, dissipation or force that governs it");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(effect_.source_file + ":1: " + problem);
+  }
+
+  // Calls act(expression) for each that is given.
+  template <class Action>
+  void each_kinematic(const Action& act) const {
+    const Kinematics& k = effect_.kinematics;
+    for (const Expression* expression :
+         {&k.centre_offset, &k.load_offset, &k.load_inertia, &k.load_mass, &k.rest_angle,
+          &k.pivot_rest_angle, &k.extension, &k.gravity_tilt}) {
+      if (expression->given()) act(*expression);
+    }
+  }
+
+  // The names given here and those made from them by definitions.
+  std::set<std::string> with_definitions(std::set<std::string> names) const {
+    for (const Definition& definition : effect_.definitions) {
+      for (const std::string& used : names_in(definition.value)) {
+        if (names.contains(used)) names.insert(definition.name);
+      }
+    }
+    return names;
+  }
+
+  static void refuse(const Expression& expression, const std::set<std::string>& names,
+                     const std::string& why) {
+    for (const std::string& used : names_in(expression)) {
+      if (names.contains(used)) fail_at(expression, "\"" + used + "\" " + why);
+    }
+  }
+
+  // A potential is a function of the shape alone, a kinetic energy one of shape and rates: what
+  // else changed them would do work that nobody counts.
+  void check_energies() const {
+    std::set<std::string> times = {"time"}, rates = {"rate", "joint_rate"}, states;
+    for (const SignalChannel& signal : effect_.signals) {
+      times.insert({signal.name, signal.name + "_rate", signal.name + "_acceleration"});
+    }
+    for (const char* direction : {"side", "down", "normal", "tangential"}) {
+      rates.insert(std::string("velocity_") + direction);
+    }
+    for (const Coordinate& coordinate : effect_.coordinates)
+      rates.insert(coordinate.name + "_rate");
+    for (const ExtraState& state : effect_.states) states.insert(state.name);
+    times = with_definitions(times), rates = with_definitions(rates);
+    states = with_definitions(states);
+    const std::string instead = "; give a force or a torque instead";
+    for (const ScalarTerm& term : effect_.scalars) {
+      if (term.kind != ScalarKind::kPotential && term.kind != ScalarKind::kKinetic) continue;
+      refuse(term.value, times, "cannot stand in an energy: it would change with time" + instead);
+      refuse(term.value, states, "cannot stand in an energy: states are not coordinates" + instead);
+      if (term.kind == ScalarKind::kPotential) {
+        refuse(term.value, rates,
+               "cannot stand in a potential: it depends on the motion" + instead);
+      }
+    }
+    each_kinematic([&](const Expression& expression) {
+      refuse(expression, times, "cannot stand here: the shape of the chain would change with time");
+    });
+  }
+
+  void check_all_used() const {
+    std::set<std::string> used;
+    const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
+    for (const Definition& definition : effect_.definitions) use(definition.value);
+    for (const ForceTerm& force : effect_.forces) {
+      use(force.side), use(force.down), use(force.normal), use(force.tangential);
+    }
+    for (const ScalarTerm& term : effect_.scalars) use(term.value);
+    for (const ExtraState& state : effect_.states) use(state.rate);
+    for (const Expression* expression :
+         {&effect_.support.side, &effect_.support.down, &effect_.sensor.side, &effect_.sensor.down,
+          &effect_.sensor.angle, &effect_.sensor.clock}) {
+      use(*expression);
+    }
+    each_kinematic(use);
+    const auto check = [&](const std::string& name) {
+      if (!used.contains(name)) {
+        fail("\"" + name + "\" stands in no expression; use it or take it away");
+      }
+    };
+    for (const EffectParameter& parameter : effect_.parameters) check(parameter.name);
+    for (const Constant& constant : effect_.constants) check(constant.name);
+    for (const SignalChannel& signal : effect_.signals) check(signal.name);
+    for (const Coordinate& coordinate : effect_.coordinates) check(coordinate.name);
+    for (const ExtraState& state : effect_.states) check(state.name);
+    for (const Definition& definition : effect_.definitions) check(definition.name);
+  }
+
+ private:
+  const Effect& effect_;
+};
+
+}  // namespace
+
+void check_consistency(const Effect& effect) {
+  const Checks checks(effect);
+  checks.check_physics();
+  checks.check_energies();
+  checks.check_all_used();
+}
+
+}  // namespace catena

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "description/effect_reader.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "common/nearest_name.hpp"
+#include "common/number_text.hpp"
+#include "common/toml_reader.hpp"
+#include "description/effect.hpp"
+#include "description/effect_checks.hpp"
+#include "description/unit.hpp"
+
+namespace catena {
+namespace {
+
+// Names with a meaning in expressions: an effect's own names must differ from them.
+const std::set<std::string, std::less<>>& reserved_names() {
+  static const std::set<std::string, std::less<>> names = {"time",
+                                                           "gravity",
+                                                           "load_mass",
+                                                           "side",
+                                                           "down",
+                                                           "depth",
+                                                           "velocity_side",
+                                                           "velocity_down",
+                                                           "velocity_normal",
+                                                           "velocity_tangential",
+                                                           "angle",
+                                                           "rate",
+                                                           "length",
+                                                           "mass",
+                                                           "inertia",
+                                                           "joint_angle",
+                                                           "joint_rate",
+                                                           "stiffness",
+                                                           "damping",
+                                                           "arc",
+                                                           "spacing",
+                                                           "pi",
+                                                           "sin",
+                                                           "cos",
+                                                           "tan",
+                                                           "exp",
+                                                           "log",
+                                                           "sqrt",
+                                                           "tanh",
+                                                           "sinh",
+                                                           "cosh",
+                                                           "atan",
+                                                           "asinh"};
+  return names;
+}
+
+// One effect file while it is read: the names it has given so far.
+class EffectReader {
+ public:
+  explicit EffectReader(const TomlTable& file) : file_(file) {}
+
+  Effect read() {
+    effect_.source_file = file_.file();
+    effect_.id = file_.text("id");
+    check_identifier(file_, "id", effect_.id);
+    effect_.title = file_.text("title");
+    effect_.description = file_.text("description");
+    effect_.form_of = file_.optional_text("form_of").value_or("");
+    if (!effect_.form_of.empty()) check_identifier(file_, "form_of", effect_.form_of);
+    read_parameters();
+    read_constants();
+    read_signals();
+    read_coordinates();
+    read_states();
+    read_definitions();
+    read_forces();
+    read_scalars();
+    read_whole_chain_terms();
+    file_.finish();
+    check_consistency(effect_);
+    return std::move(effect_);
+  }
+
+ private:
+  void check_identifier(const TomlTable& table, std::string_view key, const std::string& name) {
+    const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    const auto inner = [&](char c) {
+      return letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
+    };
+    if (name.empty() || !letter(name[0]) || !std::all_of(name.begin(), name.end(), inner)) {
+      table.fail(key,
+                 "\"" + name + "\" is not a name; a name is a letter, then letters, digits, _");
+    }
+  }
+
+  // A new name for expressions, given at `key` of `table`.
+  void add_name(const TomlTable& table, std::string_view key, const std::string& name) {
+    check_identifier(table, key, name);
+    const std::size_t underscore = name.rfind('_');
+    if (underscore != std::string::npos && underscore + 1 < name.size() &&
+        std::all_of(name.begin() + static_cast<long>(underscore) + 1, name.end(),
+                    [](unsigned char c) { return std::isdigit(c); })) {
+      table.fail(key, "\"" + name + "\" ends like the name of one joint or link; choose another");
+    }
+    if (reserved_names().contains(name)) {
+      table.fail(key, "\"" + name + "\" has a meaning in expressions already; choose another name");
+    }
+    if (!names_.insert(name).second) {
+      table.fail(key, "\"" + name + "\" is given twice in this effect; choose another name");
+    }
+  }
+
+  static std::string unit(const TomlTable& table) {
+    const std::string text = table.text("unit");
+    try {
+      Unit::parse(text);
+    } catch (const std::invalid_argument& error) {
+      table.fail("unit", error.what());
+    }
+    return text;
+  }
+
+  static Expression expression(const TomlTable& table, std::string_view key) {
+    Expression result;
+    if (!table.has(key)) return result;
+    if (table.is_text(key)) {
+      result.text = table.text(key);
+    } else {
+      result.text = shortest_number(table.number(key));
+    }
+    if (std::all_of(result.text.begin(), result.text.end(),
+                    [](unsigned char c) { return std::isspace(c); })) {
+      table.fail(key, "is empty; give an expression or leave the key out");
+    }
+    result.file = table.file();
+    result.line = table.line(key);
+    result.key = table.path(key);
+    return result;
+  }
+
+  static Expression required(const TomlTable& table, std::string_view key) {
+    if (!table.has(key)) table.text(key);  // fails, saying what is missing
+    return expression(table, key);
+  }
+
+  // The place named by `at`; those allowed are given in the order of their words.
+  static Place place(const TomlTable& table, const std::vector<Place>& allowed) {
+    static const std::vector<std::string> words = {"joint", "pivot", "link", "link_centre", "load"};
+    std::vector<std::string> here;
+    for (const Place p : allowed) here.push_back(words[static_cast<std::size_t>(p)]);
+    return allowed[table.choice("at", here)];
+  }
+
+  static bool per_length(const TomlTable& table, Place at) {
+    if (!table.has("per")) return false;
+    table.choice("per", {"length"});
+    if (at != Place::kLinkCentre && at != Place::kLink) {
+      table.fail("per", "\"length\" goes with at = \"link_centre\" or \"link\" only; leave it out");
+    }
+    return true;
+  }
+
+  void read_parameters() {
+    for (const auto& [name, table] : file_.named_tables("parameters")) {
+      EffectParameter parameter;
+      parameter.name = name;
+      add_name(table, "", name);
+      parameter.unit = unit(table);
+      parameter.description = table.text("description");
+      parameter.lower = table.optional_number("lower").value_or(parameter.lower);
+      parameter.upper = table.optional_number("upper").value_or(parameter.upper);
+      parameter.neutral = table.optional_number("neutral").value_or(parameter.neutral);
+      if (!std::isinf(parameter.neutral)) parameter.default_value = parameter.neutral;
+      parameter.default_value = table.optional_number("default").value_or(parameter.default_value);
+      parameter.scope =
+          static_cast<Scope>(table.choice("scope", {"model", "joint", "link"}, false));
+      check_bounds(table, parameter);
+      effect_.parameters.push_back(parameter);
+    }
+  }
+
+  static void check_bounds(const TomlTable& table, const EffectParameter& parameter) {
+    if (!(parameter.lower < parameter.upper)) {
+      table.fail("upper", shortest_number(parameter.upper) + " is not above the lower bound, " +
+                              shortest_number(parameter.lower) + "; give lower < upper");
+    }
+    const auto check = [&](const char* key, double value) {
+      if (value < parameter.lower || value > parameter.upper) {
+        table.fail(key, shortest_number(value) + " lies outside the bounds, " +
+                            shortest_number(parameter.lower) + " to " +
+                            shortest_number(parameter.upper) + "; change it or them");
+      }
+    };
+    check("neutral", parameter.neutral);
+    check("default", parameter.default_value);
+    if (std::isinf(parameter.default_value)) table.fail("default", "is infinite; give a number");
+  }
+
+  void read_constants() {
+    for (const auto& [name, table] : file_.named_tables("constants")) {
+      add_name(table, "", name);
+      Constant constant;
+      constant.name = name;
+      constant.value = table.number("value");
+      if (!std::isfinite(constant.value)) table.fail("value", "is not finite; give a number");
+      constant.text = shortest_number(constant.value);
+      constant.unit = unit(table);
+      table.optional_text("description");
+      effect_.constants.push_back(constant);
+    }
+  }
+
+  void read_signals() {
+    for (const TomlTable& table : file_.tables("signal")) {
+      SignalChannel signal;
+      signal.name = table.text("name");
+      add_name(table, "name", signal.name);
+      add_name(table, "name", signal.name + "_rate");
+      add_name(table, "name", signal.name + "_acceleration");
+      signal.unit = unit(table);
+      signal.description = table.optional_text("description").value_or("");
+      effect_.signals.push_back(signal);
+    }
+  }
+
+  void read_coordinates() {
+    for (const TomlTable& table : file_.tables("coordinate")) {
+      Coordinate coordinate;
+      coordinate.name = table.text("name");
+      add_name(table, "name", coordinate.name);
+      add_name(table, "name", coordinate.name + "_rate");
+      coordinate.unit = unit(table);
+      coordinate.description = table.optional_text("description").value_or("");
+      table.choice("per", {"link"});
+      effect_.coordinates.push_back(coordinate);
+    }
+  }
+
+  void read_states() {
+    for (const TomlTable& table : file_.tables("state")) {
+      ExtraState state;
+      state.name = table.text("name");
+      add_name(table, "name", state.name);
+      state.unit = unit(table);
+      state.description = table.optional_text("description").value_or("");
+      state.at = table.choice("per", {"joint", "pivot"}) == 0 ? Place::kJoint : Place::kPivot;
+      state.rate = required(table, "rate");
+      effect_.states.push_back(state);
+    }
+  }
+
+  void read_definitions() {
+    for (const TomlTable& table : file_.tables("definition")) {
+      Definition definition;
+      definition.name = table.text("name");
+      add_name(table, "name", definition.name);
+      if (table.has("at")) {
+        definition.at = place(
+            table, {Place::kJoint, Place::kPivot, Place::kLink, Place::kLinkCentre, Place::kLoad});
+      }
+      definition.value = required(table, "value");
+      effect_.definitions.push_back(definition);
+    }
+  }
+
+  void read_forces() {
+    for (const TomlTable& table : file_.tables("force")) {
+      ForceTerm force;
+      force.at = place(table, {Place::kJoint, Place::kLinkCentre, Place::kLoad});
+      force.per_length = per_length(table, force.at);
+      force.side = expression(table, "side");
+      force.down = expression(table, "down");
+      force.normal = expression(table, "normal");
+      force.tangential = expression(table, "tangential");
+      const bool cartesian = force.side.given() || force.down.given();
+      const bool along_link = force.normal.given() || force.tangential.given();
+      if (cartesian == along_link) {
+        table.fail("give the force as side and down, or as normal and tangential");
+      }
+      if (along_link && force.at == Place::kJoint) {
+        table.fail("a joint has no normal of its own; give side and down, or at = \"link_centre\"");
+      }
+      effect_.forces.push_back(force);
+    }
+  }
+
+  void read_scalars() {
+    static const std::vector<Place> bodies = {Place::kJoint, Place::kPivot, Place::kLink,
+                                              Place::kLinkCentre, Place::kLoad};
+    static const std::vector<Place> turning = {Place::kJoint, Place::kPivot, Place::kLink,
+                                               Place::kLoad};
+    const auto read = [&](const char* key, ScalarKind kind) {
+      for (const TomlTable& table : file_.tables(key)) {
+        ScalarTerm term;
+        term.kind = kind;
+        term.at = place(table, kind == ScalarKind::kTorque ? turning : bodies);
+        term.per_length = per_length(table, term.at);
+        term.value = required(table, "value");
+        effect_.scalars.push_back(term);
+      }
+    };
+    read("torque", ScalarKind::kTorque);
+    read("potential", ScalarKind::kPotential);
+    read("dissipation", ScalarKind::kDissipation);
+    read("kinetic", ScalarKind::kKinetic);
+  }
+
+  void read_whole_chain_terms() {
+    if (const auto table = file_.optional_table("support")) {
+      effect_.support = {expression(*table, "side"), expression(*table, "down")};
+      if (!effect_.support.side.given() && !effect_.support.down.given()) {
+        table->fail("has neither side nor down; give one or leave the table out");
+      }
+    }
+    if (const auto table = file_.optional_table("kinematics")) {
+      Kinematics& kinematics = effect_.kinematics;
+      kinematics.centre_offset = expression(*table, "centre_offset");
+      kinematics.load_offset = expression(*table, "load_offset");
+      kinematics.load_inertia = expression(*table, "load_inertia");
+      kinematics.load_mass = expression(*table, "load_mass");
+      kinematics.rest_angle = expression(*table, "rest_angle");
+      kinematics.pivot_rest_angle = expression(*table, "pivot_rest_angle");
+      kinematics.extension = expression(*table, "extension");
+      kinematics.gravity_tilt = expression(*table, "gravity_tilt");
+    }
+    if (const auto table = file_.optional_table("sensor")) {
+      effect_.sensor = {expression(*table, "side"), expression(*table, "down"),
+                        expression(*table, "angle"), expression(*table, "clock")};
+    }
+  }
+
+  TomlTable file_;
+  Effect effect_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Effect read_effect(const TomlTable& file) { return EffectReader(file).read(); }
+
+Effect read_effect(const std::filesystem::path& path) {
+  return read_effect(TomlTable::read(path, "effect"));
+}
+
+}  // namespace catena

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/toml_reader.hpp"
+#include "description/effect.hpp"
+
+namespace catena {
+
+/// read_effect for a file that is parsed already.
+Effect read_effect(const TomlTable& file);
+
+}  // namespace catena

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The grammar of expressions in effect files, whole:
+//
+//     sum      = product { ("+" | "-") product }
+//     product  = factor { ("*" | "/") factor }
+//     factor   = ("-" | "+") factor | power
+//     power    = primary [ "^" factor ]            right-associative, before the sign: -x^2 =
+//     -(x^2) primary  = number | name | function "(" sum ")" | "(" sum ")" number   = 12, 0.5, 1e-6
+//     function = sin cos tan exp log sqrt tanh sinh cosh atan asinh
+//
+// Here text becomes a tree; values and units are given to it in
+// generator/derivation/effect_expression.hpp, its looks in formula.hpp.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "description/effect.hpp"
+
+namespace catena {
+
+struct SyntaxNode {
+  enum Kind { kNumber, kName, kCall, kNegate, kAdd, kSubtract, kMultiply, kDivide, kPower };
+  Kind kind = kNumber;
+  std::string text;  ///< as written, parentheses around it included
+  std::string name;  ///< of the number (its digits), the symbol or the function
+  std::vector<SyntaxNode> operands;
+};
+
+/// Throws InputError "file:line: key: in "text": problem".
+SyntaxNode parse_syntax(const Expression& expression);
+
+/// The symbols that stand in an expression, functions aside; empty if it is not given.
+std::set<std::string> names_in(const Expression& expression);
+
+/// The functions of the grammar.
+const std::vector<std::string>& function_names();
+
+/// Throws InputError "file:line: key: in "text": problem".
+[[noreturn]] void fail_at(const Expression& expression, const std::string& problem);
+
+}  // namespace catena

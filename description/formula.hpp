@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The physics of an effect as formulas for eyes: LaTeX (math mode, amsmath) and MathML.
+//
+// v_n, v_t, v_s, v_d: velocity along normal, tangent, side, down; r_s, r_d, r_g: position along
+// side, down, gravity; theta: angle of the link; phi: angle of the joint, from its rest; l, m, I:
+// length, mass, inertia of the link; k, c: stiffness, damping of the joint; s, Delta: arc length
+// and spacing at the joint; m_c: load.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "description/effect.hpp"
+
+namespace catena {
+
+struct Formula {
+  std::string what;    ///< "Dissipation per length, at the middle of every link"
+  std::string latex;   ///< without delimiters
+  std::string mathml;  ///< a whole <math> element, inline
+};
+
+/// All that the effect declares, in reading order: definitions first. Throws InputError where an
+/// expression does not follow the grammar.
+std::vector<Formula> formulas(const Effect& effect);
+
+}  // namespace catena

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "common/input_error.hpp"
+#include "common/number_text.hpp"
+#include "common/toml_reader.hpp"
+#include "identify/cases/case.hpp"
+#include "identify/cases/case_words.hpp"
+
+namespace catena {
+namespace {
+
+constexpr int kMostLinks = 100'000;  // beyond that, nothing here fits into memory
+
+double positive(const TomlTable& table, std::string_view key, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    table.fail(key, shortest_number(value) + "; must be positive and finite");
+  return value;
+}
+
+double optional_positive(const TomlTable& table, std::string_view key, double absent) {
+  const auto value = table.optional_number(key);
+  return value ? positive(table, key, *value) : absent;
+}
+
+double not_negative(const TomlTable& table, std::string_view key, double absent) {
+  const double value = table.optional_number(key).value_or(absent);
+  if (!(value >= 0) || !std::isfinite(value))
+    table.fail(key, shortest_number(value) + "; must not be negative, and finite");
+  return value;
+}
+
+int count(const TomlTable& table, std::string_view key, long absent, long least) {
+  const long value = table.optional_integer(key).value_or(absent);
+  if (value < least || value > 1'000'000'000)
+    table.fail(key, std::to_string(value) + "; must be a whole number of at least " +
+                        std::to_string(least));
+  return static_cast<int>(value);
+}
+
+/// A list with one number per link, or none.
+std::vector<double> per_link(const TomlTable& table, std::string_view key, int links,
+                             bool zero_allowed) {
+  std::vector<double> values = table.numbers(key);
+  if (values.empty()) return values;
+  if (values.size() != static_cast<std::size_t>(links))
+    table.fail(key, std::to_string(values.size()) + " numbers; must be one per link, " +
+                        std::to_string(links));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]) || values[i] < 0 || (values[i] == 0 && !zero_allowed))
+      table.fail(key, "number " + std::to_string(i + 1) + " is " + shortest_number(values[i]) +
+                          (zero_allowed ? "; must not be negative" : "; must be positive"));
+  return values;
+}
+
+CableGeometry read_cable(const TomlTable& table, int links) {
+  CableGeometry cable;
+  cable.length = optional_positive(table, "length", kNotGiven);
+  cable.density = optional_positive(table, "density", kNotGiven);
+  cable.link_lengths = per_link(table, "link_lengths", links, false);
+  cable.link_masses = per_link(table, "link_masses", links, true);
+  cable.link_inertias = per_link(table, "link_inertias", links, true);
+  cable.load_mass = not_negative(table, "load_mass", 0);
+  cable.gravity = not_negative(table, "gravity", cable.gravity);
+  if (std::isnan(cable.length) == cable.link_lengths.empty())
+    table.fail("length", "give either length or link_lengths");
+  if (std::isnan(cable.density) == cable.link_masses.empty())
+    table.fail("density", "give either density or link_masses");
+  return cable;
+}
+
+ParameterSpec read_parameter(const TomlTable& table) {
+  ParameterSpec parameter;
+  parameter.where = table.file() + ":" + std::to_string(table.line());
+  parameter.name = table.text("name");
+  if (parameter.name.empty()) table.fail("name", "empty; a name is needed as label in the results");
+  parameter.sets = table.text("sets");
+  parameter.unit = table.optional_text("unit").value_or("");
+  parameter.value = table.number("value");
+  parameter.lower = table.optional_number("lower").value_or(parameter.lower);
+  parameter.upper = table.optional_number("upper").value_or(parameter.upper);
+  parameter.factor = table.optional_number("factor").value_or(1);
+  parameter.free = table.optional_flag("free").value_or(false);
+  parameter.per_experiment = table.optional_flag("per_experiment").value_or(false);
+  if (!std::isfinite(parameter.factor) || parameter.factor == 0)
+    table.fail("factor", shortest_number(parameter.factor) + "; must be finite and not zero");
+  if (!std::isfinite(parameter.value))
+    table.fail("value", shortest_number(parameter.value) + "; must be finite");
+  if (parameter.lower > parameter.upper)
+    table.fail("lower", shortest_number(parameter.lower) +
+                            "; must not exceed upper = " + shortest_number(parameter.upper));
+  if (parameter.free && parameter.lower == parameter.upper)
+    table.fail("lower", shortest_number(parameter.lower) +
+                            "; a free parameter needs room: lower must be below upper");
+  if (parameter.value < parameter.lower || parameter.value > parameter.upper)
+    table.fail("value", shortest_number(parameter.value) +
+                            "; must lie within lower = " + shortest_number(parameter.lower) +
+                            " and upper = " + shortest_number(parameter.upper));
+  const bool strictly_positive = parameter.lower > 0;
+  parameter.scale = strictly_positive ? Scale::kLogarithmic : Scale::kLinear;
+  if (table.has("scale")) parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
+  if (parameter.scale == Scale::kLogarithmic && parameter.free && !strictly_positive)
+    table.fail("lower", shortest_number(parameter.lower) +
+                            "; a logarithmic scale needs a positive lower bound");
+  return parameter;
+}
+
+void check_coefficients(const TomlTable& table, std::string_view key, Shape shape, int links,
+                        int terms, std::size_t given) {
+  const int expected = shape == Shape::kStraight ? 1
+                       : shape == Shape::kAngles ? links
+                       : shape == Shape::kSmooth ? terms
+                                                 : 0;
+  if (given != 0 && given != static_cast<std::size_t>(expected))
+    table.fail(key, std::to_string(given) + " numbers; this shape has " + std::to_string(expected));
+}
+
+InitialSpec read_initial(const TomlTable& table, int links) {
+  InitialSpec initial;
+  initial.shape = static_cast<Shape>(table.choice("shape", kShapeWords));
+  const bool linear = initial.shape == Shape::kStraight || initial.shape == Shape::kAngles ||
+                      initial.shape == Shape::kSmooth;
+  if (initial.shape == Shape::kSmooth) initial.terms = count(table, "terms", initial.terms, 1);
+  if (initial.shape == Shape::kStraight && table.has("angle"))
+    initial.coefficients = {table.number("angle")};
+  if (initial.shape == Shape::kAngles) initial.coefficients = table.numbers("angles");
+  if (initial.shape == Shape::kSmooth) initial.coefficients = table.numbers("coefficients");
+  check_coefficients(table, initial.shape == Shape::kAngles ? "angles" : "coefficients",
+                     initial.shape, links, initial.terms, initial.coefficients.size());
+  if (linear) initial.free = table.optional_flag("free").value_or(false);
+  if (initial.shape == Shape::kCatenary) {
+    const TomlTable held = table.table("held");
+    initial.held = {held.number("side"), held.number("down")};
+    if (!std::isfinite(initial.held[0]) || !std::isfinite(initial.held[1]))
+      held.fail("not finite; side and down of the held point are wanted, in m");
+    initial.ends_at_held = table.optional_flag("ends_at_held").value_or(false);
+  }
+  if (const auto velocity = table.optional_table("velocity")) {
+    initial.at_rest = false;
+    initial.velocity_shape =
+        static_cast<Shape>(velocity->choice("shape", {"straight", "angles", "smooth"}));
+    if (initial.velocity_shape == Shape::kSmooth)
+      initial.velocity_terms = count(*velocity, "terms", initial.velocity_terms, 1);
+    initial.velocity_coefficients = velocity->numbers("rates");
+    check_coefficients(*velocity, "rates", initial.velocity_shape, links, initial.velocity_terms,
+                       initial.velocity_coefficients.size());
+    initial.velocity_free = velocity->optional_flag("free").value_or(false);
+  }
+  return initial;
+}
+
+std::vector<SignalSpec> read_signals(const TomlTable& table,
+                                     const std::filesystem::path& directory) {
+  std::vector<SignalSpec> signals;
+  for (const TomlTable& entry : table.tables("signal")) {
+    SignalSpec signal;
+    signal.name = entry.text("name");
+    signal.data = directory / entry.text("data");
+    if (!std::filesystem::is_regular_file(signal.data))
+      entry.fail("data", signal.data.string() + "; there is no such file");
+    signal.time_column = entry.optional_text("time").value_or("time_s");
+    signal.column = entry.text("column");
+    signals.push_back(signal);
+  }
+  return signals;
+}
+
+PointSpec read_point(const TomlTable& table, DataKind kind, int number, int links) {
+  PointSpec point;
+  const std::string index = std::to_string(number);
+  if (kind == DataKind::kAngles) {
+    point.name = table.optional_text("name").value_or("angle " + index);
+    point.angle_column = table.text("column");
+    point.link = count(table, "link", number, 1);
+    if (point.link > links)
+      table.fail("link", std::to_string(point.link) + "; there are " + std::to_string(links));
+    return point;
+  }
+  point.name = table.optional_text("name").value_or("marker " + index);
+  point.side_column = table.text("side");
+  point.down_column = table.text("down");
+  const int places = table.has("arc_length") + table.has("joint") + table.has("load");
+  if (places != 1)
+    table.fail("arc_length", "say where the marker is by one of arc_length, joint and load");
+  if (table.has("arc_length")) point.arc_length = not_negative(table, "arc_length", 0);
+  if (table.has("joint")) {
+    point.joint = count(table, "joint", 0, 1);
+    if (point.joint > links)
+      table.fail("joint", std::to_string(point.joint) + "; there are " + std::to_string(links));
+  }
+  point.load = table.optional_flag("load").value_or(false);
+  if (table.has("load") && !point.load) table.fail("load", "false; leave it out or say true");
+  return point;
+}
+
+void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
+  experiment.source = static_cast<DataSource>(table.choice("source", kSourceWords, false));
+  experiment.time_column = table.optional_text("time_column").value_or("");
+  experiment.time_unit = kTimeUnits[table.choice("time_unit", kTimeUnits, false)];
+  experiment.frame_rate = optional_positive(table, "frame_rate", kNotGiven);
+  experiment.length_unit = kLengthUnits[table.choice("length_unit", kLengthUnits, false)];
+  experiment.metres_per_pixel = optional_positive(table, "metres_per_pixel", kNotGiven);
+  experiment.angle_unit = kAngleUnits[table.choice("angle_unit", kAngleUnits, false)];
+  experiment.wrapped = table.optional_flag("wrapped").value_or(false);
+  experiment.upward = table.choice("vertical", {"down", "up"}, false) == 1;
+  experiment.mirrored = table.optional_flag("mirrored").value_or(false);
+  experiment.likelihood_floor = not_negative(table, "likelihood_floor", 0.6);
+  const std::vector<double> origin = table.numbers("origin");
+  if (!origin.empty()) {
+    if (origin.size() != 2 || !std::isfinite(origin[0]) || !std::isfinite(origin[1]))
+      table.fail("origin", "must be two numbers: the fixed point in the axes of the file");
+    experiment.origin = {origin[0], origin[1]};
+  }
+  if (experiment.time_unit == "frames" && std::isnan(experiment.frame_rate))
+    table.fail("frame_rate", "missing; times in frames need the frames per second");
+  if (experiment.length_unit == "px" && std::isnan(experiment.metres_per_pixel))
+    table.fail("metres_per_pixel", "missing; lengths in px need it");
+}
+
+ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
+                               const std::filesystem::path& directory) {
+  ExperimentSpec experiment;
+  experiment.where = table.file() + ":" + std::to_string(table.line());
+  experiment.name = table.optional_text("name").value_or("experiment " + std::to_string(number));
+  experiment.data = directory / table.text("data");
+  if (!std::filesystem::is_regular_file(experiment.data))
+    table.fail("data", experiment.data.string() + "; there is no such file");
+  experiment.kind = static_cast<DataKind>(table.choice("kind", kDataKindWords));
+  experiment.use = static_cast<Use>(table.choice("use", kUseWords, false));
+  experiment.from = table.optional_number("from").value_or(experiment.from);
+  experiment.to = table.optional_number("to").value_or(experiment.to);
+  experiment.fit_until = table.optional_number("fit_until").value_or(experiment.fit_until);
+  experiment.start = table.optional_number("start").value_or(kNotGiven);
+  experiment.window = optional_positive(table, "window", kNotGiven);
+  experiment.joined = table.optional_flag("joined").value_or(false);
+  if (experiment.joined && std::isnan(experiment.window))
+    table.fail("joined", "true; say in window how long the pieces are, in s");
+  experiment.every = count(table, "every", 1, 1);
+  experiment.noise = optional_positive(table, "noise", kNotGiven);
+  if (!(experiment.from < experiment.to))
+    table.fail("to", shortest_number(experiment.to) +
+                         "; must be after from = " + shortest_number(experiment.from));
+  if (experiment.fit_until <= experiment.from)
+    table.fail("fit_until", shortest_number(experiment.fit_until) +
+                                "; must be after from = " + shortest_number(experiment.from));
+  read_conventions(table, experiment);
+  const std::string_view key = experiment.kind == DataKind::kMarkers ? "markers" : "angles";
+  for (const TomlTable& point : table.tables(key))
+    experiment.points.push_back(
+        read_point(point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links));
+  if (const auto initial = table.optional_table("initial"))
+    experiment.initial = read_initial(*initial, links);
+  experiment.signals = read_signals(table, directory);
+  return experiment;
+}
+
+ErrorSpec read_error(const TomlTable& table) {
+  ErrorSpec error;
+  error.measure = static_cast<Measure>(table.choice("measure", kMeasureWords));
+  if (table.has("loss")) {
+    if (error.measure != Measure::kLeastSquares)
+      table.fail("loss", "only the measure least_squares takes a loss");
+    error.loss = static_cast<Loss>(table.choice("loss", kLossWords));
+  }
+  error.loss_scale = optional_positive(table, "loss_scale", error.loss_scale);
+  return error;
+}
+
+OptimiserSpec read_optimiser(const TomlTable& table) {
+  OptimiserSpec optimiser;
+  optimiser.method = static_cast<FitMethod>(table.choice("method", kMethodWords, false));
+  optimiser.max_evaluations = count(table, "max_evaluations", optimiser.max_evaluations, 1);
+  optimiser.tolerance = optional_positive(table, "tolerance", optimiser.tolerance);
+  optimiser.initial_step = optional_positive(table, "initial_step", optimiser.initial_step);
+  optimiser.starts = count(table, "starts", optimiser.starts, 1);
+  optimiser.seed = static_cast<unsigned>(count(table, "seed", optimiser.seed, 0));
+  optimiser.growing_windows = table.numbers("growing_windows");
+  for (std::size_t i = 0; i < optimiser.growing_windows.size(); ++i)
+    if (!(optimiser.growing_windows[i] > (i ? optimiser.growing_windows[i - 1] : 0)))
+      table.fail("growing_windows", "must be positive times in s, each longer than the one before");
+  return optimiser;
+}
+
+SimulationSpec read_simulation(const TomlTable& table) {
+  SimulationSpec simulation;
+  simulation.duration = optional_positive(table, "duration", kNotGiven);
+  simulation.step = optional_positive(table, "step", simulation.step);
+  simulation.relative_tolerance =
+      optional_positive(table, "relative_tolerance", simulation.relative_tolerance);
+  simulation.absolute_tolerance_position = optional_positive(
+      table, "absolute_tolerance_position", simulation.absolute_tolerance_position);
+  simulation.absolute_tolerance_velocity = optional_positive(
+      table, "absolute_tolerance_velocity", simulation.absolute_tolerance_velocity);
+  simulation.max_steps = count(table, "max_steps", simulation.max_steps, 1);
+  if (!std::isnan(simulation.duration) && simulation.duration / simulation.step > 1e7)
+    table.fail("step", shortest_number(simulation.step) +
+                           "; more than ten million outputs in the duration");
+  return simulation;
+}
+
+Case read(const TomlTable& file, const std::filesystem::path& path,
+          const std::filesystem::path& directory) {
+  Case study;
+  study.file = path;
+  study.title = file.optional_text("title").value_or("");
+  const TomlTable model = file.table("model");
+  study.links = count(model, "links", 0, 1);
+  if (study.links > kMostLinks)
+    model.fail("links", std::to_string(study.links) + "; more than " + std::to_string(kMostLinks) +
+                            " do not fit into memory");
+  if (const auto description = model.optional_text("description")) {
+    study.description = directory / *description;
+    if (!std::filesystem::is_regular_file(study.description))
+      model.fail("description", study.description.string() + "; there is no such file");
+  }
+  study.cable = read_cable(file.table("cable"), study.links);
+  std::set<std::string> names;
+  for (const TomlTable& table : file.tables("parameter")) {
+    study.parameters.push_back(read_parameter(table));
+    if (!names.insert(study.parameters.back().name).second)
+      table.fail("name", "\"" + study.parameters.back().name + "\"; names must differ");
+  }
+  if (const auto initial = file.optional_table("initial"))
+    study.initial = read_initial(*initial, study.links);
+  study.signals = read_signals(file, directory);
+  names.clear();
+  for (const TomlTable& table : file.tables("experiment")) {
+    study.experiments.push_back(read_experiment(
+        table, static_cast<int>(study.experiments.size()) + 1, study.links, directory));
+    if (!names.insert(study.experiments.back().name).second)
+      table.fail("name", "\"" + study.experiments.back().name + "\"; names must differ");
+  }
+  if (const auto table = file.optional_table("error")) study.error = read_error(*table);
+  if (const auto table = file.optional_table("optimiser")) study.optimiser = read_optimiser(*table);
+  if (const auto table = file.optional_table("simulation"))
+    study.simulation = read_simulation(*table);
+  file.finish();
+  return study;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& path) {
+  return read(TomlTable::read(path, "case"), path, path.parent_path());
+}
+
+Case parse_case(const std::string& text, const std::string& name,
+                const std::filesystem::path& directory) {
+  return read(TomlTable::parse(text, name, "case"), name, directory);
+}
+
+}  // namespace catena

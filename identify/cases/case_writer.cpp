@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "common/number_text.hpp"
+#include "common/toml_reader.hpp"
+#include "common/whole_file.hpp"
+#include "identify/cases/case.hpp"
+#include "identify/cases/case_words.hpp"
+
+namespace catena {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n')
+      out += "\\n";
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out += (i ? ", " : "") + shortest_number(values[i]);
+  return out + "]";
+}
+
+/// Lines "key = value", one table at a time; what equals its default is left out.
+class Writer {
+ public:
+  void header(const std::string& text) { out_ += "\n" + text + "\n"; }
+  void line(const std::string& key, const std::string& value) {
+    out_ += key + " = " + value + "\n";
+  }
+  void text(const std::string& key, const std::string& value, const std::string& absent = "") {
+    if (value != absent) line(key, quoted(value));
+  }
+  void number(const std::string& key, double value, double absent = kNotGiven) {
+    if (value != absent && !(std::isnan(value) && std::isnan(absent)))
+      line(key, shortest_number(value));
+  }
+  void count(const std::string& key, long value, long absent) {
+    if (value != absent) line(key, std::to_string(value));
+  }
+  void flag(const std::string& key, bool value, bool absent = false) {
+    if (value != absent) line(key, value ? "true" : "false");
+  }
+  void numbers(const std::string& key, const std::vector<double>& values) {
+    if (!values.empty()) line(key, list(values));
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_ = "format = 1\nkind = \"case\"\n";
+};
+
+template <class Word>
+const std::string& word(const std::vector<std::string>& words, Word value) {
+  return words[static_cast<std::size_t>(value)];
+}
+
+std::string relative_path(const std::filesystem::path& path,
+                          const std::filesystem::path& directory) {
+  const std::filesystem::path base = directory.empty() ? "." : directory;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path))
+      .lexically_relative(std::filesystem::weakly_canonical(std::filesystem::absolute(base)))
+      .generic_string();
+}
+
+void write_parameter(Writer& out, const ParameterSpec& parameter) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  out.header("[[parameter]]");
+  out.text("name", parameter.name);
+  out.text("sets", parameter.sets);
+  out.number("value", parameter.value);
+  out.text("unit", parameter.unit);
+  out.flag("free", parameter.free);
+  out.number("lower", parameter.lower, -infinity);
+  out.number("upper", parameter.upper, infinity);
+  const Scale usual = parameter.lower > 0 ? Scale::kLogarithmic : Scale::kLinear;
+  if (parameter.scale != usual) out.text("scale", word(kScaleWords, parameter.scale));
+  out.number("factor", parameter.factor, 1);
+  out.flag("per_experiment", parameter.per_experiment);
+}
+
+void write_initial(Writer& out, const InitialSpec& initial, const std::string& table) {
+  out.header("[" + table + "]");
+  out.text("shape", word(kShapeWords, initial.shape));
+  switch (initial.shape) {
+    case Shape::kStraight:
+      if (!initial.coefficients.empty()) out.number("angle", initial.coefficients[0]);
+      break;
+    case Shape::kAngles:
+      out.numbers("angles", initial.coefficients);
+      break;
+    case Shape::kSmooth:
+      out.line("terms", std::to_string(initial.terms));
+      out.numbers("coefficients", initial.coefficients);
+      break;
+    case Shape::kCatenary:
+      out.line("held", "{side = " + shortest_number(initial.held[0]) +
+                           ", down = " + shortest_number(initial.held[1]) + "}");
+      out.flag("ends_at_held", initial.ends_at_held);
+      break;
+    case Shape::kHanging:
+      break;
+  }
+  out.flag("free", initial.free);
+  if (initial.at_rest) return;
+  out.header("[" + table + ".velocity]");
+  out.text("shape", word(kShapeWords, initial.velocity_shape));
+  if (initial.velocity_shape == Shape::kSmooth)
+    out.line("terms", std::to_string(initial.velocity_terms));
+  out.numbers("rates", initial.velocity_coefficients);
+  out.flag("free", initial.velocity_free);
+}
+
+std::string point_text(const PointSpec& point, DataKind kind) {
+  std::string out = "  {name = " + quoted(point.name);
+  if (kind == DataKind::kAngles)
+    return out + ", column = " + quoted(point.angle_column) +
+           ", link = " + std::to_string(point.link) + "},\n";
+  out += ", side = " + quoted(point.side_column) + ", down = " + quoted(point.down_column);
+  if (point.load)
+    out += ", load = true";
+  else if (point.joint)
+    out += ", joint = " + std::to_string(point.joint);
+  else
+    out += ", arc_length = " + shortest_number(point.arc_length);
+  return out + "},\n";
+}
+
+void write_signals(Writer& out, const std::vector<SignalSpec>& signals, const std::string& table,
+                   const std::filesystem::path& directory) {
+  for (const SignalSpec& signal : signals) {
+    out.header("[[" + table + "]]");
+    out.text("name", signal.name);
+    out.text("data", relative_path(signal.data, directory));
+    out.text("time", signal.time_column, "time_s");
+    out.text("column", signal.column);
+  }
+}
+
+void write_experiment(Writer& out, const ExperimentSpec& experiment,
+                      const std::filesystem::path& directory) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  out.header("[[experiment]]");
+  out.text("name", experiment.name);
+  out.text("data", relative_path(experiment.data, directory));
+  out.text("kind", word(kDataKindWords, experiment.kind));
+  out.text("use", word(kUseWords, experiment.use), "fit");
+  out.number("from", experiment.from, -infinity);
+  out.number("to", experiment.to, infinity);
+  out.number("fit_until", experiment.fit_until, infinity);
+  out.number("start", experiment.start);
+  out.number("window", experiment.window);
+  out.flag("joined", experiment.joined);
+  out.count("every", experiment.every, 1);
+  out.number("noise", experiment.noise);
+  out.text("source", word(kSourceWords, experiment.source), "catena");
+  out.text("time_column", experiment.time_column);
+  out.text("time_unit", experiment.time_unit, "s");
+  out.number("frame_rate", experiment.frame_rate);
+  out.text("length_unit", experiment.length_unit, "m");
+  out.number("metres_per_pixel", experiment.metres_per_pixel);
+  out.text("angle_unit", experiment.angle_unit, "rad");
+  out.flag("wrapped", experiment.wrapped);
+  if (experiment.upward) out.text("vertical", "up");
+  out.flag("mirrored", experiment.mirrored);
+  if (experiment.origin != std::array<double, 2>{0, 0})
+    out.numbers("origin", {experiment.origin[0], experiment.origin[1]});
+  out.number("likelihood_floor", experiment.likelihood_floor, 0.6);
+  if (!experiment.points.empty()) {
+    std::string points = "[\n";
+    for (const PointSpec& point : experiment.points) points += point_text(point, experiment.kind);
+    out.line(experiment.kind == DataKind::kMarkers ? "markers" : "angles", points + "]");
+  }
+  if (experiment.initial) write_initial(out, *experiment.initial, "experiment.initial");
+  write_signals(out, experiment.signals, "experiment.signal", directory);
+}
+
+}  // namespace
+
+std::string case_text(const Case& study, const std::filesystem::path& directory) {
+  Writer out;
+  out.text("title", study.title);
+  out.header("[model]");
+  if (!study.description.empty())
+    out.text("description", relative_path(study.description, directory));
+  out.line("links", std::to_string(study.links));
+  out.header("[cable]");
+  out.number("length", study.cable.length);
+  out.number("density", study.cable.density);
+  out.numbers("link_lengths", study.cable.link_lengths);
+  out.numbers("link_masses", study.cable.link_masses);
+  out.numbers("link_inertias", study.cable.link_inertias);
+  out.number("load_mass", study.cable.load_mass, 0);
+  out.number("gravity", study.cable.gravity);
+  for (const ParameterSpec& parameter : study.parameters) write_parameter(out, parameter);
+  write_initial(out, study.initial, "initial");
+  write_signals(out, study.signals, "signal", directory);
+  for (const ExperimentSpec& experiment : study.experiments)
+    write_experiment(out, experiment, directory);
+
+  out.header("[error]");
+  out.text("measure", word(kMeasureWords, study.error.measure));
+  if (study.error.loss != Loss::kNone) {
+    out.text("loss", word(kLossWords, study.error.loss));
+    out.number("loss_scale", study.error.loss_scale);
+  }
+  const OptimiserSpec optimiser, &chosen = study.optimiser;
+  out.header("[optimiser]");
+  out.text("method", word(kMethodWords, chosen.method));
+  out.count("max_evaluations", chosen.max_evaluations, optimiser.max_evaluations);
+  out.number("tolerance", chosen.tolerance, optimiser.tolerance);
+  out.number("initial_step", chosen.initial_step, optimiser.initial_step);
+  out.count("starts", chosen.starts, 1);
+  out.count("seed", chosen.seed, optimiser.seed);
+  out.numbers("growing_windows", chosen.growing_windows);
+  const SimulationSpec simulation, &wanted = study.simulation;
+  out.header("[simulation]");
+  out.number("duration", wanted.duration);
+  out.number("step", wanted.step, simulation.step);
+  out.number("relative_tolerance", wanted.relative_tolerance, simulation.relative_tolerance);
+  out.number("absolute_tolerance_position", wanted.absolute_tolerance_position,
+             simulation.absolute_tolerance_position);
+  out.number("absolute_tolerance_velocity", wanted.absolute_tolerance_velocity,
+             simulation.absolute_tolerance_velocity);
+  out.count("max_steps", wanted.max_steps, simulation.max_steps);
+  return out.take();
+}
+
+void write_case(const Case& study, const std::filesystem::path& path) {
+  write_whole_file(path, case_text(study, path.parent_path()));
+}
+
+}  // namespace catena

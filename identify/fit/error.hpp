@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identify/problem/problem.hpp"
+
+namespace catena {
+
+/// One residual: simulated minus measured, m or rad.
+struct ResidualIndex {
+  int experiment = 0;
+  int channel = 0;
+  Eigen::Index frame = 0;
+};
+
+/// All residuals of one part, in order of experiment, frame, channel; points not seen are left out.
+struct Residuals {
+  std::vector<ResidualIndex> index;
+  Eigen::VectorXd value;
+  Eigen::MatrixXd jacobian;  ///< residuals x unknowns, empty if the evaluation had none
+};
+
+Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
+
+/// Neighbouring residuals of the same marker and frame (side and down), or one angle: together a
+/// distance.
+struct Distance {
+  Eigen::Index first = 0, count = 0;
+};
+std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
+
+/// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s),
+/// window by window. Nothing where none are joined.
+struct Joints {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd jacobian;  ///< joints x unknowns, empty if the evaluation had none
+  Eigen::VectorXd weight;    ///< of each in units of the residuals over their noise
+};
+Joints joints_of(const Problem& problem, const Evaluation& evaluation);
+
+/// The noise to weigh each residual by: the experiment's, or 1 where it states none. Under the
+/// likelihood: what its channel's residuals show, see channels_of.
+Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
+
+/// One channel of one recording, over all its windows.
+struct ChannelNoise {
+  std::string name;        ///< "recording: marker 3 side"
+  Eigen::Index count = 0;  ///< residuals
+  double deviation = 0;    ///< their root mean square, m or rad
+};
+std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& residuals);
+
+/// Weights with which the sum of weight * |residual| is (7.1): the mean over the channels of each
+/// channel's mean.
+Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals);
+
+/// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
+/// Infinite if the evaluation failed; a failed simulation is never a good fit. Gaps between joined
+/// windows count with their weight in the fitted part.
+double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
+
+/// The fitted part of an evaluation: what the optimisers work with.
+struct Misfit {
+  bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty
+  Residuals residuals;
+  Joints joints;
+  double error = 0;  ///< error_of
+};
+Misfit misfit_of(const Problem& problem, const Evaluation& evaluation);
+
+/// The error of a misfit with derivatives and its gradient by the unknowns. The kinks of the two
+/// L1-like measures are rounded on a scale of `rounding` (m or rad).
+double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::VectorXd& gradient,
+                          double rounding = 1e-7);
+
+/// How far simulation and measurement are apart in one part of one experiment.
+struct Gap {
+  int experiment = 0;
+  Part part = Part::kFit;
+  Eigen::Index count = 0;    ///< residuals
+  double rms = 0;            ///< root mean square of the residuals, m or rad
+  double mean_absolute = 0;  ///< (7.1)-(7.5)
+  double mean_distance = 0;  ///< (6.5), (6.6); angles: mean absolute
+  double largest = 0;        ///< largest absolute residual
+};
+
+/// Gaps of every experiment and part that has data.
+std::vector<Gap> gaps_of(const Problem& problem, const Evaluation& evaluation);
+
+}  // namespace catena

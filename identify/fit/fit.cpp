@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/fit.hpp"
+
+#include <cmath>
+
+#include "common/input_error.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit_journal.hpp"
+#include "identify/fit/minimise.hpp"
+
+namespace catena {
+namespace {
+
+/// d(unknown)/d(scaled unknown): the unknown itself where the scale is logarithmic.
+Eigen::VectorXd scale_slopes(const Problem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd slopes = Eigen::VectorXd::Ones(x.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    if (problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic)
+      slopes[j] = x[j];
+  return slopes;
+}
+
+Eigen::VectorXd first_steps(const Problem& problem, const Eigen::VectorXd& start) {
+  const double step = problem.study().optimiser.initial_step;
+  Eigen::VectorXd steps(start.size());
+  for (Eigen::Index j = 0; j < start.size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    double size = step;  // of a logarithm: a relative step
+    if (unknown.scale == Scale::kLinear) {
+      size = step * std::abs(start[j]);
+      if (size == 0 && std::isfinite(unknown.upper - unknown.lower))
+        size = step * (unknown.upper - unknown.lower);
+      if (size == 0) size = step * (unknown.group == Unknown::Group::kInitial ? 0.1 : 1);
+    }
+    steps[j] = size;
+  }
+  return steps;
+}
+
+FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
+  const OptimiserSpec& spec = problem.study().optimiser;
+  FitJournal journal(problem, options, spec.max_evaluations);
+  const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
+  const bool gradient_wanted = spec.method != FitMethod::kNelderMead;
+
+  MinimiserOptions settings;
+  settings.method = spec.method;
+  Eigen::VectorXd lower(start.size()), upper(start.size());
+  for (Eigen::Index j = 0; j < start.size(); ++j) {
+    lower[j] = problem.unknowns()[static_cast<std::size_t>(j)].lower;
+    upper[j] = problem.unknowns()[static_cast<std::size_t>(j)].upper;
+  }
+  settings.lower = to_scaled(problem, lower);
+  settings.upper = to_scaled(problem, upper);
+  if (!gradient_wanted) settings.first_steps = first_steps(problem, start);
+  settings.x_tolerance = spec.tolerance;
+  settings.value_tolerance = gradient_wanted ? 1e-2 * spec.tolerance : spec.tolerance;
+  settings.must_stop = [&] { return journal.must_stop(); };
+  const Objective error = [&](const Eigen::VectorXd& y, Eigen::VectorXd* gradient) {
+    const Eigen::VectorXd x = from_scaled(problem, y);
+    const double value = journal.evaluate(x, gradient);
+    if (gradient) gradient->array() *= scale_slopes(problem, x).array();
+    return value;
+  };
+  const Minimum found = minimise(error, to_scaled(problem, start), settings);
+  return journal.result(found.stopped ? journal.why_stopped() : FitStatus::kConverged,
+                        found.message);
+}
+
+}  // namespace
+
+const char* name_of(FitStatus status) {
+  switch (status) {
+    case FitStatus::kNotRun:
+      return "not_run";
+    case FitStatus::kConverged:
+      return "converged";
+    case FitStatus::kEvaluationLimit:
+      return "evaluation_limit";
+    case FitStatus::kTimeLimit:
+      return "time_limit";
+    case FitStatus::kInterrupted:
+      return "interrupted";
+    case FitStatus::kFailed:
+      return "failed";
+  }
+  return "not_run";
+}
+
+Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = x;
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    if (problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic)
+      y[j] = std::log(x[j]);
+  return y;
+}
+
+Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y) {
+  Eigen::VectorXd x = y;
+  for (Eigen::Index j = 0; j < y.size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    // exp(log(bound)) may lie a rounding beyond the bound
+    if (unknown.scale == Scale::kLogarithmic)
+      x[j] = std::clamp(std::exp(y[j]), unknown.lower, unknown.upper);
+  }
+  return x;
+}
+
+namespace {
+
+FitResult fit_once(const Problem& problem, const FitOptions& options,
+                   const LeastSquares& least_squares) {
+  return problem.study().optimiser.method == FitMethod::kLeastSquares
+             ? least_squares(problem, options)
+             : fit_by_nlopt(problem, options);
+}
+
+// What a gap between joined windows costs at first: hardly anything, so that each window finds its
+// own best start; then more, up to the problem's own weight, with which it closes.
+constexpr double kLooseJoints[] = {0.1, 1, 10, 100, 1000};
+
+bool finished(const FitResult& result) {
+  return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
+}
+
+/// What came before counts too; errors of shorter windows are no errors of the whole.
+void add_effort(FitResult& total, const FitResult& before) {
+  total.evaluations += before.evaluations;
+  total.iterations += before.iterations;
+  total.work += before.work;
+  total.seconds += before.seconds;
+  total.cpu_seconds += before.cpu_seconds;
+  total.failures += before.failures;
+  total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
+}
+
+/// A beginning only gives the next a start: its minimum need not be found more closely.
+constexpr double kBeginningTolerance = 1e-2, kRoughBeginningTolerance = 0.1;
+
+FitResult fit_beginning(const Problem& problem, const FitOptions& options,
+                        const LeastSquares& least_squares) {
+  const double tolerance = std::max(kBeginningTolerance, problem.study().optimiser.tolerance);
+  const Problem beginning = problem.with_tolerance(tolerance);
+  if (!starts_roughly(problem)) return fit_once(beginning, options, least_squares);
+  FitResult rough =
+      fit_once(problem.rough().with_tolerance(kRoughBeginningTolerance), options, least_squares);
+  if (rough.status != FitStatus::kFailed) return rough;
+  FitResult result = fit_once(beginning, options, least_squares);  // it may have failed as rough
+  add_effort(result, rough);
+  return result;
+}
+
+}  // namespace
+
+const char* strategy_of(const Problem& problem) {
+  if (problem.joined()) return "multiple shooting";
+  if (problem.experiments().size() > problem.study().experiments.size()) return "separate windows";
+  return problem.study().optimiser.growing_windows.empty() ? "whole" : "growing windows";
+}
+
+bool starts_roughly(const Problem& problem) {
+  const Case& study = problem.study();
+  const bool squares =
+      study.error.measure == Measure::kLeastSquares || study.error.measure == Measure::kLikelihood;
+  return study.optimiser.method == FitMethod::kLeastSquares && !squares &&
+         problem.finer_than_rough();
+}
+
+void check_fittable(const Problem& problem) {
+  if (problem.unknowns().empty())
+    throw InputError(problem.study().file.string() +
+                     ": nothing to identify; mark a [[parameter]] with free = true");
+  bool data = false;
+  for (const Experiment& experiment : problem.experiments()) data |= experiment.fitted();
+  if (!data)
+    throw InputError(problem.study().file.string() +
+                     ": free parameters without data; add an [[experiment]] with use = \"fit\"");
+}
+
+FitResult fit(const Problem& problem, const FitOptions& options,
+              const LeastSquares& least_squares) {
+  check_fittable(problem);
+  const OptimiserSpec& spec = problem.study().optimiser;
+  if (spec.method == FitMethod::kLeastSquares && !least_squares)
+    throw InputError(problem.study().file.string() +
+                     ": optimiser.method: least_squares is not built in here; use another method");
+  FitOptions next = options;
+  next.recall = nullptr;  // errors of a part are not those of the whole
+  next.record = nullptr;
+  FitResult before;
+  for (const double seconds : spec.growing_windows) {
+    FitResult shorter = fit_beginning(problem.shortened(seconds), next, least_squares);
+    add_effort(shorter, before);
+    if (!finished(shorter)) return shorter;
+    next.start = shorter.x;
+    before = std::move(shorter);
+  }
+  if (problem.joined())
+    for (const double weight : kLooseJoints) {
+      FitResult looser = fit_once(problem.with_joint_weight(weight), next, least_squares);
+      add_effort(looser, before);
+      if (!finished(looser)) return looser;
+      next.start = looser.x;
+      before = std::move(looser);
+    }
+  next.recall = options.recall;
+  next.record = options.record;
+  FitResult result = fit_once(problem, next, least_squares);
+  add_effort(result, before);
+  if (!spec.growing_windows.empty() || problem.joined() || starts_roughly(problem)) {
+    const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
+    result.start_error = error_of(problem, evaluate(problem, start, false, false), Part::kFit);
+  }
+  return result;
+}
+
+}  // namespace catena

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identify/problem/problem.hpp"
+
+namespace catena {
+
+enum class FitStatus {
+  kNotRun,
+  kConverged,
+  kEvaluationLimit,  ///< the best so far is returned
+  kTimeLimit,        ///< the best so far is returned
+  kInterrupted,      ///< the best so far is returned
+  kFailed,           ///< no evaluation succeeded, or the method could not leave its start
+};
+
+const char* name_of(FitStatus status);
+
+/// One evaluation of the error, as it was made.
+struct HistoryEntry {
+  double error = 0;  ///< infinite if the simulation failed
+  Eigen::VectorXd x;
+  std::string message;  ///< why it failed
+};
+
+/// Evaluations that failed, with the unknowns that caused it.
+struct Failure {
+  Eigen::VectorXd x;
+  std::string message;
+};
+
+struct FitResult {
+  FitStatus status = FitStatus::kNotRun;
+  std::string message;
+  Eigen::VectorXd x;  ///< the best
+  double error = 0;   ///< its error, in the case's measure
+  double start_error = 0;
+  int evaluations = 0;  ///< simulations of all experiments
+  double work = 0;      ///< in simulations' worth of time: with sensitivities they cost more
+  int iterations = 0;
+  double seconds = 0;
+  double cpu_seconds = 0;  ///< of this thread: what the fit cost, whatever else the machine does
+  std::vector<HistoryEntry> history;
+  int failures = 0;
+  std::vector<Failure> failed;  ///< the first hundred
+};
+
+struct Progress {
+  int evaluations = 0, limit = 0;
+  double error = 0;  ///< best so far
+};
+
+struct FitOptions {
+  Eigen::VectorXd start;  ///< empty: the case's
+  double time_limit = 0;  ///< s; 0: none
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const Progress&)> progress;
+  /// What an interrupted run found for exactly these unknowns; null if it did not come that far.
+  std::function<const HistoryEntry*(const Eigen::VectorXd&)> recall;
+  std::function<void(const HistoryEntry&)> record;
+};
+
+/// A fit by least squares, e.g. fit_least_squares of identify/least_squares/least_squares.hpp: handed in,
+/// so that who does not want it need not link it.
+using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
+
+/// Fits the unknowns by the method the case names; where the case asks for growing windows, first
+/// the beginning of each experiment, then longer parts, each from where the one before ended; where
+/// it joins windows (multiple shooting), first with gaps between them that cost little, then ever
+/// more. Nelder-Mead and the bounded gradient methods are those of minimise.hpp. Throws InputError
+/// for least squares without a solver.
+FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
+
+/// Whether a fit is by least squares on distances and begins with rough simulations of the problem
+/// (Problem::rough), whose minimum is where the fit proper starts.
+bool starts_roughly(const Problem& problem);
+
+/// How a recording is taken: "whole", "growing windows", "separate windows", "multiple shooting".
+const char* strategy_of(const Problem& problem);
+
+/// Throws InputError unless there are unknowns and data to fit them to.
+void check_fittable(const Problem& problem);
+
+/// Logarithmic unknowns become their logarithms, and back.
+Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x);
+Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y);
+
+}  // namespace catena

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/fit_journal.hpp"
+
+#include <time.h>
+
+#include <cmath>
+#include <limits>
+
+namespace catena {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t kFailuresKept = 100;
+
+double cpu_now() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations)
+    : problem_(problem), options_(options), limit_(max_evaluations) {
+  result_.x = options.start.size() ? options.start : problem.start();
+  result_.error = kInfinite;
+  result_.start_error = kInfinite;
+  roughly_best_.error = kInfinite;
+  cpu_begin_ = cpu_now();
+}
+
+double FitJournal::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+bool FitJournal::must_stop(int reserved) {
+  if (options_.stop && options_.stop->load())
+    why_ = FitStatus::kInterrupted;
+  else if (options_.time_limit > 0 && seconds() > options_.time_limit)
+    why_ = FitStatus::kTimeLimit;
+  else if (result_.evaluations + reserved >= limit_)
+    why_ = FitStatus::kEvaluationLimit;
+  else
+    return false;
+  return true;
+}
+
+/// A simulation that was stopped is no failure: nothing is known about these unknowns.
+bool FitJournal::was_stopped(double error) {
+  return !std::isfinite(error) && must_stop() && why_ != FitStatus::kEvaluationLimit;
+}
+
+void FitJournal::note_failure(const Eigen::VectorXd& x, const std::string& message) {
+  ++result_.failures;
+  if (result_.failed.size() < kFailuresKept) result_.failed.push_back({x, message});
+}
+
+void FitJournal::count_evaluation(const Eigen::VectorXd& x, bool jacobian) {
+  ++result_.evaluations;
+  result_.work += jacobian ? 1 + static_cast<double>(x.size()) : 1;
+}
+
+void FitJournal::note(const Eigen::VectorXd& x, double error, const std::string& message,
+                      bool jacobian) {
+  if (was_stopped(error)) return;
+  count_evaluation(x, jacobian);
+  if (result_.history.empty()) result_.start_error = error;
+  result_.history.push_back({error, x, message});
+  if (options_.record) options_.record(result_.history.back());
+  if (std::isfinite(error)) {
+    if (error < result_.error) {
+      result_.error = error;
+      result_.x = x;
+    }
+  } else {
+    note_failure(x, message);
+  }
+  if (options_.progress) options_.progress({result_.evaluations, limit_, result_.error});
+}
+
+double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+  if (gradient) return error_and_gradient(problem_, evaluate_residuals(x, true), *gradient);
+  if (options_.recall)
+    if (const HistoryEntry* known = options_.recall(x)) {
+      note(x, known->error, known->message, false);
+      return known->error;
+    }
+  return evaluate_residuals(x, false).error;
+}
+
+Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
+                             std::string& message) {
+  const auto keep_going = [this] {
+    return !(options_.stop && options_.stop->load()) &&
+           !(options_.time_limit > 0 && seconds() > options_.time_limit);
+  };
+  const Evaluation evaluation = catena::evaluate(problem, x, false, jacobian, keep_going);
+  message = evaluation.message;
+  return misfit_of(problem, evaluation);
+}
+
+Misfit FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {
+  std::string message;
+  Misfit misfit = misfit_at(problem_, x, jacobian, message);
+  note(x, misfit.error, message, jacobian);
+  return misfit;
+}
+
+Misfit FitJournal::evaluate_roughly(const Problem& rough, const Eigen::VectorXd& x, bool jacobian) {
+  std::string message;
+  Misfit misfit = misfit_at(rough, x, jacobian, message);
+  if (was_stopped(misfit.error)) return misfit;
+  count_evaluation(x, jacobian);
+  if (!misfit.ok) note_failure(x, message);
+  if (misfit.error < roughly_best_.error) roughly_best_ = {misfit.error, x, ""};
+  if (options_.progress) options_.progress({result_.evaluations, limit_, roughly_best_.error});
+  return misfit;
+}
+
+FitResult FitJournal::result(FitStatus status, const std::string& message) {
+  if (!std::isfinite(result_.error) && std::isfinite(roughly_best_.error)) {
+    result_.error = roughly_best_.error;
+    result_.x = roughly_best_.x;
+  }
+  result_.status = std::isfinite(result_.error) || status == FitStatus::kInterrupted ||
+                           status == FitStatus::kTimeLimit
+                       ? status
+                       : FitStatus::kFailed;
+  result_.message = message;
+  if (!std::isfinite(result_.error) && !result_.failed.empty())
+    result_.message = "no simulation succeeded; the first: " + result_.failed.front().message;
+  result_.seconds = seconds();
+  result_.cpu_seconds = cpu_now() - cpu_begin_;
+  return result_;
+}
+
+}  // namespace catena

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit.hpp"
+
+namespace catena {
+
+/// What every method of fitting shares: it evaluates the error, keeps the best, counts and reports
+/// failures, and knows when to stop (limits, interruption).
+class FitJournal {
+ public:
+  FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations);
+
+  /// The error at x and, if wanted, its gradient (gradient methods). Infinite where the simulation
+  /// failed.
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
+  /// The residuals at x (least squares); the error is recorded.
+  Misfit evaluate_residuals(const Eigen::VectorXd& x, bool jacobian);
+
+  /// The residuals of the same problem roughly simulated (Problem::rough): they count as an
+  /// evaluation, but are the result only where there is no other.
+  Misfit evaluate_roughly(const Problem& rough, const Eigen::VectorXd& x, bool jacobian);
+
+  /// `reserved`: so many evaluations are to be left.
+  bool must_stop(int reserved = 0);
+  FitStatus why_stopped() const { return why_; }
+  void count_iteration() { ++result_.iterations; }
+
+  FitResult result(FitStatus status, const std::string& message);
+
+ private:
+  Misfit misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
+                   std::string& message);
+  bool was_stopped(double error);
+  void note_failure(const Eigen::VectorXd& x, const std::string& message);
+  void count_evaluation(const Eigen::VectorXd& x, bool jacobian);
+  void note(const Eigen::VectorXd& x, double error, const std::string& message, bool jacobian);
+  double seconds() const;
+
+  const Problem& problem_;
+  const FitOptions& options_;
+  int limit_;
+  FitResult result_;
+  HistoryEntry roughly_best_;
+  FitStatus why_ = FitStatus::kConverged;
+  double cpu_begin_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace catena

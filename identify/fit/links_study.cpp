@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/links_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/input_error.hpp"
+#include "identify/fit/error.hpp"
+
+namespace catena {
+
+Case with_links(const Case& study, int links) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(study.file.string() + ": " + what +
+                     "; a study of the number of links needs a case that holds for any number");
+  };
+  if (!study.cable.link_lengths.empty() || !study.cable.link_masses.empty() ||
+      !study.cable.link_inertias.empty())
+    refuse("cable: gives numbers per link");
+  for (const ParameterSpec& parameter : study.parameters)
+    if (parameter.sets.find("..") != std::string::npos ||
+        (!parameter.sets.empty() &&
+         std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
+      refuse("parameter \"" + parameter.name + "\": sets = \"" + parameter.sets + "\"");
+  const auto check = [&](const InitialSpec& initial) {
+    if (initial.shape == Shape::kAngles ||
+        (!initial.at_rest && initial.velocity_shape == Shape::kAngles))
+      refuse("initial: gives numbers per link");
+  };
+  check(study.initial);
+  for (const ExperimentSpec& experiment : study.experiments) {
+    if (experiment.initial) check(*experiment.initial);
+    if (experiment.kind == DataKind::kAngles)
+      refuse(experiment.name + ": measures angles of links");
+    for (const PointSpec& point : experiment.points)
+      if (point.joint) refuse(experiment.name + ": " + point.name + " is at a joint");
+  }
+  Case other = study;
+  other.links = links;
+  return other;
+}
+
+std::vector<LinksResult> links_study(const Case& study, const std::vector<int>& links,
+                                     const std::function<Model(const Case&)>& model_of,
+                                     const FitOptions& options, const LeastSquares& least_squares) {
+  std::vector<LinksResult> results;
+  for (const int count : links) {
+    const Case other = with_links(study, count);
+    const Problem problem(other, model_of(other));
+    LinksResult result;
+    result.links = count;
+    result.fit = fit(problem, options, least_squares);
+    if (std::isfinite(result.fit.error)) {
+      const Evaluation evaluation = evaluate(problem, result.fit.x, true, false);
+      const bool held_out = residuals_of(problem, evaluation, Part::kValidation).value.size() > 0;
+      result.validation_error =
+          held_out ? error_of(problem, evaluation, Part::kValidation) : kNotGiven;
+    }
+    for (const Unknown& unknown : problem.unknowns()) result.names.push_back(unknown.name);
+    results.push_back(std::move(result));
+    if (results.back().fit.status == FitStatus::kInterrupted) break;
+  }
+  return results;
+}
+
+int recommended_links(const std::vector<LinksResult>& results, double budget) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const LinksResult& result : results) least = std::min(least, result.fit.error);
+  int fewest = -1;
+  for (const LinksResult& result : results)
+    if (std::isfinite(result.fit.error) && result.fit.error <= (1 + budget) * least &&
+        (fewest < 0 || result.links < fewest))
+      fewest = result.links;
+  return fewest;
+}
+
+}  // namespace catena

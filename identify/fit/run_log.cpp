@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Lines, their cells separated by tabulators:
+//   catena run log 1 KEY
+//   e START ERROR X MESSAGE                                  an evaluation; ERROR may be "failed"
+//   s START STATUS ERROR START_ERROR X EVALUATIONS WORK ITERATIONS FAILURES MESSAGE .   a start
+#include "identify/fit/run_log.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "common/input_error.hpp"
+#include "common/number_text.hpp"
+
+namespace catena {
+namespace {
+
+constexpr char kHead[] = "catena run log 1 ";
+
+std::string exact(double value) {
+  return std::isfinite(value) ? exact_number_text(value) : "failed";
+}
+
+std::string exact(const Eigen::VectorXd& x) {
+  std::string text;
+  for (const double value : x) text += (text.empty() ? "" : ",") + exact_number_text(value);
+  return text;
+}
+
+double number(const std::string& text) {
+  return text == "failed" ? std::numeric_limits<double>::infinity()
+                          : std::strtod(text.c_str(), nullptr);
+}
+
+Eigen::VectorXd numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream in(text);
+  for (std::string cell; std::getline(in, cell, ',');) values.push_back(number(cell));
+  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = line.find('\t', begin)) != std::string::npos; begin = end + 1)
+    cells.push_back(line.substr(begin, end - begin));
+  cells.push_back(line.substr(begin));
+  return cells;
+}
+
+}  // namespace
+
+RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool resume) {
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  const bool go_on = resume && std::filesystem::exists(file);
+  if (go_on) std::filesystem::resize_file(file, read(file, key));  // off with a broken last line
+  file_ = std::fopen(file.c_str(), go_on ? "a" : "w");
+  if (!file_) throw InputError(file.string() + ": cannot be written");
+  if (!go_on) append(kHead + key + "\n");
+}
+
+RunLog::~RunLog() {
+  if (file_) std::fclose(file_);
+}
+
+std::size_t RunLog::read(const std::filesystem::path& file, const std::string& key) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  const std::string text = bytes.str();
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::string line = text.substr(begin, end - begin);
+    if (begin == 0) {
+      if (line == kHead + key) continue;
+      throw InputError(
+          file.string() +
+          ": belongs to another case, other data or another model; run without --resume "
+          "to begin anew");
+    }
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells[0] == "e" && cells.size() == 5) {
+      Start& start = starts_[std::atoi(cells[1].c_str())];
+      start.by_x.try_emplace(cells[3], start.entries.size());
+      start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
+    } else if (cells[0] == "s" && cells.size() == 12) {
+      FitResult result;
+      result.status = static_cast<FitStatus>(std::atoi(cells[2].c_str()));
+      result.error = number(cells[3]);
+      result.start_error = number(cells[4]);
+      result.x = numbers(cells[5]);
+      result.evaluations = std::atoi(cells[6].c_str());
+      result.work = number(cells[7]);
+      result.iterations = std::atoi(cells[8].c_str());
+      result.failures = std::atoi(cells[9].c_str());
+      result.message = cells[10];
+      Start& start = starts_[std::atoi(cells[1].c_str())];
+      result.history = start.entries;
+      for (const HistoryEntry& entry : start.entries)
+        if (!std::isfinite(entry.error)) result.failed.push_back({entry.x, entry.message});
+      start.result = std::move(result);
+    }
+  }
+  return begin;
+}
+
+void RunLog::append(const std::string& line) {
+  std::fwrite(line.data(), 1, line.size(), file_);
+  std::fflush(file_);
+}
+
+const HistoryEntry* RunLog::recall(int start, const Eigen::VectorXd& x) const {
+  const std::scoped_lock lock(mutex_);
+  const auto known = starts_.find(start);
+  if (known == starts_.end()) return nullptr;
+  const auto found = known->second.by_x.find(exact(x));
+  return found == known->second.by_x.end() ? nullptr : &known->second.entries[found->second];
+}
+
+void RunLog::record(int start, const HistoryEntry& entry) {
+  const std::string x = exact(entry.x);
+  const std::scoped_lock lock(mutex_);
+  Start& own = starts_[start];
+  if (own.replayed < own.entries.size() && exact(own.entries[own.replayed].x) == x) {
+    ++own.replayed;
+    return;
+  }
+  append("e\t" + std::to_string(start) + "\t" + exact(entry.error) + "\t" + x + "\t" +
+         one_line(entry.message) + "\n");
+}
+
+std::optional<FitResult> RunLog::finished(int start) const {
+  const std::scoped_lock lock(mutex_);
+  const auto known = starts_.find(start);
+  return known == starts_.end() ? std::nullopt : known->second.result;
+}
+
+void RunLog::finish(int start, const FitResult& result) {
+  if (result.status == FitStatus::kInterrupted || result.status == FitStatus::kTimeLimit) return;
+  const std::scoped_lock lock(mutex_);
+  append("s\t" + std::to_string(start) + "\t" + std::to_string(static_cast<int>(result.status)) +
+         "\t" + exact(result.error) + "\t" + exact(result.start_error) + "\t" + exact(result.x) +
+         "\t" + std::to_string(result.evaluations) + "\t" + exact_number_text(result.work) + "\t" +
+         std::to_string(result.iterations) + "\t" + std::to_string(result.failures) + "\t" +
+         one_line(result.message) + "\t.\n");
+}
+
+}  // namespace catena

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/fit/fit.hpp"
+
+namespace catena {
+
+/// The log of a run of `catena identify`: one line for every finished evaluation and every finished
+/// start, appended and handed to the system at once, so that a run that is killed at any moment can
+/// be taken up again. Numbers are written exactly; a line that was cut off is not believed.
+///
+/// A start that was finished is taken from the log. One that was not is begun again: it asks for
+/// the same points in the same order, and those that were evaluated without derivatives are
+/// recalled. So a resumed run ends where it would have ended undisturbed.
+class RunLog {
+ public:
+  /// `key` identifies case, data and model. With `resume` an existing log is read and continued;
+  /// throws InputError if it belongs to another key. Otherwise the log begins anew. Throws
+  /// InputError if it cannot be written.
+  RunLog(const std::filesystem::path& file, const std::string& key, bool resume);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  // All may be called from several threads.
+  /// What was found for exactly these unknowns; null if it was not recorded.
+  const HistoryEntry* recall(int start, const Eigen::VectorXd& x) const;
+  /// Appends an evaluation, unless it is the next one that was recorded already.
+  void record(int start, const HistoryEntry& entry);
+  /// A start that was finished: its result; nothing if it was not.
+  std::optional<FitResult> finished(int start) const;
+  void finish(int start, const FitResult& result);
+
+ private:
+  struct Start {
+    std::vector<HistoryEntry> entries;        // as read
+    std::map<std::string, std::size_t> by_x;  // exact unknowns -> index of their first entry
+    std::size_t replayed = 0;                 // how many of them this run asked for again
+    std::optional<FitResult> result;
+  };
+
+  std::size_t read(const std::filesystem::path& file, const std::string& key);
+  void append(const std::string& line);
+
+  std::FILE* file_ = nullptr;
+  mutable std::mutex mutex_;
+  std::map<int, Start> starts_;
+};
+
+}  // namespace catena

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/least_squares/least_squares.hpp"
+
+#include <ceres/ceres.h>
+
+#include <cmath>
+#include <limits>
+
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit_journal.hpp"
+#include "identify/least_squares/distance_cost.hpp"
+#include "identify/least_squares/simulated_residuals.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// A constant added to every distance, in units of the error at the start (see DistanceCost).
+constexpr double kOffset = 20;
+
+/// One of the numbers a simulation gives, with a weight.
+class Block : public ceres::CostFunction {
+ public:
+  Block(const SimulatedResiduals& simulated, const Eigen::VectorXd& values,
+        const Eigen::MatrixXd& jacobian, Index place, double weight)
+      : simulated_(simulated),
+        values_(values),
+        jacobian_(jacobian),
+        place_(place),
+        weight_(weight) {
+    set_num_residuals(1);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(jacobian.cols()));
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    if (!simulated_.ok()) return false;
+    residuals[0] = weight_ * values_[place_];
+    if (jacobians && jacobians[0])
+      Eigen::Map<Eigen::RowVectorXd>(jacobians[0], jacobian_.cols()) =
+          weight_ * jacobian_.row(place_);
+    return true;
+  }
+
+ private:
+  const SimulatedResiduals& simulated_;
+  const Eigen::VectorXd& values_;  // of simulated_
+  const Eigen::MatrixXd& jacobian_;
+  Index place_;
+  double weight_;
+};
+
+// A first step that promises this share of the cost, of which less than the second share is ever
+// kept: the sensitivities describe a slope too short to walk on.
+constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
+
+// At a minimum on kinks, as sums of distances have, so many steps in a row fail, or gain less than
+// so many tolerances of the cost.
+constexpr int kFailedSteps = 3;
+constexpr double kTooLittle = 10;
+
+/// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by
+/// no more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep
+/// failing.
+class Watch : public ceres::IterationCallback {
+ public:
+  /// `reserved`: evaluations to be left. `promised`: by a first step that is too short, of which
+  /// Ceres does not tell.
+  Watch(FitJournal& journal, int reserved, double tolerance, double offset, bool kinks,
+        double promised)
+      : journal_(journal),
+        reserved_(reserved),
+        tolerance_(tolerance),
+        offset_(offset),
+        kinks_(kinks),
+        promised_(promised) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    journal_.count_iteration();
+    if (journal_.must_stop(reserved_)) return ceres::SOLVER_ABORT;
+    const double cost = step.cost - offset_;
+    if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
+    const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
+    if (step.iteration == 1) promised_ = expected / cost;
+    if (step.step_is_successful) gained_ += step.cost_change / cost;
+    const bool good = step.step_is_successful && step.cost_change > kTooLittle * tolerance_ * cost;
+    failed_steps_ = good ? 0 : failed_steps_ + 1;
+    if (kinks_ && failed_steps_ == kFailedSteps) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    const double least = tolerance_ * cost;
+    const bool enough = expected <= least || std::abs(step.cost_change) <= least;
+    return enough ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+  /// Hardly anything was gained, although much was to be.
+  bool stuck() const { return promised_ > kGreatPromise && gained_ < kKept * promised_; }
+
+ private:
+  FitJournal& journal_;
+  int reserved_;
+  double tolerance_, offset_;
+  bool kinks_;
+  int failed_steps_ = 0;          // in a row
+  double promised_, gained_ = 0;  // shares of the cost
+};
+
+ceres::LossFunction* loss_of(const ErrorSpec& error) {
+  switch (error.loss) {
+    case Loss::kHuber:
+      return new ceres::HuberLoss(error.loss_scale);
+    case Loss::kSoftL1:
+      return new ceres::SoftLOneLoss(error.loss_scale);
+    case Loss::kCauchy:
+      return new ceres::CauchyLoss(error.loss_scale);
+    case Loss::kNone:
+      break;
+  }
+  return nullptr;
+}
+
+// A step that promises no more than this share of the cost is likely to be the last.
+constexpr double kLastStep = 1e-4;
+
+// How far one step may take a logarithm.
+constexpr double kReach = 2;
+
+/// Of the scaled unknowns.
+DistanceCost::Box box_of(const Problem& problem) {
+  const auto unknowns = static_cast<Index>(problem.unknowns().size());
+  DistanceCost::Box box{VectorXd(unknowns), VectorXd(unknowns), VectorXd(unknowns)};
+  for (Index j = 0; j < unknowns; ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    const bool logarithmic = unknown.scale == Scale::kLogarithmic;
+    box.lower[j] = logarithmic ? std::log(unknown.lower) : unknown.lower;
+    box.upper[j] = logarithmic ? std::log(unknown.upper) : unknown.upper;
+    box.reach[j] = logarithmic ? kReach : std::numeric_limits<double>::infinity();
+  }
+  return box;
+}
+
+bool of_squares(const Problem& problem) {
+  const Measure measure = problem.study().error.measure;
+  return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
+}
+
+/// From y on, where `simulated` is, to the best y; the weights are those of the start. `reserved`:
+/// evaluations to be left.
+FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
+                SimulatedResiduals& simulated, VectorXd& y, std::string& message) {
+  const OptimiserSpec& spec = problem.study().optimiser;
+  const ErrorSpec& error = problem.study().error;
+  const int unknowns = static_cast<int>(y.size());
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &simulated;
+  ceres::Problem solver(problem_options);
+  solver.AddParameterBlock(y.data(), unknowns);
+  const Residuals& first = simulated.residuals();
+  const Joints& joints = simulated.joints();
+  const bool squares = of_squares(problem);
+  const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
+  const DistanceCost::Box box = box_of(problem);
+  double all_offsets = 0;
+  if (squares) {
+    const VectorXd noise = noise_of(problem, first);
+    for (Index i = 0; i < noise.size(); ++i)
+      solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
+                              loss_of(error), y.data());
+    for (Index i = 0; i < joints.value.size(); ++i)
+      solver.AddResidualBlock(
+          new Block(simulated, joints.value, joints.jacobian, i, joints.weight[i]), nullptr,
+          y.data());
+  } else {
+    // In units of the start's error, as if each were over its noise.
+    const double scale = static_cast<double>(first.value.size()) / simulated.error();
+    std::vector<WeightedDistance> terms;
+    if (error.measure == Measure::kMeanDistance) {
+      const std::vector<Distance> points = distances_of(problem, first);
+      for (const Distance& point : points)
+        terms.push_back({point.first, point.count, scale / static_cast<double>(points.size())});
+    } else {
+      const VectorXd weights = scale * channel_weights(problem, first);
+      for (Index i = 0; i < weights.size(); ++i) terms.push_back({i, 1, weights[i]});
+    }
+    auto* distances =
+        new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), tolerance, box);
+    solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
+    all_offsets = distances->all_offsets();
+    simulated.tell([distances, &y] {
+      distances->step_to(y);
+      return distances->gain() > kLastStep;
+    });
+  }
+  for (int j = 0; j < unknowns; ++j) {
+    if (std::isfinite(box.lower[j])) solver.SetParameterLowerBound(y.data(), j, box.lower[j]);
+    if (std::isfinite(box.upper[j])) solver.SetParameterUpperBound(y.data(), j, box.upper[j]);
+  }
+
+  const double least_step = 1e-2 * spec.tolerance;  // of |y|
+  const double lost = least_step * y.norm() * simulated.steepness();
+  Watch watch(journal, reserved, tolerance, all_offsets, !squares, lost);
+  ceres::Solver::Options settings;
+  settings.linear_solver_type = ceres::DENSE_QR;
+  settings.max_num_iterations = spec.max_evaluations;
+  settings.function_tolerance = 0;  // Watch knows better
+  settings.parameter_tolerance = least_step;
+  settings.gradient_tolerance = 0;
+  // Bounds make Ceres search along steps: cubic interpolation would ask for derivatives there.
+  if (!squares) settings.line_search_interpolation_type = ceres::QUADRATIC;
+  settings.logging_type = ceres::SILENT;
+  settings.callbacks.push_back(&watch);
+  ceres::Solver::Summary summary;
+  ceres::Solve(settings, &solver, &summary);
+  simulated.tell(nullptr);
+  if (summary.termination_type == ceres::USER_FAILURE) return journal.why_stopped();
+  if (summary.termination_type == ceres::NO_CONVERGENCE) return FitStatus::kEvaluationLimit;
+  if (summary.termination_type == ceres::FAILURE) {
+    if (journal.must_stop(reserved)) return journal.why_stopped();
+    message = summary.message;
+    return FitStatus::kFailed;
+  }
+  if (watch.stuck()) {
+    message =
+        "least squares cannot leave its start: the simulation is so sensitive there that its "
+        "derivatives hold for no step; fit a beginning first (optimiser.growing_windows) or "
+        "windows, "
+        "or use nelder_mead";
+    return FitStatus::kFailed;
+  }
+  return FitStatus::kConverged;
+}
+
+/// The same, first roughly simulated: most of the way there is no need for more.
+FitStatus solve_roughly(const Problem& rough, FitJournal& journal, SimulatedResiduals& simulated,
+                        VectorXd& y) {
+  const VectorXd start = y;
+  simulated.PrepareForEvaluation(true, true);
+  FitStatus status = FitStatus::kFailed;
+  std::string message;
+  if (simulated.ok()) status = solve(rough, journal, 1, simulated, y, message);
+  if (status == FitStatus::kFailed) y = start;
+  return status;
+}
+
+}  // namespace
+
+FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
+  const OptimiserSpec& spec = problem.study().optimiser;
+  FitJournal journal(problem, options, spec.max_evaluations);
+  VectorXd y = to_scaled(problem, options.start.size() ? options.start : problem.start());
+  std::string message;
+  if (!of_squares(problem)) {
+    const bool roughly = starts_roughly(problem) && spec.max_evaluations > 1;
+    const Problem rough = roughly ? problem.rough() : problem;
+    SimulatedResiduals simulated(problem, journal, y, roughly ? &rough : nullptr);
+    if (roughly) {
+      const FitStatus status = solve_roughly(rough, journal, simulated, y);
+      if (status == FitStatus::kInterrupted || status == FitStatus::kTimeLimit)
+        return journal.result(status, "");
+      simulated.refine();
+    }
+    simulated.PrepareForEvaluation(true, true);
+    if (!simulated.ok())
+      return journal.result(FitStatus::kFailed, "the simulation at the start failed");
+    if (journal.must_stop()) return journal.result(journal.why_stopped(), "");
+    const FitStatus status = solve(problem, journal, 0, simulated, y, message);
+    return journal.result(status, message);
+  }
+  SimulatedResiduals simulated(problem, journal, y);
+  // Under the likelihood the weights follow from the residuals: solved again until they stay.
+  for (double before = std::numeric_limits<double>::infinity();;) {
+    simulated.PrepareForEvaluation(true, true);
+    if (!simulated.ok())
+      return journal.result(FitStatus::kFailed, "the simulation at the start failed");
+    const bool settled = simulated.error() > (1 - 1e-2 * spec.tolerance) * before;
+    if (settled) return journal.result(FitStatus::kConverged, "");
+    before = simulated.error();
+    const FitStatus status = solve(problem, journal, 0, simulated, y, message);
+    if (status != FitStatus::kConverged || problem.study().error.measure != Measure::kLikelihood)
+      return journal.result(status, message);
+  }
+}
+
+}  // namespace catena

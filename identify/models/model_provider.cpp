@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/models/model_provider.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "common/input_error.hpp"
+#include "common/sha256.hpp"
+#include "description/description.hpp"
+#include "identify/models/process.hpp"
+#include "runtime/any_links.hpp"
+
+namespace catena {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+fs::path cache_directory(const ProviderOptions& options) {
+  if (!options.cache_directory.empty()) return options.cache_directory;
+  if (const char* chosen = environment("CATENA_CACHE")) return chosen;
+  if (const char* base = environment("XDG_CACHE_HOME")) return fs::path(base) / "catena";
+  if (const char* home = environment("HOME")) return fs::path(home) / ".cache" / "catena";
+  return fs::temp_directory_path() / "catena-cache";
+}
+
+bool has_fused_multiply_add() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  return __builtin_cpu_supports("x86-64-v3");
+#else
+  return false;
+#endif
+}
+
+bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 0; }
+
+fs::path find_in_path(const std::string& name) {
+  std::istringstream folders(environment("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && can_run(fs::path(folder) / name)) return fs::path(folder) / name;
+  return {};
+}
+
+bool is_there(const std::string& program) {
+  return program.find('/') == std::string::npos ? !find_in_path(program).empty() : can_run(program);
+}
+
+/// Empty if there is none.
+fs::path look_for_derive_program() {
+  const std::string name = "catena-derive";
+  const fs::path here = program_directory();
+  for (const fs::path& candidate :
+       {here / name, here / ".." / "libexec" / "catena" / name, here / ".." / "bin" / name})
+    if (can_run(candidate)) return candidate.lexically_normal();
+  return find_in_path(name);
+}
+
+/// A fresh folder beside the cache's entries, removed again unless it was moved into place.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& cache) {
+    std::error_code error;
+    fs::create_directories(cache, error);
+    std::string pattern = (cache / "work-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+      throw ModelError(cache.string() +
+                       ": the cache of models cannot be written; set CATENA_CACHE to a "
+                       "folder of yours");
+    path_ = pattern;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string run(const std::vector<std::string>& command, const std::string& purpose,
+                const std::string& hint) {
+  ProcessResult result;
+  try {
+    result = run_process(command, true);
+  } catch (const std::runtime_error& error) {
+    throw ModelError(purpose + ": " + error.what() + hint);
+  }
+  if (result.exit_status == 2) throw InputError(result.output);  // the description is at fault
+  if (result.exit_status != 0)
+    throw ModelError(purpose + ": " + command.front() + " ended with status " +
+                     std::to_string(result.exit_status) + hint + "\n" + result.output);
+  return result.output;
+}
+
+std::vector<std::string> derivation(const fs::path& derive, const fs::path& description,
+                                    int links) {
+  std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
+  if (!description.empty()) {
+    command.push_back("--description");
+    command.push_back(fs::absolute(description).string());
+  }
+  return command;
+}
+
+fs::path source_in(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".cpp") return entry.path();
+  throw ModelError(folder.string() + ": catena-derive wrote no source file");
+}
+
+/// Identifies the generator: models of another one are not taken from the cache.
+std::string identity_of(const fs::path& program) {
+  std::ifstream in(program, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return sha256_hex(bytes.str());
+}
+
+}  // namespace
+
+fs::path find_derive_program() {
+  if (const fs::path found = look_for_derive_program(); !found.empty()) return found;
+  throw ModelError(
+      "catena-derive was not found beside this program, in ../libexec/catena or in PATH; it "
+      "derives models that are not built in");
+}
+
+std::string derived_equations(const fs::path& description, int links) {
+  try {
+    std::vector<std::string> command = derivation(find_derive_program(), description, links);
+    command.push_back("--equations");
+    return run(command, "deriving the equations", "");
+  } catch (const ModelError&) {
+    return {};
+  }
+}
+
+Model provide_model(const fs::path& description_file, int links, const ProviderOptions& options) {
+  const Description description =
+      description_file.empty() ? plain_chain() : read_description(description_file);
+  if (description.effects.empty() && Model::has_built_in(links)) return Model::built_in(links);
+
+  const bool any_links =
+      description.effects.empty() && links >= kFewestLinks && links <= kMostLinks;
+  const auto without_compiling = [&](const std::string& missing) {
+    if (options.notice)
+      options.notice(missing + " was not found: " + std::to_string(links) +
+                     " links are computed by the model for any number of links, with the same "
+                     "results");
+    return any_links_model(links);
+  };
+  // What the options name is to be there.
+  if (any_links && options.derive_program.empty() && look_for_derive_program().empty())
+    return without_compiling("catena-derive");
+  const fs::path derive =
+      options.derive_program.empty() ? find_derive_program() : options.derive_program;
+  std::string compiler = options.compiler;
+  if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
+  std::vector<std::string> flags = {
+      "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
+  // For this processor alone takes the compiler half the time.
+  if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
+  std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
+                        identity_of(derive) + "\n" + "interface " +
+                        std::to_string(CATENA_MODEL_ABI) + ", " +
+                        std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
+  for (const std::string& flag : flags) decides += " " + flag;
+  const fs::path cache = cache_directory(options);
+  const fs::path entry = cache / sha256_hex(decides);
+  const fs::path library = entry / "model.so";
+  if (fs::exists(library)) return Model::load(library);
+  if (any_links && options.compiler.empty() && !is_there(compiler))
+    return without_compiling("the compiler " + compiler);
+
+  if (options.notice) {
+    std::string foreign;
+    for (const Effect& effect : description.effects)
+      if (!effect.source_file.starts_with("built in"))
+        foreign += (foreign.empty() ? "" : ", ") +
+                   fs::path(effect.source_file).lexically_normal().string();
+    options.notice("deriving and compiling the model \"" + description.id + "\" with " +
+                   std::to_string(links) + " links (kept in " + cache.string() + ")" +
+                   (foreign.empty() ? "" : "; it runs code made from " + foreign));
+  }
+  const WorkFolder work(cache);
+  const fs::path sources = work.path() / "model";
+  std::vector<std::string> command = derivation(derive, description_file, links);
+  command.insert(command.end(), {"--output", sources.string()});
+  run(command, "deriving the model", "");
+
+  command = {compiler};
+  command.insert(command.end(), flags.begin(), flags.end());
+  for (const std::string& argument : {"-I" + sources.string(), source_in(sources).string(),
+                                      std::string("-o"), (sources / "model.so").string()})
+    command.push_back(argument);
+  run(command, "compiling the model",
+      "; a C++ compiler is needed for models that are not built in (set CXX to name one)");
+
+  Model::load(sources / "model.so");  // what cannot be used never gets into the cache
+  // Another process may have been quicker: then its entry stays.
+  std::error_code error;
+  fs::rename(sources, entry, error);
+  if (error && !fs::exists(library))
+    throw ModelError(entry.string() + ": cannot be written: " + error.message());
+  return Model::load(library);
+}
+
+}  // namespace catena

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/recordings/recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/input_error.hpp"
+#include "common/number_text.hpp"
+#include "common/toml_reader.hpp"
+#include "identify/recordings/table.hpp"
+#include "identify/recordings/tracker_import.hpp"
+
+namespace catena {
+namespace {
+
+constexpr double kTimeSlack = 1e-9;  // s: times are written with finitely many digits
+
+/// Where the times of the file are, in s.
+std::vector<double> read_times(const ExperimentSpec& experiment, const Table& table) {
+  const std::string& name =
+      experiment.time_column.empty() ? table.names.front() : experiment.time_column;
+  std::vector<double> time = table.column(name);
+  const double unit = experiment.time_unit == "ms"       ? 1e-3
+                      : experiment.time_unit == "frames" ? 1 / experiment.frame_rate
+                                                         : 1;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const std::string where =
+        table.file + ":" + std::to_string(table.lines[i]) + ": column \"" + name + "\"";
+    if (std::isnan(time[i])) throw InputError(where + ": empty; every row needs its time");
+    time[i] *= unit;
+    if (i && !(time[i] > time[i - 1]))
+      throw InputError(where + ": " + shortest_number(time[i]) + " s after " +
+                       shortest_number(time[i - 1]) + " s; times must increase");
+  }
+  return time;
+}
+
+std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Table& table,
+                                      int links, double cable_length) {
+  std::vector<PointSpec> points;
+  for (int i = 1;; ++i) {
+    const std::string index = std::to_string(i);
+    PointSpec point;
+    if (experiment.kind == DataKind::kAngles) {
+      point.name = "angle " + index;
+      point.angle_column = "theta_" + index + "_rad";
+      point.link = i;
+      if (!table.has(point.angle_column)) break;
+      if (i > links)
+        throw InputError(table.file + ": column \"" + point.angle_column + "\"; the model has " +
+                         std::to_string(links) +
+                         " links; say which angles to use in [[experiment]]");
+    } else if (experiment.source != DataSource::kCatena) {
+      const auto column = static_cast<std::size_t>(2 * i - 1);  // after the time: x and y of each
+      if (column + 1 >= table.names.size()) break;
+      point.side_column = table.names[column];
+      point.down_column = table.names[column + 1];
+      point.name = point.side_column.substr(0, point.side_column.size() - 2);
+    } else {
+      point.name = "marker " + index;
+      point.side_column = "side_" + index + "_m";
+      point.down_column = "down_" + index + "_m";
+      if (!table.has(point.side_column) || !table.has(point.down_column)) break;
+    }
+    points.push_back(point);
+  }
+  if (points.empty())
+    throw InputError(experiment.where + ": data: " + table.file + " has no columns " +
+                     (experiment.kind == DataKind::kAngles ? "theta_1_rad" : "side_1_m, down_1_m") +
+                     "; name the columns under " +
+                     (experiment.kind == DataKind::kAngles ? "angles" : "markers"));
+  if (experiment.kind == DataKind::kMarkers)
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i].arc_length =
+          cable_length * static_cast<double>(i + 1) / static_cast<double>(points.size());
+  return points;
+}
+
+/// Rows of the experiment's window.
+std::vector<std::size_t> choose_rows(const ExperimentSpec& experiment,
+                                     const std::vector<double>& time, const std::string& file) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0, seen = 0; i < time.size(); ++i)
+    if (time[i] >= experiment.from - kTimeSlack && time[i] <= experiment.to + kTimeSlack &&
+        seen++ % static_cast<std::size_t>(experiment.every) == 0)
+      rows.push_back(i);
+  if (rows.size() < 2)
+    throw InputError(experiment.where + ": data: " + file + " has " + std::to_string(rows.size()) +
+                     " frames from " + shortest_number(experiment.from) + " s to " +
+                     shortest_number(experiment.to) + " s; at least two are needed");
+  return rows;
+}
+
+void unwrap(Eigen::Ref<Eigen::RowVectorXd> angles) {
+  constexpr double turn = 2 * std::numbers::pi;
+  double last = std::numeric_limits<double>::quiet_NaN();
+  for (double& angle : angles) {
+    if (!std::isnan(last)) angle -= turn * std::round((angle - last) / turn);
+    if (!std::isnan(angle)) last = angle;
+  }
+}
+
+double length_factor(const ExperimentSpec& experiment) {
+  if (experiment.length_unit == "cm") return 1e-2;
+  if (experiment.length_unit == "mm") return 1e-3;
+  if (experiment.length_unit == "px") return experiment.metres_per_pixel;
+  return 1;
+}
+
+/// The rows of one column, in SI units and the model's axes.
+Eigen::RowVectorXd convert(const ExperimentSpec& experiment, const std::vector<double>& column,
+                           const std::vector<std::size_t>& rows, Component component) {
+  double origin = 0, factor = 1;
+  switch (component) {
+    case Component::kSide:
+      origin = experiment.origin[0];
+      factor = length_factor(experiment) * (experiment.mirrored ? -1 : 1);
+      break;
+    case Component::kDown:
+      origin = experiment.origin[1];
+      factor = length_factor(experiment) * (experiment.upward ? -1 : 1);
+      break;
+    case Component::kAngle:
+      factor = (experiment.angle_unit == "deg" ? std::numbers::pi / 180 : 1) *
+               (experiment.mirrored ? -1 : 1);
+      break;
+  }
+  Eigen::RowVectorXd out(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    out[static_cast<Eigen::Index>(k)] = factor * (column[rows[k]] - origin);
+  if (component == Component::kAngle && experiment.wrapped) unwrap(out);
+  return out;
+}
+
+/// A cable neither stretches nor leaves its plane: the chord between neighbouring markers is what
+/// its bending leaves of the arc. Where it is much shorter for long, it points out of the plane.
+void warn_of_motion_out_of_plane(Recording& recording) {
+  constexpr double kShort = 0.95, kOften = 0.2;
+  for (std::size_t p = 1; p + 1 < recording.points.size(); ++p) {
+    const auto row = static_cast<Eigen::Index>(2 * p);
+    const auto& m = recording.measured;
+    std::vector<double> straightened;  // chord, with the bending between the neighbours undone
+    for (Eigen::Index k = 0; k < m.cols(); ++k) {
+      const Eigen::Vector2d before = m.block<2, 1>(row, k) - m.block<2, 1>(row - 2, k);
+      const Eigen::Vector2d after = m.block<2, 1>(row + 2, k) - m.block<2, 1>(row, k);
+      if (before.hasNaN() || after.hasNaN()) continue;
+      const double cross = before[0] * after[1] - before[1] * after[0];
+      const double half = 0.5 * std::atan2(cross, before.dot(after));
+      const double bend = std::abs(half) < 1e-6 ? 1 : std::sin(half) / half;
+      straightened.push_back(before.norm() / bend);
+    }
+    if (straightened.size() < 5) continue;
+    std::vector<double> sorted = straightened;
+    std::sort(sorted.begin(), sorted.end());
+    const double full = sorted[sorted.size() * 9 / 10];
+    const auto shorter = std::count_if(sorted.begin(), sorted.end(),
+                                       [&](double chord) { return chord < kShort * full; });
+    if (static_cast<double>(shorter) > kOften * static_cast<double>(sorted.size()))
+      recording.warnings.push_back(
+          "the distance from " + recording.points[p - 1].name + " to " + recording.points[p].name +
+          " is more than 5 % short of its full length in " + std::to_string(shorter) + " of " +
+          std::to_string(sorted.size()) + " frames: motion out of the plane?");
+  }
+}
+
+}  // namespace
+
+Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
+  const Table table =
+      import_tracker_table(experiment.source, experiment.data, experiment.likelihood_floor);
+  Recording recording;
+  recording.points = experiment.points.empty()
+                         ? default_points(experiment, table, links, cable_length)
+                         : experiment.points;
+  const std::vector<double> time = read_times(experiment, table);
+  const std::vector<std::size_t> rows = choose_rows(experiment, time, table.file);
+  for (const std::size_t row : rows) {
+    recording.time.push_back(time[row]);
+    if (experiment.use == Use::kFit && time[row] <= experiment.fit_until + kTimeSlack)
+      ++recording.fit_frames;
+  }
+  const Eigen::Index per_point = experiment.kind == DataKind::kMarkers ? 2 : 1;
+  recording.measured.resize(per_point * static_cast<Eigen::Index>(recording.points.size()),
+                            static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t p = 0; p < recording.points.size(); ++p) {
+    const PointSpec& point = recording.points[p];
+    if (point.arc_length > cable_length * (1 + 1e-9))
+      throw InputError(experiment.where + ": markers: " + point.name + " at " +
+                       shortest_number(point.arc_length) + " m; the cable is " +
+                       shortest_number(cable_length) + " m long");
+    const auto add = [&](Component component, const std::string& column, const char* suffix) {
+      recording.measured.row(static_cast<Eigen::Index>(recording.channels.size())) =
+          convert(experiment, table.column(column), rows, component);
+      recording.channels.push_back({static_cast<int>(p), component, point.name + suffix});
+    };
+    if (experiment.kind == DataKind::kMarkers) {
+      add(Component::kSide, point.side_column, " side");
+      add(Component::kDown, point.down_column, " down");
+    } else {
+      add(Component::kAngle, point.angle_column, "");
+    }
+  }
+  if (recording.measured.array().isNaN().all())
+    throw InputError(experiment.where + ": data: " + table.file +
+                     " holds no measurement between from and to");
+  if (experiment.kind == DataKind::kMarkers) warn_of_motion_out_of_plane(recording);
+  return recording;
+}
+
+}  // namespace catena

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/results/simulated_motion.hpp"
+
+#include "common/number_text.hpp"
+#include "identify/problem/prediction.hpp"
+#include "runtime/positions.hpp"
+
+namespace catena {
+namespace {
+
+/// A CSV text: first the names, then rows of exact numbers.
+class Csv {
+ public:
+  void name(const std::string& text) { field(text); }
+  void number(double value) { field(std::isnan(value) ? "" : exact_number_text(value)); }
+  void end_line() {
+    text_ += '\n';
+    first_ = true;
+  }
+  void field(const std::string& text) {
+    if (!first_) text_ += ',';
+    first_ = false;
+    const bool plain = text.find_first_of(",\"\n") == std::string::npos;
+    if (!plain) text_ += '"';
+    for (const char c : text) text_ += c == '"' ? "\"\"" : std::string(1, c);
+    if (!plain) text_ += '"';
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+  bool first_ = true;
+};
+
+std::string unit_suffix(std::string unit) {
+  for (char& c : unit)
+    if (c == ' ' || c == '/') c = '_';
+  return unit == "1" ? "" : "_" + unit;
+}
+
+}  // namespace
+
+Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+                       const std::vector<double>& times, const SimulationSpec& settings,
+                       const Signals& signals, const std::function<bool()>& keep_going) {
+  SimulationOptions options = simulation_options(settings);
+  if (keep_going) options.keep_going = [&](double) { return keep_going(); };
+  Motion motion;
+  motion.simulation = simulate(model, parameters, initial, times, options, signals);
+  const Trajectory& path = motion.simulation.trajectory;
+  const auto count = static_cast<Eigen::Index>(path.time.size());
+  motion.side.resize(model.links() + 2, count);
+  motion.down.resize(model.links() + 2, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Positions at = positions(model, parameters, path.time[static_cast<std::size_t>(k)],
+                                   path.q.col(k), signals);
+    motion.side.col(k) = at.side;
+    motion.down.col(k) = at.down;
+  }
+  return motion;
+}
+
+Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
+                 const std::function<bool()>& keep_going) {
+  const Experiment& chosen = problem.experiments()[static_cast<std::size_t>(experiment)];
+  std::vector<double> times = {chosen.spec.start};
+  for (const double t : chosen.recording.time)
+    if (t > times.back()) times.push_back(t);
+  return simulate_motion(problem.model(), problem.model_parameters(x, experiment),
+                         problem.initial_state(x, experiment), times, problem.study().simulation,
+                         chosen.signals, keep_going);
+}
+
+std::string positions_csv(const Motion& motion) {
+  Csv csv;
+  const Eigen::Index ends = motion.side.rows() - 1;
+  csv.name("time_s");
+  for (Eigen::Index i = 1; i <= ends; ++i) {
+    const std::string place = i < ends ? std::to_string(i) : "load";
+    csv.name("side_" + place + "_m");
+    csv.name("down_" + place + "_m");
+  }
+  csv.end_line();
+  for (Eigen::Index k = 0; k < motion.side.cols(); ++k) {
+    csv.number(motion.simulation.trajectory.time[static_cast<std::size_t>(k)]);
+    for (Eigen::Index i = 1; i <= ends; ++i) {
+      csv.number(motion.side(i, k));
+      csv.number(motion.down(i, k));
+    }
+    csv.end_line();
+  }
+  return csv.take();
+}
+
+std::string angles_csv(const Model& model, const Motion& motion) {
+  const catena_model& table = model.table();
+  const Trajectory& path = motion.simulation.trajectory;
+  Csv csv;
+  csv.name("time_s");
+  for (int i = 0; i < table.coordinates; ++i)
+    csv.name(table.coordinate[i].name + unit_suffix(table.coordinate[i].unit));
+  for (int i = 0; i < table.coordinates; ++i)
+    csv.name(std::string(table.coordinate[i].name) + "_rate" +
+             unit_suffix(std::string(table.coordinate[i].unit) + "/s"));
+  for (int i = 0; i < table.states; ++i)
+    csv.name(table.state[i].name + unit_suffix(table.state[i].unit));
+  csv.end_line();
+  for (Eigen::Index k = 0; k < path.q.cols(); ++k) {
+    csv.number(path.time[static_cast<std::size_t>(k)]);
+    for (const double value : path.q.col(k)) csv.number(value);
+    for (const double value : path.v.col(k)) csv.number(value);
+    for (const double value : path.z.col(k)) csv.number(value);
+    csv.end_line();
+  }
+  return csv.take();
+}
+
+std::string energy_csv(const Model& model, const Motion& motion) {
+  const catena_model& table = model.table();
+  const Trajectory& path = motion.simulation.trajectory;
+  Csv csv;
+  csv.name("time_s");
+  for (int i = 0; i < table.energies; ++i) csv.name(std::string(table.energy_item[i].name) + "_J");
+  csv.end_line();
+  for (Eigen::Index k = 0; k < path.energy.cols(); ++k) {
+    csv.number(path.time[static_cast<std::size_t>(k)]);
+    for (const double value : path.energy.col(k)) csv.number(value);
+    csv.end_line();
+  }
+  return csv.take();
+}
+
+std::string residuals_csv(const Problem& problem, const Evaluation& evaluation) {
+  static const char* const kComponents[] = {"side_m", "down_m", "angle_rad"};
+  Csv csv;
+  for (const char* name :
+       {"experiment", "part", "point", "component", "time_s", "measured", "simulated", "residual"})
+    csv.name(name);
+  csv.end_line();
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const Experiment& experiment = problem.experiments()[e];
+    const Recording& recording = experiment.recording;
+    const Eigen::MatrixXd& simulated = evaluation.predictions[e].simulated;
+    for (Eigen::Index k = 0; k < simulated.cols(); ++k)
+      for (Eigen::Index c = 0; c < simulated.rows(); ++c) {
+        const double measured = recording.measured(c, k);
+        if (std::isnan(measured)) continue;
+        const Channel& channel = recording.channels[static_cast<std::size_t>(c)];
+        const bool fit = experiment.fitted() && k < recording.fit_frames;
+        csv.field(experiment.spec.name);
+        csv.field(fit ? "fit" : "validate");
+        csv.field(recording.points[static_cast<std::size_t>(channel.point)].name);
+        csv.field(kComponents[static_cast<int>(channel.component)]);
+        csv.number(recording.time[static_cast<std::size_t>(k)]);
+        csv.number(measured);
+        csv.number(simulated(c, k));
+        csv.number(simulated(c, k) - measured);
+        csv.end_line();
+      }
+  }
+  return csv.take();
+}
+
+std::string history_csv(const Problem& problem, const FitResult& fit) {
+  Csv csv;
+  csv.name("step");
+  csv.name("error");
+  for (const Unknown& unknown : problem.unknowns()) csv.name(unknown.name);
+  csv.end_line();
+  for (std::size_t k = 0; k < fit.history.size(); ++k) {
+    csv.field(std::to_string(k + 1));
+    csv.number(fit.history[k].error);
+    for (const double value : fit.history[k].x) csv.number(value);
+    csv.end_line();
+  }
+  return csv.take();
+}
+
+}  // namespace catena

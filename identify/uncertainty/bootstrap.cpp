@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/uncertainty/bootstrap.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "common/parallel.hpp"
+#include "identify/fit/error.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Residuals (simulated minus measured) of the fitted frames in new order: blocks of neighbouring
+/// frames, drawn with replacement.
+MatrixXd drawn_again(const MatrixXd& residuals, Index block, std::mt19937_64& generator) {
+  const Index frames = residuals.cols();
+  MatrixXd out(residuals.rows(), frames);
+  for (Index begin = 0; begin < frames; begin += block) {
+    const Index length = std::min(block, frames - begin);
+    const auto from =
+        static_cast<Index>(generator() % static_cast<std::uint64_t>(frames - length + 1));
+    out.middleCols(begin, length) = residuals.middleCols(from, length);
+  }
+  return out;
+}
+
+}  // namespace
+
+MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertainty& uncertainty,
+                   const LeastSquares& least_squares, int count, unsigned seed, int threads) {
+  const Evaluation best = evaluate(problem, fit.x, false, false);
+  const double rho = std::clamp(uncertainty.colour, 0.0, 0.97);
+  MatrixXd rows(count, fit.x.size());
+  in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
+    std::mt19937_64 generator(seed + 1'000'003ULL * (row + 1));
+    std::vector<MatrixXd> measured;
+    for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+      const Recording& recording = problem.experiments()[e].recording;
+      measured.push_back(recording.measured);
+      if (!problem.experiments()[e].fitted()) continue;
+      const Index frames = recording.fit_frames;
+      const MatrixXd& simulated = best.predictions[e].simulated;
+      const MatrixXd residuals = simulated - recording.measured.leftCols(frames);
+      // long enough that what is correlated stays together
+      const Index block = std::min<Index>(
+          frames, static_cast<Index>(std::ceil(std::max(std::cbrt(static_cast<double>(frames)),
+                                                        2 * (1 + rho) / (1 - rho)))));
+      measured.back().leftCols(frames) = simulated - drawn_again(residuals, block, generator);
+    }
+    FitOptions options;
+    options.start = fit.x;
+    rows.row(static_cast<Index>(row)) =
+        least_squares(problem.measured_as(measured), options).x.transpose();
+  });
+  return rows;
+}
+
+}  // namespace catena

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/uncertainty/profile.hpp"
+
+#include <cmath>
+
+#include "common/parallel.hpp"
+#include "identify/fit/error.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::VectorXd;
+
+VectorXd without(const VectorXd& x, Eigen::Index j) {
+  VectorXd rest(x.size() - 1);
+  rest << x.head(j), x.tail(x.size() - 1 - j);
+  return rest;
+}
+
+/// Twice the negative logarithm of the likelihood but for a constant: the sum of squared residuals
+/// over their noise, or, where the noise is found from them, what its sizes leave of it.
+double minus_log_likelihood(const Problem& problem, const Residuals& residuals) {
+  const VectorXd noise = noise_of(problem, residuals);
+  if (problem.study().error.measure == Measure::kLikelihood) return 2 * noise.array().log().sum();
+  return residuals.value.cwiseQuotient(noise).squaredNorm();
+}
+
+/// The same, at the best the others can do; infinite if it failed.
+double best_square(const Problem& problem, int unknown, double value, VectorXd& rest,
+                   const LeastSquares& least_squares) {
+  const Problem held = problem.fixed(unknown, value);
+  const auto square_at = [&](const VectorXd& x) {
+    const Evaluation evaluation = evaluate(held, x, false, false);
+    if (!evaluation.ok) return std::numeric_limits<double>::infinity();
+    const Residuals residuals = residuals_of(held, evaluation, Part::kFit);
+    return minus_log_likelihood(held, residuals);
+  };
+  if (rest.size() == 0) return square_at(rest);
+  FitOptions options;
+  options.start = rest;
+  const FitResult fit = least_squares(held, options);
+  rest = fit.x;
+  return square_at(rest);
+}
+
+/// The value so many standard deviations away, within the bounds.
+double moved(const Unknown& unknown, double best, const Estimate& estimate, double deviations) {
+  const bool logarithmic = unknown.scale == Scale::kLogarithmic;
+  double step = logarithmic ? estimate.standard_error / std::abs(best) : estimate.standard_error;
+  const double widest = logarithmic ? 1.0 : 0.25 * (unknown.upper - unknown.lower);
+  if (!std::isfinite(step) || step > widest) step = widest;
+  const double value = logarithmic ? best * std::exp(deviations * step) : best + deviations * step;
+  return std::clamp(value, unknown.lower, unknown.upper);
+}
+
+}  // namespace
+
+std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
+                                 const Uncertainty& uncertainty, const LeastSquares& least_squares,
+                                 int threads) {
+  std::vector<int> chosen;
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j)
+    if (problem.unknowns()[j].parameter >= 0 && problem.unknowns()[j].experiment < 0)
+      chosen.push_back(static_cast<int>(j));
+  const Evaluation best = evaluate(problem, fit.x, false, false);
+  const Residuals residuals = residuals_of(problem, best, Part::kFit);
+  const double least = minus_log_likelihood(problem, residuals);
+  const bool by_likelihood = problem.study().error.measure == Measure::kLikelihood;
+  const double variance = by_likelihood ? 1 : uncertainty.noise * uncertainty.noise;
+  // A residual that repeats the one before says less than a new one (AR(1)).
+  const double repeated = uncertainty.coloured && uncertainty.colour > 0
+                              ? (1 + uncertainty.colour) / (1 - uncertainty.colour)
+                              : 1;
+  std::vector<Profile> profiles(chosen.size());
+  in_parallel(chosen.size(), threads, [&](std::size_t p) {
+    Profile& profile = profiles[p];
+    profile.unknown = chosen[p];
+    const auto j = static_cast<std::size_t>(chosen[p]);
+    const Unknown& unknown = problem.unknowns()[j];
+    const double centre = fit.x[chosen[p]];
+    bool crossed[2] = {false, false};
+    std::vector<std::pair<double, double>> points = {{centre, 0.0}};
+    for (const int side : {-1, 1}) {
+      VectorXd rest = without(fit.x, chosen[p]);
+      double last = centre;
+      for (const double deviations : {0.5, 1.0, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0}) {
+        const double value = moved(unknown, centre, uncertainty.estimates[j], side * deviations);
+        if (value == last) break;  // the bound
+        last = value;
+        const double square = best_square(problem, chosen[p], value, rest, least_squares);
+        points.emplace_back(value, (square - least) / (variance * repeated));
+        if (points.back().second > profile.threshold) {
+          crossed[side > 0] = true;
+          break;
+        }
+      }
+    }
+    std::sort(points.begin(), points.end());
+    double highest = 0;
+    for (const auto& [value, cost] : points) {
+      profile.value.push_back(value);
+      profile.cost.push_back(cost);
+      highest = std::max(highest, cost);
+    }
+    constexpr double kFlat = 0.05;  // a likelihood that changes by less says nothing
+    profile.verdict = crossed[0] && crossed[1] ? Verdict::kIdentifiable
+                      : highest < kFlat        ? Verdict::kStructurallyNot
+                                               : Verdict::kPracticallyNot;
+  });
+  return profiles;
+}
+
+}  // namespace catena

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identify/uncertainty/uncertainty.hpp"
+
+namespace catena {
+
+/// Cost of holding one unknown of the physics at a value while the others are fitted again.
+struct Profile {
+  int unknown = 0;
+  std::vector<double> value;
+  std::vector<double>
+      cost;  ///< twice the negative log likelihood above the minimum, colour allowed for
+  double threshold = 3.84;  ///< the 95 % quantile of chi square with one degree of freedom
+  Verdict verdict = Verdict::kIdentifiable;
+};
+
+/// Profiles of every unknown of the physics around the fit, by refits from the neighbouring point.
+/// Crosses the threshold on both sides: identifiable; nowhere rises: structurally not; else
+/// practically not (within the bounds).
+std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
+                                 const Uncertainty& uncertainty, const LeastSquares& least_squares,
+                                 int threads);
+
+}  // namespace catena

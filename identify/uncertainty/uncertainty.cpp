@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/uncertainty/uncertainty.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "common/number_text.hpp"
+#include "identify/fit/error.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 95 % two-sided
+
+/// d(unknown)/d(scaled unknown).
+VectorXd ranges(const Problem& problem, const VectorXd& x) {
+  VectorXd range(x.size());
+  for (Index j = 0; j < x.size(); ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    const double width = unknown.upper - unknown.lower;
+    range[j] = unknown.scale == Scale::kLogarithmic ? x[j]
+               : std::isfinite(width)               ? width
+                                                    : std::max(std::abs(x[j]), 1.0);
+  }
+  return range;
+}
+
+/// Sum of products of residuals one frame apart over the sum of squares, and the number of pairs.
+std::pair<double, Index> lag_one(const Residuals& residuals, const VectorXd& r) {
+  // by experiment and channel, the place of the last frame seen
+  std::vector<std::vector<Index>> last;
+  double products = 0;
+  Index pairs = 0;
+  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
+    const ResidualIndex& index = residuals.index[i];
+    const auto e = static_cast<std::size_t>(index.experiment);
+    const auto c = static_cast<std::size_t>(index.channel);
+    if (last.size() <= e) last.resize(e + 1);
+    if (last[e].size() <= c) last[e].resize(c + 1, -1);
+    const Index before = last[e][c];
+    if (before >= 0 && residuals.index[static_cast<std::size_t>(before)].frame + 1 == index.frame) {
+      products += r[static_cast<Index>(i)] * r[before];
+      ++pairs;
+    }
+    last[e][c] = static_cast<Index>(i);
+  }
+  return {products / r.squaredNorm(), pairs};
+}
+
+/// J'WJ for residuals that follow AR(1) in every channel: W_kl = colour^|k - l|.
+MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacobian,
+                               double colour) {
+  const Index unknowns = jacobian.cols();
+  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
+  struct Tail {
+    Index frame = -1;
+    VectorXd sum;  // of colour^(k - l) J_l over the earlier frames l of the channel
+  };
+  std::vector<std::vector<Tail>> tails;  // by experiment and channel
+  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
+    const ResidualIndex& index = residuals.index[i];
+    const auto e = static_cast<std::size_t>(index.experiment);
+    const auto c = static_cast<std::size_t>(index.channel);
+    if (tails.size() <= e) tails.resize(e + 1);
+    if (tails[e].size() <= c) tails[e].resize(c + 1);
+    Tail& tail = tails[e][c];
+    const VectorXd row = jacobian.row(static_cast<Index>(i)).transpose();
+    middle += row * row.transpose();
+    if (tail.frame >= 0) {
+      tail.sum *= std::pow(colour, static_cast<double>(index.frame - tail.frame));
+      middle += row * tail.sum.transpose() + tail.sum * row.transpose();
+      tail.sum += row;
+    } else {
+      tail.sum = row;
+    }
+    tail.frame = index.frame;
+  }
+  return middle;
+}
+
+/// J'WJ: the covariance of the sums J'r over frames, with Bartlett's weights.
+MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
+                       double colour) {
+  const Index unknowns = jacobian.cols();
+  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
+  std::vector<std::vector<VectorXd>> scores;  // by experiment and frame
+  for (std::size_t i = 0; i < residuals.index.size(); ++i) {
+    const auto e = static_cast<std::size_t>(residuals.index[i].experiment);
+    const auto k = static_cast<std::size_t>(residuals.index[i].frame);
+    if (scores.size() <= e) scores.resize(e + 1);
+    if (scores[e].size() <= k) scores[e].resize(k + 1, VectorXd::Zero(unknowns));
+    scores[e][k] += jacobian.row(static_cast<Index>(i)).transpose() * r[static_cast<Index>(i)];
+  }
+  const double alpha = 4 * colour * colour / std::pow((1 - colour) * (1 + colour), 2);
+  for (const std::vector<VectorXd>& series : scores) {
+    const auto frames = static_cast<Index>(series.size());
+    const Index bandwidth = std::min<Index>(
+        static_cast<Index>(1.1447 * std::cbrt(alpha * static_cast<double>(frames))), frames / 4);
+    for (Index lag = 0; lag <= bandwidth; ++lag) {
+      const double weight = 1 - static_cast<double>(lag) / static_cast<double>(bandwidth + 1);
+      MatrixXd sum = MatrixXd::Zero(unknowns, unknowns);
+      for (Index k = lag; k < frames; ++k)
+        sum += series[static_cast<std::size_t>(k)] *
+               series[static_cast<std::size_t>(k - lag)].transpose();
+      middle += lag == 0 ? sum : MatrixXd(weight * (sum + sum.transpose()));
+    }
+  }
+  return middle;
+}
+
+std::string describe(const Problem& problem, const VectorXd& direction) {
+  std::string text;
+  for (Index j = 0; j < direction.size(); ++j) {
+    if (std::abs(direction[j]) < 0.1) continue;
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    text += text.empty() ? (direction[j] < 0 ? "-" : "") : (direction[j] < 0 ? " - " : " + ");
+    text += number_text(std::round(100 * std::abs(direction[j])) / 100) + " " +
+            (unknown.scale == Scale::kLogarithmic ? "ln " : "") + unknown.name;
+  }
+  return text;
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kIdentifiable:
+      return "identifiable";
+    case Verdict::kPracticallyNot:
+      return "practically_not";
+    case Verdict::kStructurallyNot:
+      return "structurally_not";
+    case Verdict::kAtBound:
+      return "at_bound";
+  }
+  return "identifiable";
+}
+
+Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double expected_noise) {
+  const Evaluation evaluation = evaluate(problem, x, false, true);
+  if (!evaluation.ok) throw std::runtime_error(evaluation.message);
+  const Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
+  const VectorXd weights = noise_of(problem, residuals).cwiseInverse();
+  const VectorXd range = ranges(problem, x);
+  MatrixXd jacobian = weights.asDiagonal() * residuals.jacobian * range.asDiagonal();
+  const Index count = residuals.value.size(), unknowns = x.size();
+  if (count <= unknowns)
+    throw std::runtime_error("fewer measured values (" + std::to_string(count) +
+                             ") than unknowns (" + std::to_string(unknowns) + ")");
+  const VectorXd r = residuals.value.cwiseProduct(weights);
+  const Joints joints = joints_of(problem, evaluation);  // of joined windows: they bind the starts
+
+  Uncertainty out;
+  out.noise = expected_noise > 0
+                  ? expected_noise
+                  : std::sqrt(r.squaredNorm() /
+                              static_cast<double>(count - unknowns + joints.value.size()));
+  if (!(out.noise > 0)) out.noise = std::numeric_limits<double>::min();
+  jacobian /= out.noise;
+  MatrixXd with_joints(count + joints.value.size(), unknowns);
+  with_joints << jacobian,
+      joints.weight.asDiagonal() * joints.jacobian * range.asDiagonal() / out.noise;
+  const Eigen::BDCSVD<MatrixXd> svd(with_joints, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  out.singular_values = svd.singularValues();
+  // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
+  const double largest = joints.value.size() ? Eigen::BDCSVD<MatrixXd>(jacobian).singularValues()[0]
+                                             : out.singular_values[0];
+  const double smallest = 1e-6 * largest;
+  Index rank = 0;
+  while (rank < unknowns && out.singular_values[rank] > smallest) ++rank;
+
+  const MatrixXd known = svd.matrixV().leftCols(rank);
+  const MatrixXd inverse = known *
+                           out.singular_values.head(rank).cwiseAbs2().cwiseInverse().asDiagonal() *
+                           known.transpose();
+  MatrixXd covariance = inverse;
+  if (expected_noise <= 0) {
+    const auto [colour, pairs] = lag_one(residuals, r);
+    out.colour = colour;
+    out.coloured = pairs > 0 && std::abs(colour) > 2.58 / std::sqrt(static_cast<double>(pairs));
+    if (out.coloured) {
+      const double rho = std::clamp(colour, -0.97, 0.97);
+      covariance = inverse * autoregressive_middle(residuals, jacobian, rho) * inverse;
+      const VectorXd robust =
+          (inverse * robust_middle(residuals, jacobian, r / out.noise, rho) * inverse).diagonal();
+      // The robust estimate scatters; where it is far above, markers are correlated or the colour
+      // lasts longer than AR(1) knows.
+      constexpr double kFarAbove = 2;
+      VectorXd stretch = VectorXd::Ones(unknowns);
+      for (Index j = 0; j < unknowns; ++j)
+        if (robust[j] > kFarAbove * covariance(j, j))
+          stretch[j] = std::sqrt(robust[j] / covariance(j, j));
+      covariance = stretch.asDiagonal() * covariance * stretch.asDiagonal();
+    }
+  }
+
+  const MatrixXd null = svd.matrixV().rightCols(unknowns - rank);
+  VectorXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  out.correlation =
+      MatrixXd::Constant(unknowns, unknowns, std::numeric_limits<double>::quiet_NaN());
+  std::vector<bool> lost(static_cast<std::size_t>(unknowns), false);
+  constexpr double kPart =
+      0.02;  // of a direction of unit length: less than that takes no part in it
+  for (Index j = 0; j < unknowns; ++j)
+    lost[static_cast<std::size_t>(j)] = null.cols() > 0 && null.row(j).norm() > kPart;
+  for (Index j = 0; j < unknowns; ++j) {
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    Estimate estimate;
+    if (lost[static_cast<std::size_t>(j)]) deviation[j] = kInfinite;
+    estimate.standard_error = deviation[j] * std::abs(range[j]);
+    if (unknown.scale == Scale::kLogarithmic) {
+      estimate.lower = x[j] * std::exp(-kQuantile * deviation[j]);
+      estimate.upper = x[j] * std::exp(kQuantile * deviation[j]);
+    } else {
+      estimate.lower = x[j] - kQuantile * estimate.standard_error;
+      estimate.upper = x[j] + kQuantile * estimate.standard_error;
+    }
+    const double near = 1e-6 * std::abs(x[j]);
+    if (lost[static_cast<std::size_t>(j)])
+      estimate.verdict = Verdict::kStructurallyNot;
+    else if (expected_noise <= 0 && (x[j] <= unknown.lower + near || x[j] >= unknown.upper - near))
+      estimate.verdict = Verdict::kAtBound;
+    else if (kQuantile * deviation[j] > 1)
+      estimate.verdict = Verdict::kPracticallyNot;
+    out.estimates.push_back(estimate);
+    for (Index i = 0; i <= j; ++i)
+      if (!lost[static_cast<std::size_t>(i)] && !lost[static_cast<std::size_t>(j)])
+        out.correlation(i, j) = out.correlation(j, i) =
+            i == j ? 1 : covariance(i, j) / (deviation[i] * deviation[j]);
+  }
+  for (Index i = unknowns; i-- > 0;) {  // the weakest first
+    WeakDirection weak;
+    weak.deviation = i >= rank ? kInfinite : 1 / out.singular_values[i];
+    if (kQuantile * weak.deviation <= 1) break;
+    weak.direction = svd.matrixV().col(i);
+    weak.text = describe(problem, weak.direction);
+    Index largest;
+    weak.direction.cwiseAbs().maxCoeff(&largest);
+    out.suggestions.push_back("fix \"" +
+                              problem.unknowns()[static_cast<std::size_t>(largest)].name +
+                              "\", or measure what tells it from the others");
+    out.weak.push_back(std::move(weak));
+  }
+  return out;
+}
+
+Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty) {
+  // The squares of an AR(1) process are correlated by the square of its correlation.
+  const double square =
+      uncertainty.coloured ? std::min(uncertainty.colour * uncertainty.colour, 0.94) : 0;
+  const double relative =
+      std::sqrt((1 + square) / (1 - square) / (2 * static_cast<double>(channel.count)));
+  return {channel.deviation * relative, channel.deviation * std::exp(-kQuantile * relative),
+          channel.deviation * std::exp(kQuantile * relative), Verdict::kIdentifiable};
+}
+
+}  // namespace catena

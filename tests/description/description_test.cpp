@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "description/description.hpp"
+
+#include <doctest/doctest.h>
+
+#include "common/whole_file.hpp"
+#include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+const std::string kHead = "format = 1\nkind = \"model\"\nid = \"chain\"\n";
+const std::string kEffect =
+    "format = 1\nkind = \"effect\"\nid = \"push\"\ntitle = \"Push\"\ndescription = \"A push\"\n"
+    "[parameters.f]\nunit = \"N\"\ndescription = \"f\"\nneutral = 0.0\n"
+    "[[force]]\nat = \"load\"\nside = \"f\"\n";
+
+}  // namespace
+
+TEST_CASE("a description names built-in effects and files beside it") {
+  const testing::TemporaryFolder folder;
+  folder.write("push.toml", kEffect);
+  const auto path = folder.write(
+      "chain.toml", kHead + "links = [2, 12]\neffects = [\"load_drag\", \"push.toml\"]\n");
+  const Description description = read_description(path);
+  CHECK(description.id == "chain");
+  CHECK(description.links == std::vector<int>{2, 12});
+  REQUIRE(description.effects.size() == 2);
+  CHECK(description.effects[0].id == "load_drag");
+  CHECK(description.effects[1].id == "push");
+}
+
+TEST_CASE("a written description reads back to the same model, from another folder too") {
+  const testing::TemporaryFolder folder;
+  folder.write("push.toml", kEffect);
+  const auto path =
+      folder.write("chain.toml", kHead + "links = [3]\neffects = [\"buoyancy\", \"push.toml\"]\n");
+  const Description description = read_description(path);
+  std::filesystem::create_directory(folder.path() / "results");
+  for (const char* name : {"again.toml", "results/again.toml"}) {
+    CAPTURE(name);
+    write_description(description, folder.path() / name);
+    const Description again = read_description(folder.path() / name);
+    CHECK(again.links == description.links);
+    CHECK(canonical_text(again) == canonical_text(description));
+  }
+}
+
+TEST_CASE("what is wrong with a description is said where it stands") {
+  const testing::TemporaryFolder folder;
+  folder.write("push.toml", kEffect);
+  struct Row {
+    std::string body, said;
+  };
+  const Row rows[] = {
+      {"links = [0]\n", ":4: links: 0 is not a link count; give whole numbers from 1"},
+      {"links = [2.5]\n", ":4: links: 2.5 in the list is not a whole number"},
+      {"links = 12\n", ":4: links: 12 is a whole number where a list of whole numbers is wanted"},
+      {"effects = [\"loaddrag\"]\n",
+       ":4: effects: \"loaddrag\" is not a built-in effect; did you mean \"load_drag\"?"},
+      {"effects = [\"pull.toml\"]\n", ":4: effects: there is no file"},
+      {"effects = [\"load_drag\", \"load_drag\"]\n",
+       ":4: effects: \"load_drag\" stands there twice; name each effect once"},
+      {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
+  };
+  for (const Row& row : rows) {
+    const auto path = folder.write("chain.toml", kHead + row.body);
+    const std::string said = failure([&] { read_description(path); });
+    CAPTURE(said);
+    CHECK(said.find(path.string() + row.said) == 0);
+  }
+  const auto path = folder.write("bad.toml", "format = 1\nkind = \"model\"\nid = \"a chain\"\n");
+  CHECK(failure([&] { read_description(path); }).find("\"a chain\" is not a name") !=
+        std::string::npos);
+}
+
+TEST_CASE("a file is written whole or not at all") {
+  const testing::TemporaryFolder folder;
+  const auto missing = folder.path() / "none" / "chain.toml";
+  CHECK(failure([&] { write_whole_file(missing, "text"); }).find("cannot be written") !=
+        std::string::npos);
+  write_whole_file(folder.path() / "a.txt", "text");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    CHECK(entry.path().filename() == "a.txt");
+    ++files;
+  }
+  CHECK(files == 1);
+}

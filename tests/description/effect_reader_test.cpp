@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "description/effect_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/failure.hpp"
+
+using namespace catena;
+
+namespace {
+
+const std::string kHead =
+    "format = 1\nkind = \"effect\"\nid = \"drag\"\ntitle = \"Drag\"\ndescription = \"d\"\n";
+const std::string kForce = "[[force]]\nat = \"load\"\nside = \"-c*velocity_side\"\n";
+const std::string kParameter = "[parameters.c]\nunit = \"N s/m\"\ndescription = \"c\"\n";
+
+// A force that uses its parameter, and one that has none.
+const std::string kForceAlone = "[[force]]\nat = \"load\"\nside = \"load_mass*gravity\"\n";
+
+std::string energy(const char* kind, const char* value) {
+  return std::string("[[") + kind + "]]\nat = \"load\"\nvalue = \"" + value + "\"\n";
+}
+
+Effect read(const std::string& body) {
+  return read_effect(TomlTable::parse(kHead + body, "drag.toml", "effect"));
+}
+
+}  // namespace
+
+TEST_CASE("an effect is read whole") {
+  const Effect effect =
+      read(kParameter + "lower = 0.0\nupper = inf\nneutral = 0.0\nscope = \"joint\"\n" +
+           "[constants.floor]\nvalue = 1e-6\nunit = \"m/s\"\n" +
+           "[[signal]]\nname = \"wind\"\nunit = \"m/s\"\n" +
+           "[[coordinate]]\nname = \"strain\"\nunit = \"1\"\nper = \"link\"\n" +
+           "[[state]]\nname = \"slip\"\nunit = \"rad\"\nper = \"joint\"\nrate = \"joint_rate\"\n" +
+           "[[definition]]\nname = \"speed\"\nat = \"load\"\nvalue = \"velocity_side + floor - "
+           "wind\"\n" +
+           "[[torque]]\nat = \"joint\"\nvalue = \"slip\"\n" +
+           "[[force]]\nat = \"load\"\nside = \"-c*speed\"\n" +
+           "[[potential]]\nat = \"link\"\nper = \"length\"\nvalue = \"c*strain\"\n" +
+           "[support]\nside = \"c\"\n[kinematics]\nload_mass = 2\n[sensor]\nclock = \"time\"\n");
+  CHECK(effect.id == "drag");
+  CHECK(effect.source_file == "drag.toml");
+  REQUIRE(effect.parameters.size() == 1);
+  CHECK(effect.parameters[0].scope == Scope::kJoint);
+  CHECK(effect.parameters[0].default_value == 0);  // the neutral value
+  CHECK(std::isinf(effect.parameters[0].upper));
+  REQUIRE(effect.constants.size() == 1);
+  CHECK(effect.constants[0].text == "1e-06");
+  CHECK(effect.signals.size() == 1);
+  CHECK(effect.coordinates.size() == 1);
+  REQUIRE(effect.states.size() == 1);
+  CHECK(effect.states[0].at == Place::kJoint);
+  REQUIRE(effect.definitions.size() == 1);
+  CHECK(effect.definitions[0].at == Place::kLoad);
+  REQUIRE(effect.forces.size() == 1);
+  CHECK(effect.forces[0].side.text == "-c*speed");
+  CHECK(effect.forces[0].side.key == "force.side");
+  CHECK(effect.forces[0].side.file == "drag.toml");
+  CHECK(effect.forces[0].side.line == 37);
+  CHECK_FALSE(effect.forces[0].down.given());
+  REQUIRE(effect.scalars.size() == 2);  // torques first, then energies
+  CHECK(effect.scalars[0].kind == ScalarKind::kTorque);
+  CHECK(effect.scalars[1].kind == ScalarKind::kPotential);
+  CHECK(effect.scalars[1].per_length);
+  CHECK(effect.support.side.given());
+  CHECK(effect.kinematics.load_mass.text == "2");
+  CHECK(effect.sensor.given());
+}
+
+TEST_CASE("numbers are not taken for names") {
+  CHECK(read("[[force]]\nat = \"load\"\nside = \"1e-6*2.5e3\"\n").forces.size() == 1);
+}
+
+TEST_CASE("a value at which the effect vanishes only in the limit gives no default") {
+  const Effect effect = read(kParameter + "neutral = inf\n" + kForce);
+  CHECK(std::isnan(effect.parameters[0].default_value));
+  CHECK(std::isinf(effect.parameters[0].neutral));
+}
+
+TEST_CASE("what is wrong with an effect is said where it stands") {
+  struct Row {
+    std::string body, said;
+  };
+  const Row rows[] = {
+      {"", "drag.toml:1: the effect does nothing; give it"},
+      {"[[forse]]\n" + kForce, "drag.toml:6: unknown key \"forse\"; did you mean \"force\"?"},
+      {"[parameters.c]\ndescription = \"c\"\n" + kForce,
+       "drag.toml:6: parameters.c: \"unit\" is missing"},
+      {"[parameters.c]\nunit = \"N s/mm\"\ndescription = \"c\"\n" + kForce,
+       "drag.toml:7: parameters.c.unit: unit \"N s/mm\": \"mm\" is not a coherent SI unit"},
+      {"[parameters.\"2c\"]\nunit = \"1\"\n" + kForce, "drag.toml:6: parameters.2c: \"2c\" is not"},
+      {"[parameters.sin]\nunit = \"1\"\n" + kForce,
+       "drag.toml:6: parameters.sin: \"sin\" has a meaning in expressions already"},
+      {"[parameters.c_2]\nunit = \"1\"\n" + kForce,
+       "drag.toml:6: parameters.c_2: \"c_2\" ends like the name of one joint or link"},
+      {kParameter + "[constants.c]\nvalue = 1\nunit = \"1\"\n" + kForce,
+       "drag.toml:9: constants.c: \"c\" is given twice in this effect"},
+      {kParameter + "lower = 2.0\nupper = 1.0\n" + kForce,
+       "drag.toml:10: parameters.c.upper: 1 is not above the lower bound, 2"},
+      {kParameter + "lower = 0.0\nneutral = -1.0\n" + kForce,
+       "drag.toml:10: parameters.c.neutral: -1 lies outside the bounds, 0 to inf"},
+      {kParameter + "upper = 1.0\ndefault = 2.0\n" + kForce,
+       "drag.toml:10: parameters.c.default: 2 lies outside the bounds, -inf to 1"},
+      {kParameter + "default = inf\n" + kForce, "drag.toml:9: parameters.c.default: is infinite"},
+      {kParameter + "scope = \"links\"\n" + kForce,
+       "drag.toml:9: parameters.c.scope: \"links\" is not known here; did you mean \"link\"?"},
+      {"[constants.e]\nvalue = inf\nunit = \"1\"\n" + kForce,
+       "drag.toml:7: constants.e.value: is not finite"},
+      {"[[force]]\nat = \"tip\"\nside = \"1\"\n",
+       "drag.toml:7: force.at: \"tip\" is not known here; known are joint, link_centre and load"},
+      {"[[force]]\nside = \"1\"\n", "drag.toml:6: force: \"at\" is missing"},
+      {"[[force]]\nat = \"load\"\n", "drag.toml:6: force: give the force as side and down, or"},
+      {"[[force]]\nat = \"load\"\nside = \"1\"\nnormal = \"1\"\n",
+       "drag.toml:6: force: give the force as side and down, or"},
+      {"[[force]]\nat = \"joint\"\nnormal = \"1\"\n", "drag.toml:6: force: a joint has no normal"},
+      {"[[force]]\nat = \"load\"\nper = \"length\"\nside = \"1\"\n",
+       "drag.toml:8: force.per: \"length\" goes with at = \"link_centre\""},
+      {"[[force]]\nat = \"link_centre\"\nper = \"mass\"\nside = \"1\"\n",
+       "drag.toml:8: force.per: \"mass\" is not known here; known are length"},
+      {"[[force]]\nat = \"load\"\nside = \"  \"\n", "drag.toml:8: force.side: is empty"},
+      {"[[force]]\nat = \"load\"\nside = true\n",
+       "drag.toml:8: force.side: true is true or false where a number is wanted"},
+      {"[[torque]]\nat = \"link_centre\"\nvalue = \"1\"\n",
+       "drag.toml:7: torque.at: \"link_centre\" is not known here"},
+      {"[[torque]]\nat = \"joint\"\n", "drag.toml:6: torque: \"value\" is missing"},
+      {"[support]\n", "drag.toml:6: support: has neither side nor down"},
+      {"[kinematics]\ncenter_offset = \"1\"\n",
+       "drag.toml:7: unknown key \"kinematics.center_offset\"; did you mean \"centre_offset\"?"},
+      {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"joint\"\n" + kForce,
+       "drag.toml:9: coordinate.per: \"joint\" is not known here"},
+      {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"link\"\n[kinematics]\nextension = "
+       "\"x\"\n",
+       "drag.toml:1: a new coordinate needs a potential, dissipation or force"},
+      {"[[state]]\nname = \"z\"\nunit = \"m\"\nper = \"joint\"\n" + kForce,
+       "drag.toml:6: state: \"rate\" is missing"},
+      {kParameter + kForceAlone, "drag.toml:1: \"c\" stands in no expression; use it or take"},
+      {"[constants.e]\nvalue = 1e-6\nunit = \"1\"\n" + kForceAlone,
+       "drag.toml:1: \"e\" stands in no expression"},
+      {energy("potential", "gravity*time"),
+       "drag.toml:8: potential.value: in \"gravity*time\": \"time\" cannot stand in an energy"},
+      {energy("kinetic", "gravity*time"),
+       "drag.toml:8: kinetic.value: in \"gravity*time\": \"time\" cannot stand in an energy"},
+      {energy("potential", "rate^2"),
+       "drag.toml:8: potential.value: in \"rate^2\": \"rate\" cannot stand in a potential"},
+      {"[[definition]]\nname = \"w\"\nat = \"load\"\nvalue = \"velocity_side\"\n" +
+           energy("potential", "w"),
+       "drag.toml:12: potential.value: in \"w\": \"w\" cannot stand in a potential"},
+      {"[[state]]\nname = \"z\"\nunit = \"m\"\nper = \"joint\"\nrate = \"1\"\n" +
+           energy("potential", "z"),
+       "drag.toml:13: potential.value: in \"z\": \"z\" cannot stand in an energy: states are not"},
+      {"[kinematics]\nload_offset = \"time\"\n",
+       "drag.toml:7: kinematics.load_offset: in \"time\": \"time\" cannot stand here"},
+      {"[[signal]]\nname = \"u\"\nunit = \"m\"\n[[signal]]\nname = \"u_rate\"\nunit = \"m\"\n" +
+           kForce,
+       "drag.toml:10: signal.name: \"u_rate\" is given twice"},
+  };
+  for (const Row& row : rows) {
+    const std::string said = failure([&] { read(row.body); });
+    CAPTURE(row.body);
+    CAPTURE(said);
+    CHECK(said.find(row.said) == 0);
+  }
+}

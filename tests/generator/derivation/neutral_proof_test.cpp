@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// With neutral values every built-in effect leaves the plain chain, and the proof notices where
+// not.
+#include "generator/derivation/neutral_proof.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace catena;
+
+namespace {
+
+constexpr int kLinks = 3;
+
+Description with(const std::vector<Effect>& effects) {
+  Description description = plain_chain();
+  description.effects = effects;
+  return description;
+}
+
+bool all_equal(const NeutralProofs& result) {
+  for (const Proof& proof : result.proofs) {
+    CAPTURE(proof.difference);
+    if (!proof.equal) return false;
+  }
+  return !result.proofs.empty();
+}
+
+}  // namespace
+
+TEST_CASE("every built-in effect vanishes at its neutral values, all together too") {
+  std::vector<Effect> all;
+  for (const std::string& id : built_in_effect_ids()) {
+    CAPTURE(id);
+    const Effect effect = built_in_effect(id);
+    const NeutralProofs result = prove_neutral(with({effect}), kLinks);
+    if (id == "axial_stretch") {
+      CHECK(result.why_not == "axial_stretch.axial_stiffness vanishes only in the limit");
+      continue;
+    }
+    CHECK(result.why_not.empty());
+    CHECK(all_equal(result));
+    CHECK(result.proofs.size() == (effect.sensor.given() ? 4u : 3u));
+    all.push_back(effect);
+  }
+  CHECK(all_equal(prove_neutral(with(all), kLinks)));
+  CHECK(prove_neutral(plain_chain(), kLinks).proofs.empty());
+}
+
+TEST_CASE("a neutral value that is none is found") {
+  struct Row {
+    std::string effect, parameter;
+    double wrong;
+  };
+  for (const Row& row : {Row{"load_drag", "coefficient", 0.5},
+                         {"scale", "factor", 1.5},
+                         {"gravity_tilt", "tilt", 0.1},
+                         {"joint_hysteresis", "moment", 1e-3},
+                         {"support_motion", "side_amplitude", 0.25},
+                         {"load_mass", "correction", 1}}) {
+    CAPTURE(row.effect);
+    Effect effect = built_in_effect(row.effect);
+    for (EffectParameter& parameter : effect.parameters) {
+      if (parameter.name == row.parameter) parameter.neutral = row.wrong;
+    }
+    const NeutralProofs result = prove_neutral(with({effect}), kLinks);
+    CHECK(std::any_of(result.proofs.begin(), result.proofs.end(),
+                      [](const Proof& proof) { return !proof.equal; }));
+  }
+}

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/cases/case.hpp"
+
+#include <doctest/doctest.h>
+
+#include "common/input_error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+const char* const kWhole = R"(format = 1
+kind = "case"
+title = "a \"whole\" case"
+
+[model]
+links = 4
+
+[cable]
+length = 2.0
+density = 0.1
+load_mass = 0.5
+
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 0.1
+unit = "N m/rad"
+free = true
+lower = 0.01
+upper = 1.0
+
+[[parameter]]
+name = "tilt"
+sets = "camera_tilt.angle"
+value = 0.0
+free = true
+lower = -0.1
+upper = 0.1
+per_experiment = true
+factor = 2.0
+
+[initial]
+shape = "smooth"
+terms = 3
+free = true
+
+[initial.velocity]
+shape = "straight"
+rates = [0.25]
+
+[[experiment]]
+name = "first"
+data = "data.csv"
+kind = "markers"
+from = 0.5
+to = 3.5
+fit_until = 2.25
+start = 0.25
+every = 2
+noise = 0.001
+length_unit = "px"
+metres_per_pixel = 0.002
+vertical = "up"
+mirrored = true
+origin = [320.0, 20.0]
+time_unit = "frames"
+frame_rate = 30.0
+markers = [
+  {name = "middle", side = "x", down = "y", arc_length = 0.75},
+  {name = "knot", side = "x", down = "y", joint = 2},
+  {name = "load", side = "x", down = "y", load = true},
+]
+
+[experiment.initial]
+shape = "catenary"
+held = {side = 0.5, down = 1.25}
+ends_at_held = true
+
+[[experiment]]
+name = "second"
+data = "data.csv"
+kind = "angles"
+use = "validate"
+window = 1.5
+angle_unit = "deg"
+wrapped = true
+angles = [{name = "arm", column = "phi", link = 2}]
+
+[[experiment.signal]]
+name = "push"
+data = "data.csv"
+time = "x"
+column = "y"
+
+[error]
+measure = "least_squares"
+loss = "huber"
+loss_scale = 2.5
+
+[optimiser]
+method = "least_squares"
+max_evaluations = 77
+tolerance = 1e-06
+starts = 3
+seed = 5
+growing_windows = [0.5, 1.0]
+
+[simulation]
+duration = 4.0
+step = 0.002
+relative_tolerance = 1e-07
+max_steps = 5000
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE_MESSAGE(at != std::string::npos, from);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a case is read as it stands") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const Case study = parse_case(kWhole, "case.toml", folder.path());
+  CHECK(study.title == "a \"whole\" case");
+  CHECK(study.links == 4);
+  CHECK(study.cable.gravity == 9.81);
+  REQUIRE(study.parameters.size() == 2);
+  CHECK(study.parameters[0].scale == Scale::kLogarithmic);
+  CHECK(study.parameters[1].scale == Scale::kLinear);
+  CHECK(study.parameters[1].per_experiment);
+  CHECK(study.parameters[1].factor == 2);
+  CHECK(study.initial.shape == Shape::kSmooth);
+  CHECK(study.initial.velocity_coefficients == std::vector<double>{0.25});
+  REQUIRE(study.experiments.size() == 2);
+  const ExperimentSpec& first = study.experiments[0];
+  CHECK(first.upward);
+  CHECK(first.origin[0] == 320);
+  CHECK(first.points[1].joint == 2);
+  CHECK(first.points[2].load);
+  REQUIRE(first.initial);
+  CHECK(first.initial->held[1] == 1.25);
+  CHECK(study.experiments[1].use == Use::kValidate);
+  CHECK(study.experiments[1].points[0].link == 2);
+  CHECK(study.experiments[1].signals[0].column == "y");
+  CHECK(study.error.loss == Loss::kHuber);
+  CHECK(study.optimiser.growing_windows.size() == 2);
+  CHECK(study.simulation.max_steps == 5000);
+}
+
+TEST_CASE("what is written is read back the same") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const Case study = parse_case(kWhole, "case.toml", folder.path());
+  const std::string once = case_text(study, folder.path());
+  const std::string twice = case_text(parse_case(once, "case.toml", folder.path()), folder.path());
+  CHECK(once == twice);
+  for (const char* line : {"arc_length = 0.75", "origin = [320, 20]", "start = 0.25",
+                           "held = {side = 0.5, down = 1.25}", "data = \"data.csv\"",
+                           "growing_windows = [0.5, 1]", "per_experiment = true"})
+    CHECK_MESSAGE(once.find(line) != std::string::npos, std::string(line));
+}
+
+TEST_CASE("each mistake is named with its line, key, value and rule") {
+  struct Row {
+    const char* from;
+    const char* to;
+    const char* expected;
+  };
+  const Row rows[] = {
+      {"format = 1", "format = 2", "format"},
+      {"kind = \"case\"", "kind = \"model\"", "kind"},
+      {"links = 4", "links = 0",
+       "case.toml:6: model.links: 0; must be a whole number of at least 1"},
+      {"links = 4", "links = 4.5", "model.links"},
+      {"links = 4", "links = 2000000", "do not fit into memory"},
+      {"links = 4", "linsk = 4", "links"},
+      {"length = 2.0", "length = -2.0", "case.toml:9: cable.length: -2; must be positive"},
+      {"length = 2.0", "length = \"2 m\"", "cable.length"},
+      {"length = 2.0", "length = 2.0\nlink_lengths = [1.0, 1.0]", "one per link"},
+      {"length = 2.0", "link_lengths = [1.0, 1.0, 0.0, 1.0]", "number 3 is 0"},
+      {"density = 0.1", "link_masses = [1.0, 1.0, -0.1, 1.0]", "number 3 is -0.1"},
+      {"density = 0.1", "densty = 0.1", "density"},
+      {"load_mass = 0.5", "load_mass = -0.5", "must not be negative"},
+      {"load_mass = 0.5", "load_mas = 0.5", "did you mean \"load_mass\"?"},
+      {"value = 0.1", "value = nan", "value"},
+      {"lower = 0.01", "lower = 2.0", "must not exceed upper"},
+      {"lower = 0.01", "lower = 1.0", "free parameter needs room"},
+      {"value = 0.1", "value = 7.0", "must lie within lower"},
+      {"lower = 0.01", "lower = 0.0\nscale = \"log\"", "positive lower bound"},
+      {"name = \"tilt\"", "name = \"k\"", "names must differ"},
+      {"factor = 2.0", "factor = 0.0", "not zero"},
+      {"shape = \"smooth\"", "shape = \"smoth\"", "smooth"},
+      {"rates = [0.25]", "rates = [0.25, 1.0]", "this shape has 1"},
+      {"data = \"data.csv\"", "data = \"absent.csv\"", "there is no such file"},
+      {"fit_until = 2.25", "fit_until = 0.25", "must be after from"},
+      {"to = 3.5", "to = 0.5", "must be after from"},
+      {"every = 2", "every = 0", "at least 1"},
+      {"noise = 0.001", "noise = 0.0", "must be positive"},
+      {"metres_per_pixel = 0.002", "", "lengths in px need it"},
+      {"frame_rate = 30.0", "", "frames per second"},
+      {"joint = 2", "joint = 5", "there are 4"},
+      {"arc_length = 0.75", "arc_length = 0.75, joint = 1", "one of arc_length, joint and load"},
+      {"link = 2", "link = 9", "there are 4"},
+      {"origin = [320.0, 20.0]", "origin = [320.0]", "two numbers"},
+      {"loss = \"huber\"", "loss = \"tukey\"", "loss"},
+      {"measure = \"least_squares\"", "measure = \"mean_distance\"",
+       "only the measure least_squares"},
+      {"method = \"least_squares\"", "method = \"simplex\"", "method"},
+      {"growing_windows = [0.5, 1.0]", "growing_windows = [1.0, 0.5]",
+       "longer than the one before"},
+      {"step = 0.002", "step = 0.0", "must be positive"},
+      {"step = 0.002", "step = 1e-9", "ten million"},
+      {"title = ", "titel = ", "did you mean \"title\"?"},
+  };
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  for (const Row& row : rows) {
+    CAPTURE(row.from);
+    CAPTURE(row.to);
+    std::string message;
+    try {
+      parse_case(replaced(kWhole, row.from, row.to), "case.toml", folder.path());
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ",
+                  std::string(row.expected));
+    CHECK_MESSAGE(message.starts_with("case.toml:"), message);
+  }
+}

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/fit.hpp"
+
+#include <doctest/doctest.h>
+
+#include "common/input_error.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/recordings.hpp"
+
+using namespace catena;
+
+namespace {
+
+Problem twin(FitMethod method, Measure measure, double k, double c, double noise = 0,
+             unsigned seed = 1) {
+  Case study = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(study, "run");
+  Case truth = study;
+  truth.parameters[0].value = k;
+  truth.parameters[1].value = c;
+  study.optimiser.method = method;
+  study.error.measure = measure;
+  const Model model = Model::built_in(2);
+  return Problem(
+      study, model,
+      {testing::with_truth(truth, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05), noise,
+                           seed)});
+}
+
+}  // namespace
+
+TEST_CASE("every method finds the truth behind perfect data, in every measure") {
+  struct Row {
+    FitMethod method;
+    double tolerance;  // relative; the kinks of the L1-like measures slow the smooth methods
+  };
+  const Row rows[] = {{FitMethod::kNelderMead, 1e-4},
+                      {FitMethod::kLeastSquares, 1e-3},
+                      {FitMethod::kLbfgs, 0.05},
+                      {FitMethod::kSlsqp, 0.05},
+                      {FitMethod::kMma, 0.05}};
+  for (const Row& row : rows)
+    for (const Measure measure :
+         {Measure::kLeastSquares, Measure::kMeanDistance, Measure::kMeanAbsolute}) {
+      CAPTURE(static_cast<int>(row.method));
+      CAPTURE(static_cast<int>(measure));
+      const Problem problem = twin(row.method, measure, 0.1, 0.005);
+      const FitResult result = fit(problem, {}, fit_least_squares);
+      CHECK(result.error < 0.02 * result.start_error);
+      CHECK(result.x[0] == doctest::Approx(0.1).epsilon(row.tolerance));
+      CHECK(result.x[1] == doctest::Approx(0.005).epsilon(10 * row.tolerance));
+      CHECK(result.failures == 0);
+    }
+}
+
+TEST_CASE("the noise of every channel is found with the physics and kept apart from it") {
+  // marker 1 is seen ten times worse than the others
+  Recording recording = twin(FitMethod::kLeastSquares, Measure::kLikelihood, 0.1, 0.005, 1e-3, 2)
+                            .experiments()[0]
+                            .recording;
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal(0, 1e-2);
+  for (Eigen::Index k = 0; k < recording.measured.cols(); ++k)
+    for (Eigen::Index c = 0; c < 2; ++c) recording.measured(c, k) += normal(generator);
+  const auto with = [&](FitMethod method, Measure measure) {
+    const Problem problem = twin(method, measure, 0.1, 0.005);
+    return Problem(problem.study(), problem.model(), {recording});
+  };
+  const Problem weighed = with(FitMethod::kLeastSquares, Measure::kLikelihood);
+  const FitResult found = fit(weighed, {}, fit_least_squares);
+  const FitResult simplex =
+      fit(with(FitMethod::kNelderMead, Measure::kLikelihood), {}, fit_least_squares);
+  CHECK(found.error <= simplex.error * (1 + 1e-6));
+  CHECK(found.x[0] == doctest::Approx(simplex.x[0]).epsilon(1e-3));
+  const Uncertainty uncertainty = uncertainty_of(weighed, found.x);
+  const Residuals residuals =
+      residuals_of(weighed, evaluate(weighed, found.x, false, false), Part::kFit);
+  const std::vector<ChannelNoise> channels = channels_of(weighed, residuals);
+  REQUIRE(channels.size() == 6);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    CAPTURE(channels[c].name);
+    const double truth = c < 2 ? std::hypot(1e-2, 1e-3) : 1e-3;
+    const Estimate estimate = noise_estimate(channels[c], uncertainty);
+    CHECK(std::abs(channels[c].deviation - truth) < 3.5 * estimate.standard_error);
+    CHECK(estimate.lower < channels[c].deviation);
+    CHECK(channels[c].deviation < estimate.upper);
+  }
+  CHECK(uncertainty.estimates.size() == 2);  // nothing but physics
+  // plain least squares lets the bad marker speak as loudly as the good ones
+  const Problem plain = with(FitMethod::kLeastSquares, Measure::kLeastSquares);
+  const FitResult rough = fit(plain, {}, fit_least_squares);
+  CHECK(uncertainty_of(plain, rough.x).estimates[0].standard_error >
+        2 * uncertainty.estimates[0].standard_error);
+}
+
+TEST_CASE("least squares ends no higher than Nelder-Mead, and is there in a few evaluations") {
+  for (const Measure measure : {Measure::kMeanDistance, Measure::kMeanAbsolute}) {
+    CAPTURE(static_cast<int>(measure));
+    const FitResult simplex =
+        fit(twin(FitMethod::kNelderMead, measure, 0.1, 0.005, 5e-3, 7), {}, fit_least_squares);
+    const FitResult squares =
+        fit(twin(FitMethod::kLeastSquares, measure, 0.1, 0.005, 5e-3, 7), {}, fit_least_squares);
+    const double there = simplex.error * (1 + 1e-4);  // a minimum on kinks
+    CHECK(squares.error <= there);
+    const auto reached =
+        std::find_if(squares.history.begin(), squares.history.end(),
+                     [&](const HistoryEntry& entry) { return entry.error <= there; });
+    const auto rough = squares.evaluations - static_cast<std::ptrdiff_t>(squares.history.size());
+    const auto evaluations = rough + (reached - squares.history.begin()) + 1;
+    MESSAGE(simplex.evaluations << " and " << evaluations << " evaluations");
+    CHECK(evaluations <= 10);
+    CHECK(squares.evaluations <= 20);  // and ends soon after
+  }
+}
+
+TEST_CASE("rough simulations lead to a fit of the problem itself") {
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kMeanDistance, 0.1, 0.005, 5e-3);
+  REQUIRE(starts_roughly(problem));
+  const FitResult result = fit(problem, {}, fit_least_squares);
+  const auto error_at = [&](const Eigen::VectorXd& x) {
+    return error_of(problem, evaluate(problem, x, false, false), Part::kFit);
+  };
+  CHECK(result.start_error == doctest::Approx(error_at(problem.start())).epsilon(1e-12));
+  CHECK(result.error == doctest::Approx(error_at(result.x)).epsilon(1e-6));
+  CHECK(static_cast<int>(result.history.size()) < result.evaluations);
+  for (const HistoryEntry& entry : result.history)
+    CHECK(entry.error == doctest::Approx(error_at(entry.x)).epsilon(1e-6));
+  CHECK(result.history.front().error < 1.1 * result.error);  // there they led
+
+  for (int limit = 1; limit < result.evaluations; ++limit) {
+    CAPTURE(limit);
+    Case study = problem.study();
+    study.optimiser.max_evaluations = limit;
+    const Problem shorter(study, problem.model(), {problem.experiments()[0].recording});
+    const FitResult limited = fit(shorter, {}, fit_least_squares);
+    CHECK(limited.status == FitStatus::kEvaluationLimit);
+    CHECK(limited.evaluations <= limit);
+    CHECK(limited.error == doctest::Approx(error_at(limited.x)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("rough simulations are of fewer frames, spread over all") {
+  const Model model = Model::built_in(2);
+  Case study = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(study, "run");
+  const Problem problem(
+      study, model,
+      {testing::with_truth(study, model, testing::empty_markers({0.5, 1.0}, 1001, 0.002))});
+  const Problem rough = problem.rough();
+  const Recording &all = problem.experiments()[0].recording,
+                  &few = rough.experiments()[0].recording;
+  REQUIRE(few.fit_frames == 101);
+  CHECK(few.time.back() == all.time.back());
+  CHECK(few.time[1] == all.time[10]);
+  CHECK(few.measured.col(100) == all.measured.col(1000));
+  CHECK(rough.study().simulation.relative_tolerance == doctest::Approx(1e-4));
+  CHECK(!rough.finer_than_rough());
+}
+
+TEST_CASE("bounds hold") {
+  for (const FitMethod method : {FitMethod::kNelderMead, FitMethod::kLeastSquares}) {
+    Problem problem = twin(method, Measure::kLeastSquares, 0.1, 0.005);
+    Case study = problem.study();
+    study.parameters[0].upper = 0.07;
+    const Problem bounded(study, problem.model(), {problem.experiments()[0].recording});
+    const FitResult result = fit(bounded, {}, fit_least_squares);
+    CHECK(result.x[0] == doctest::Approx(0.07).epsilon(1e-6));
+    CHECK(result.x[0] <= 0.07);
+  }
+}
+
+TEST_CASE("a robust loss is not led astray by outliers") {
+  Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, 1e-3, 3);
+  Recording recording = problem.experiments()[0].recording;
+  for (Eigen::Index k = 5; k < 60; k += 10) recording.measured(4, k) += 0.2;  // a marker mistaken
+  const auto found = [&](Loss loss, const Eigen::VectorXd& start = {}) {
+    Case study = problem.study();
+    study.experiments[0].noise = 1e-3;
+    study.error.loss = loss;
+    const Problem robust(study, problem.model(), {recording});
+    FitOptions options;
+    options.start = start;
+    return fit(robust, options, fit_least_squares).x;
+  };
+  const auto off = [](const Eigen::VectorXd& x) { return std::abs(std::log(x[0] / 0.1)); };
+  const double plain = off(found(Loss::kNone));
+  CHECK(plain > 0.03);
+  // the first two still feel an outlier's direction; the last forgets it, but has to start near
+  const Eigen::VectorXd huber = found(Loss::kHuber);
+  CHECK(off(huber) < 0.6 * plain);
+  CHECK(off(found(Loss::kSoftL1)) < 0.6 * plain);
+  CHECK(off(found(Loss::kCauchy, huber)) < 0.2 * plain);
+}
+
+TEST_CASE("fits stop when told to, with the best so far") {
+  const Problem problem = twin(FitMethod::kNelderMead, Measure::kLeastSquares, 0.1, 0.005);
+  std::atomic<bool> stop = false;
+  FitOptions options;
+  options.stop = &stop;
+  options.progress = [&](const Progress& progress) { stop = progress.evaluations >= 10; };
+  const FitResult interrupted = fit(problem, options, {});
+  CHECK(interrupted.status == FitStatus::kInterrupted);
+  CHECK(interrupted.evaluations == 10);
+  CHECK(interrupted.error <= interrupted.start_error);
+
+  Case study = problem.study();
+  study.optimiser.max_evaluations = 7;
+  const FitResult limited =
+      fit(Problem(study, problem.model(), {problem.experiments()[0].recording}), {}, {});
+  CHECK(limited.status == FitStatus::kEvaluationLimit);
+  CHECK(limited.evaluations == 7);
+
+  options.stop = nullptr;
+  options.time_limit = 1e-9;
+  CHECK(fit(problem, options, {}).status == FitStatus::kTimeLimit);
+}
+
+TEST_CASE("failures are counted, reported and never the best") {
+  // Steps are limited so that stiff parameters fail and soft ones do not.
+  Problem problem = twin(FitMethod::kNelderMead, Measure::kLeastSquares, 0.1, 0.005);
+  Case study = problem.study();
+  study.simulation.max_steps = 20;
+  const Problem hopeless(study, problem.model(), {problem.experiments()[0].recording});
+  for (const FitMethod method : {FitMethod::kNelderMead, FitMethod::kLeastSquares}) {
+    Case failing = study;
+    failing.optimiser.method = method;
+    const FitResult result =
+        fit(Problem(failing, problem.model(), {problem.experiments()[0].recording}), {},
+            fit_least_squares);
+    CHECK(result.status == FitStatus::kFailed);
+    CHECK(result.failures == result.evaluations);
+    CHECK(std::isinf(result.error));
+    REQUIRE(!result.failed.empty());
+    CHECK(result.failed[0].message.find("t = ") != std::string::npos);
+    CHECK(!result.message.empty());
+  }
+}
+
+TEST_CASE("what cannot be fitted is refused") {
+  Case study = testing::sections(testing::kTwoLinks);
+  const Model model = Model::built_in(2);
+  CHECK_THROWS_AS(fit(Problem(study, model), {}, {}), InputError);  // free, but no data
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005);
+  CHECK_THROWS_AS(fit(problem, {}, {}), InputError);  // no solver given
+  study = problem.study();
+  for (ParameterSpec& parameter : study.parameters) parameter.free = false;
+  CHECK_THROWS_AS(fit(Problem(study, model, {problem.experiments()[0].recording}), {}, {}),
+                  InputError);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/multi_start.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <set>
+
+#include "common/input_error.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "tests/identify/recordings.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+Problem swinging(FitMethod method, int starts) {
+  Case study = testing::sections(R"(
+[model]
+links = 2
+[cable]
+length = 1.0
+density = 0.3
+load_mass = 0.2
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 0.05
+free = true
+lower = 0.001
+upper = 1.0
+[[parameter]]
+name = "c"
+sets = "damping"
+value = 0.002
+free = true
+lower = 0.0
+upper = 0.1
+[initial]
+shape = "straight"
+angle = 0.6
+)");
+  study.optimiser.method = method;
+  study.optimiser.starts = starts;
+  study.optimiser.max_evaluations = 60;
+  testing::add_experiment(study, "run");
+  Case truth = study;
+  truth.parameters[0].value = 0.1;
+  truth.parameters[1].value = 0.005;
+  const Model model = Model::built_in(2);
+  return Problem(
+      study, model,
+      {testing::with_truth(truth, model, testing::empty_markers({0.7, 1.0}, 40, 0.05), 1e-3)});
+}
+
+bool same(const FitResult& a, const FitResult& b) {
+  bool equal = a.error == b.error && a.x == b.x && a.evaluations == b.evaluations &&
+               a.status == b.status && a.history.size() == b.history.size();
+  for (std::size_t i = 0; equal && i < a.history.size(); ++i)
+    equal = a.history[i].error == b.history[i].error && a.history[i].x == b.history[i].x;
+  return equal;
+}
+
+}  // namespace
+
+TEST_CASE("starts are the case's own and a Latin hypercube: every layer of every unknown once") {
+  const Problem problem = swinging(FitMethod::kNelderMead, 1);
+  const std::vector<Eigen::VectorXd> points = start_points(problem, 11, 4);
+  REQUIRE(points.size() == 11);
+  CHECK(points[0] == problem.start());
+  std::set<int> layers_k, layers_c;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    layers_k.insert(static_cast<int>(10 * std::log(points[i][0] / 0.001) / std::log(1000)));
+    layers_c.insert(static_cast<int>(10 * points[i][1] / 0.1));
+  }
+  CHECK(layers_k.size() == 10);
+  CHECK(layers_c.size() == 10);
+  CHECK(points == start_points(problem, 11, 4));
+  CHECK(points != start_points(problem, 11, 5));
+}
+
+TEST_CASE("any number of threads gives the same, and so does a run resumed after a cut anywhere") {
+  const testing::TemporaryFolder folder;
+  for (const FitMethod method : {FitMethod::kNelderMead, FitMethod::kLeastSquares}) {
+    CAPTURE(static_cast<int>(method));
+    const Problem problem = swinging(method, 4);
+    const std::filesystem::path file = folder.path() / "run.log";
+    std::vector<FitResult> undisturbed;
+    {
+      RunLog log(file, "key", false);
+      undisturbed = fit_from_many(problem, {}, fit_least_squares, 1, &log);
+    }
+    const std::vector<FitResult> threaded =
+        fit_from_many(problem, {}, fit_least_squares, 3, nullptr);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(same(undisturbed[i], threaded[i]));
+
+    std::string whole;
+    {
+      std::ifstream in(file, std::ios::binary);
+      whole.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    for (const double share : {0.0, 0.1, 0.37, 0.5, 0.83, 0.999, 1.0}) {
+      CAPTURE(share);
+      const auto length = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+      if (length < 40) continue;  // not even the first line
+      std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+      RunLog log(file, "key", true);
+      const std::vector<FitResult> resumed = fit_from_many(problem, {}, fit_least_squares, 2, &log);
+      for (std::size_t i = 0; i < 4; ++i) CHECK(same(undisturbed[i], resumed[i]));
+    }
+  }
+}
+
+TEST_CASE("a log of something else is refused") {
+  const testing::TemporaryFolder folder;
+  { RunLog log(folder.path() / "run.log", "one", false); }
+  CHECK_THROWS_AS(RunLog(folder.path() / "run.log", "other", true), InputError);
+  CHECK_NOTHROW(RunLog(folder.path() / "run.log", "other", false));
+}

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/models/model_provider.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include "common/input_error.hpp"
+#include "identify/fit/error.hpp"
+#include "runtime/any_links.hpp"
+#include "tests/identify/recordings.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+const char* const kSensors =
+    "format = 1\nkind = \"model\"\nid = \"seen\"\n"
+    "effects = [\"air_drag_quadratic\", \"clock_offset\", \"camera_tilt\", \"scale\"]\n";
+
+ProviderOptions options_for(const testing::TemporaryFolder& folder,
+                            std::vector<std::string>* notices) {
+  ProviderOptions options;
+  options.derive_program = std::filesystem::path(CATENA_BINARY_DIR) / "bin" / "catena-derive";
+  options.cache_directory = folder.path() / "cache";
+  if (notices) options.notice = [notices](const std::string& line) { notices->push_back(line); };
+  return options;
+}
+
+// A variable of the environment, for as long as this lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+std::size_t entries(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a built-in model needs nothing; any other is made once") {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> notices;
+  const ProviderOptions options = options_for(folder, &notices);
+  CHECK(provide_model({}, 12, options).links() == 12);
+  CHECK(!std::filesystem::exists(folder.path() / "cache"));
+  CHECK(provide_model({}, 1, options).links() == 1);
+  REQUIRE(notices.size() == 1);
+  CHECK(provide_model({}, 1, options).links() == 1);
+  CHECK(notices.size() == 1);
+  // the id of a description decides nothing: the same equations are not made again
+  const auto plain = folder.write("plain.toml", "format = 1\nkind = \"model\"\nid = \"other\"\n");
+  CHECK(provide_model(plain, 1, options).links() == 1);
+  CHECK(entries(folder.path() / "cache") == 1);
+}
+
+TEST_CASE("code from somebody else's effect is announced") {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> notices;
+  folder.write(
+      "mine.toml",
+      "format = 1\nkind = \"effect\"\nid = \"mine\"\ntitle = \"Mine\"\ndescription = \"x\"\n"
+      "[parameters.strength]\nunit = \"N m\"\nneutral = 0.0\ndescription = \"x\"\n"
+      "[[torque]]\nat = \"pivot\"\nvalue = \"strength\"\n");
+  const auto description = folder.write(
+      "d.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"mine.toml\"]\n");
+  const Model model = provide_model(description, 1, options_for(folder, &notices));
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].find("mine.toml") != std::string::npos);
+  CHECK(model.parameter_index("mine.strength") > 0);
+}
+
+TEST_CASE("what is missing or wrong is said") {
+  const testing::TemporaryFolder folder;
+  ProviderOptions options = options_for(folder, nullptr);
+  CHECK_THROWS_AS(provide_model(folder.path() / "absent.toml", 1, options), InputError);
+  const auto bad = folder.write(
+      "bad.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"air_drag_qadratic\"]\n");
+  CHECK_THROWS_AS(provide_model(bad, 1, options), InputError);
+  options.compiler = "/no/such/compiler";
+  std::string message;
+  try {
+    provide_model({}, 1, options);
+  } catch (const ModelError& error) {
+    message = error.what();
+  }
+  CHECK(message.find("/no/such/compiler") != std::string::npos);
+  CHECK(message.find("CXX") != std::string::npos);
+  options.derive_program = "/no/such/catena-derive";
+  CHECK_THROWS_AS(provide_model({}, 5, options), ModelError);
+  CHECK(entries(folder.path() / "cache") == 0);  // nothing half made is left behind
+}
+
+TEST_CASE("the plain chain does without a compiler") {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> notices;
+  const ProviderOptions options = options_for(folder, &notices);
+  auto no_compiler = std::make_unique<Environment>("CXX", "/no/such/compiler");
+  const Model model = provide_model({}, 13, options);
+  CHECK(&model.table() == &any_links_model(13).table());
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0] ==
+        "the compiler /no/such/compiler was not found: 13 links are computed by the model for any "
+        "number of links, with the same results");
+  CHECK(!std::filesystem::exists(folder.path() / "cache"));
+  // an effect, or a single link, does not
+  const auto drag = folder.write(
+      "d.toml", "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"load_drag\"]\n");
+  CHECK_THROWS_AS(provide_model(drag, 13, options), ModelError);
+  CHECK_THROWS_AS(provide_model({}, 1, options), ModelError);
+  // with a compiler it is compiled; what is in the cache needs none
+  no_compiler.reset();
+  CHECK(&provide_model({}, 13, options).table() != &model.table());
+  const Environment nothing_in_path("PATH", "/no/such/folder");
+  CHECK(&provide_model({}, 13, options).table() != &model.table());
+  const Environment by_name("CXX", "c++");
+  const Model other = provide_model({}, 14, options);
+  CHECK(&other.table() == &any_links_model(14).table());
+}
+
+TEST_CASE("two processes at once share the cache") {
+  const testing::TemporaryFolder folder;
+  const ProviderOptions options = options_for(folder, nullptr);
+  std::vector<pid_t> children;
+  for (int i = 0; i < 3; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      int status = 1;
+      try {
+        status = provide_model({}, 1, options).links() == 1 ? 0 : 1;
+      } catch (...) {
+      }
+      _exit(status);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 1;
+    waitpid(child, &status, 0);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+  }
+  CHECK(entries(folder.path() / "cache") == 1);
+}
+
+TEST_CASE("sensors are differentiated like the physics") {
+  const testing::TemporaryFolder folder;
+  const auto description = folder.write("seen.toml", kSensors);
+  const Model model = provide_model(description, 2, options_for(folder, nullptr));
+  Case study = testing::sections(R"(
+[model]
+links = 2
+[cable]
+length = 1.0
+density = 0.3
+load_mass = 0.2
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 0.05
+[[parameter]]
+name = "c"
+sets = "damping"
+value = 0.002
+[[parameter]]
+name = "drag"
+sets = "air_drag_quadratic.normal"
+value = 0.05
+free = true
+[initial]
+shape = "straight"
+angle = 0.6
+)");
+  for (int i = 0; i < model.parameters(); ++i) {
+    const std::string name = model.table().parameter[i].name;
+    if (name.starts_with("clock_offset") || name.starts_with("camera_tilt") ||
+        name.starts_with("scale")) {
+      ParameterSpec parameter;
+      parameter.name = parameter.sets = name;
+      parameter.value = model.table().parameter[i].neutral + 0.02;
+      parameter.free = true;
+      study.parameters.push_back(parameter);
+    }
+  }
+  REQUIRE(study.parameters.size() == 6);
+  testing::add_experiment(study, "run");
+  study.experiments[0].start = 0.01;
+  // from 0.23 s on: at the start itself the clock has a kink, where the cable is let go
+  Recording recording = testing::empty_markers({0.3, 1.0}, 30, 0.05);
+  for (double& t : recording.time) t += 0.23;
+  const Problem problem(study, model, {recording});
+  const Eigen::VectorXd x = problem.start();
+  const Residuals at = residuals_of(problem, evaluate(problem, x, true, true), Part::kFit);
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+    const double h = 1e-4;
+    Eigen::VectorXd plus = x, minus = x;
+    plus[j] += h;
+    minus[j] -= h;
+    const Eigen::VectorXd difference =
+        (residuals_of(problem, evaluate(problem, plus, true, false), Part::kFit).value -
+         residuals_of(problem, evaluate(problem, minus, true, false), Part::kFit).value) /
+        (2 * h);
+    CHECK((difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() <
+          1e-4 * at.jacobian.col(j).cwiseAbs().maxCoeff());
+    CHECK(at.jacobian.col(j).cwiseAbs().maxCoeff() > 1e-3);
+  }
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#include "identify/fit/error.hpp"
+#include "tests/identify/recordings.hpp"
+
+using namespace catena;
+using testing::sections;
+
+namespace {
+
+const char* const kThreeLinks = R"(
+[model]
+links = 3
+[cable]
+length = 1.2
+density = 0.3
+load_mass = 0.2
+[[parameter]]
+name = "EI"
+sets = "bending_stiffness"
+value = 0.02
+free = true
+lower = 0.001
+upper = 1.0
+[[parameter]]
+name = "damping"
+sets = "damping_length"
+value = 0.004
+free = true
+lower = 0.0001
+upper = 1.0
+[[parameter]]
+name = "length"
+sets = "cable.length"
+value = 1.2
+free = true
+lower = 1.0
+upper = 1.5
+[[parameter]]
+name = "mass"
+sets = "load_mass"
+value = 0.2
+free = true
+lower = 0.0
+upper = 1.0
+)";
+
+/// Holds the sensitivities against central differences. The simulations are good to about 1e-8, so
+/// differences over h = 1e-5 are good to about 1e-3 of what they measure.
+void check_jacobian(const Problem& problem) {
+  const Eigen::VectorXd x = problem.start();
+  const Residuals at = residuals_of(problem, evaluate(problem, x, true, true), Part::kFit);
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const double h = 1e-4 * std::max(0.1, std::abs(x[j]));
+    Eigen::VectorXd plus = x, minus = x;
+    plus[j] += h;
+    minus[j] -= h;
+    const Eigen::VectorXd difference =
+        (residuals_of(problem, evaluate(problem, plus, true, false), Part::kFit).value -
+         residuals_of(problem, evaluate(problem, minus, true, false), Part::kFit).value) /
+        (2 * h);
+    const double error = (difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() /
+                         at.jacobian.col(j).cwiseAbs().maxCoeff();
+    CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+    CHECK(error < 2e-3);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("sensitivities of markers agree with differences, whatever is unknown") {
+  const char* const starts[] = {
+      "[initial]\nshape = \"smooth\"\nterms = 2\ncoefficients = [0.4, 0.3]\nfree = true\n"
+      "[initial.velocity]\nshape = \"straight\"\nrates = [0.5]\nfree = true\n",
+      "[initial]\nshape = \"angles\"\nangles = [0.1, 0.4, 0.2]\nfree = true\n"
+      "[initial.velocity]\nshape = \"angles\"\nrates = [0.5, 0.0, 1.0]\nfree = true\n",
+      "[initial]\nshape = \"catenary\"\nheld = {side = 0.5, down = 0.8}\n",
+      "[initial]\nshape = \"hanging\"\n[initial.velocity]\nshape = \"smooth\"\nterms = 1\nrates = "
+      "[1.0]\n",
+  };
+  const Model model = Model::built_in(3);
+  for (const char* start : starts) {
+    CAPTURE(std::string(start));
+    Case study = sections(std::string(kThreeLinks) + start);
+    testing::add_experiment(study, "run");
+    // a marker in the middle of a link, one near a joint, one at the end of the shortest cable
+    // tried
+    const Problem problem(study, model, {testing::empty_markers({0.2, 0.85, 1.19}, 20, 0.05)});
+    check_jacobian(problem);
+  }
+}
+
+TEST_CASE("angles are compared as they are, the hidden parameters come back from perfect data") {
+  Case study =
+      sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 0.5\n");
+  study.parameters.resize(2);
+  testing::add_experiment(study, "run", DataKind::kAngles);
+  Recording recording;
+  recording.points.resize(1);
+  recording.points[0].link = 2;
+  recording.channels = {{0, Component::kAngle, "angle"}};
+  for (int k = 0; k < 30; ++k) recording.time.push_back(0.05 * k);
+  recording.measured.setZero(1, 30);
+  recording.fit_frames = 30;
+  const Model model = Model::built_in(3);
+  recording = testing::with_truth(study, model, recording);
+  CHECK(recording.measured(0, 0) == doctest::Approx(0.5));
+  const Problem problem(study, model, {recording});
+  CHECK(error_of(problem, evaluate(problem, problem.start(), true, false), Part::kFit) == 0);
+  check_jacobian(problem);
+}
+
+TEST_CASE("experiments share the physics and have starts of their own") {
+  Case study =
+      sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nfree = true\n");
+  study.parameters.resize(2);
+  testing::add_experiment(study, "first");
+  testing::add_experiment(study, "second");
+  testing::add_experiment(study, "unseen");
+  study.experiments[2].use = Use::kValidate;
+  const Model model = Model::built_in(3);
+  std::vector<Recording> recordings;
+  for (const double angle : {0.3, 0.6, 0.9}) {
+    Case truth = study;
+    truth.experiments.resize(1);
+    truth.initial.coefficients = {angle};
+    recordings.push_back(
+        testing::with_truth(truth, model, testing::empty_markers({0.6, 1.2}, 20, 0.05)));
+  }
+  recordings[2].fit_frames = 0;
+  const Problem problem(study, model, recordings);
+  std::vector<std::string> names;
+  for (const Unknown& unknown : problem.unknowns()) names.push_back(unknown.name);
+  CHECK(names == std::vector<std::string>{"EI", "damping", "first: angle 1", "second: angle 1"});
+  // the starts were found from the first frames, that of the unseen one too
+  CHECK(problem.unknowns()[2].start == doctest::Approx(0.3).epsilon(1e-3));
+  CHECK(problem.unknowns()[3].start == doctest::Approx(0.6).epsilon(1e-3));
+  const Evaluation evaluation = evaluate(problem, problem.start(), true, true);
+  CHECK(evaluation.ok);
+  CHECK(error_of(problem, evaluation, Part::kFit) < 1e-3);
+  CHECK(error_of(problem, evaluation, Part::kValidation) < 1e-3);
+  const Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
+  for (std::size_t i = 0; i < residuals.index.size(); ++i)  // a start moves its own experiment only
+    CHECK((residuals.jacobian(static_cast<Eigen::Index>(i), 2) == 0) ==
+          (residuals.index[i].experiment != 0));
+}
+
+TEST_CASE("a window is an experiment with a start of its own; those after fit_until validate") {
+  Case study = sections(std::string(kThreeLinks) +
+                        "[initial]\nshape = \"angles\"\nfree = true\n"
+                        "[initial.velocity]\nshape = \"angles\"\nfree = true\n");
+  testing::add_experiment(study, "run");
+  Case truth = study;
+  truth.initial.coefficients = {0.5, 0.4, 0.3};
+  truth.initial.velocity_coefficients = {0, 0, 0};
+  study.experiments[0].window = 0.5;
+  Recording recording = testing::empty_markers({0.4, 0.8, 1.2}, 61, 0.025);
+  recording = testing::with_truth(truth, Model::built_in(3), recording);
+  recording.fit_frames = 40;  // until 0.975 s
+  const Problem problem(study, Model::built_in(3), {recording});
+  REQUIRE(problem.experiments().size() == 3);
+  CHECK(problem.experiments()[0].fitted());
+  CHECK(problem.experiments()[1].fitted());
+  CHECK(!problem.experiments()[2].fitted());
+  CHECK(problem.experiments()[1].spec.name == "run from 0.5 s");
+  CHECK(problem.unknowns().size() == 4 + 2 * 6);
+  // starts found from seven frames are near enough for the whole window to be near
+  const Evaluation evaluation = evaluate(problem, problem.start(), true, false);
+  CHECK(error_of(problem, evaluation, Part::kFit) < 0.03);
+}
+
+TEST_CASE("a simulation that fails is infinitely bad, and says why") {
+  Case study = sections(std::string(kThreeLinks) +
+                        "[initial]\nshape = \"straight\"\nangle = 1.0\n"
+                        "[simulation]\nmax_steps = 20\n");
+  testing::add_experiment(study, "run");
+  const Problem problem(study, Model::built_in(3), {testing::empty_markers({1.0}, 50, 0.05)});
+  const Evaluation evaluation = evaluate(problem, problem.start(), true, true);
+  CHECK(!evaluation.ok);
+  CHECK(evaluation.message.starts_with("run: "));
+  CHECK(evaluation.message.find("t = ") != std::string::npos);
+  CHECK(error_of(problem, evaluation, Part::kFit) == std::numeric_limits<double>::infinity());
+  CHECK(evaluation.predictions[0].simulated.array().isNaN().all());
+}
+
+TEST_CASE("the case with what was found gives the same error") {
+  Case study = sections(std::string(kThreeLinks) +
+                        "[initial]\nshape = \"smooth\"\nterms = 2\nfree = true\n");
+  testing::add_experiment(study, "run");
+  Case truth = study;
+  truth.initial.coefficients = {0.4, 0.2};
+  const Model model = Model::built_in(3);
+  const Recording recording =
+      testing::with_truth(truth, model, testing::empty_markers({0.4, 0.8, 1.2}, 30, 0.05));
+  const Problem problem(study, model, {recording});
+  Eigen::VectorXd x = problem.start();
+  x *= 1.01;
+  const Problem again(problem.with(x), model, {recording});
+  CHECK((again.start() - x).cwiseAbs().maxCoeff() == 0);
+  CHECK(error_of(again, evaluate(again, again.start(), true, false), Part::kFit) ==
+        error_of(problem, evaluate(problem, x, true, false), Part::kFit));
+}

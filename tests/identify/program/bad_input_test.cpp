@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Every way to be wrong that a user may find, one by one, through the program: a message that names
+// file, line or key, value and rule; exit status 2; nothing written.
+#include <doctest/doctest.h>
+
+#include "tests/identify/program/catena_program.hpp"
+
+using namespace catena;
+using testing::replaced;
+using testing::run_catena;
+
+namespace {
+
+const char* const kData =
+    "time_s,side_1_m,down_1_m,side_2_m,down_2_m\n"
+    "0.0,0.28,0.41,0.56,0.83\n"
+    "0.1,0.27,0.42,0.55,0.84\n"
+    "0.2,0.24,0.44,0.50,0.87\n";
+
+void check_refused(const testing::TemporaryFolder& folder, const std::string& command,
+                   const std::filesystem::path& study, const std::vector<std::string>& expected) {
+  const std::filesystem::path output = folder.path() / "out";
+  const ProcessResult run = run_catena({command, study, "--output", output});
+  CHECK_MESSAGE(run.exit_status == 2, run.output);
+  for (const std::string& part : expected)
+    CHECK_MESSAGE(run.output.find(part) != std::string::npos, run.output, " lacks ", part);
+  CHECK_MESSAGE(!std::filesystem::exists(output), "something was written");
+}
+
+struct Row {
+  const char* what;
+  const char* from;
+  const char* to;
+  std::vector<std::string> expected;
+};
+
+}  // namespace
+
+TEST_CASE("mistakes in a case to be simulated") {
+  const Row rows[] = {
+      {"unknown key", "load_mass", "load_mas", {"case.toml:10", "load_mas", "load_mass"}},
+      {"unknown table", "[simulation]", "[simulaton]", {"case.toml:28", "simulaton", "simulation"}},
+      {"wrong kind", "kind = \"case\"", "kind = \"effect\"", {"case.toml:2", "kind", "case"}},
+      {"wrong format", "format = 1", "format = 7", {"case.toml:1", "format", "7"}},
+      {"wrong type", "length = 1.0", "length = \"one\"", {"case.toml:8", "cable.length", "one"}},
+      {"no TOML", "[cable]", "[cable", {"case.toml:7"}},
+      {"wrong unit", "unit = \"N m/rad\"", "unit = \"N/m\"", {"case.toml:12", "N/m", "N m/rad"}},
+      {"no unit", "unit = \"N m/rad\"", "unit = \"parsec\"", {"case.toml:12", "parsec"}},
+      {"length not positive", "length = 1.0", "length = 0.0", {"case.toml:8", "0", "positive"}},
+      {"negative density", "density = 0.3", "density = -0.3", {"case.toml:9", "-0.3", "positive"}},
+      {"negative mass", "density = 0.3", "link_masses = [0.1, -0.1]", {"case.toml:9", "-0.1"}},
+      {"negative load", "load_mass = 0.2", "load_mass = -0.2", {"case.toml:10", "-0.2"}},
+      {"no mass at all",
+       "density = 0.3\nload_mass = 0.2",
+       "link_masses = [0.0, 0.0]\nload_mass = 0.0",
+       {"case.toml", "mass matrix", "not positive definite"}},
+      {"no value", "value = 0.1", "", {"case.toml:12", "value"}},
+      {"NaN", "value = 0.1", "value = nan", {"case.toml:15", "nan"}},
+      {"negative stiffness", "value = 0.1", "value = -0.1", {"stiffness_1", "-0.1"}},
+      {"unknown parameter",
+       "sets = \"stiffness\"",
+       "sets = \"stifness\"",
+       {"stifness", "stiffness"}},
+      {"parameter not set",
+       "sets = \"damping\"",
+       "sets = \"damping_2\"",
+       {"damping_1", "no value"}},
+      {"bounds crossed",
+       "value = 0.1",
+       "value = 0.1\nlower = 1.0\nupper = 0.01",
+       {"case.toml:16", "lower", "upper"}},
+      {"links not a number", "links = 2", "links = \"two\"", {"case.toml:5", "links"}},
+      {"no links", "links = 2", "links = 0", {"case.toml:5", "0"}},
+      {"too many links", "links = 2", "links = 50000000", {"case.toml:5", "50000000", "memory"}},
+      {"held too far away",
+       "shape = \"straight\"\nangle = 0.6",
+       "shape = \"catenary\"\nheld = {side = 1.0, down = 1.0}",
+       {"case.toml", "held"}},
+      {"missing description",
+       "links = 2",
+       "links = 2\ndescription = \"no.toml\"",
+       {"case.toml:6", "no.toml", "no such file"}},
+      {"no duration", "duration = 1.0", "", {"duration"}},
+      {"step not positive", "step = 0.02", "step = 0.0", {"case.toml:30", "step"}},
+  };
+  const testing::TemporaryFolder folder;
+  for (const Row& row : rows) {
+    CAPTURE(std::string(row.what));
+    check_refused(folder, "simulate",
+                  folder.write("case.toml", replaced(testing::kSwing, row.from, row.to)),
+                  row.expected);
+  }
+  check_refused(folder, "simulate", folder.path() / "absent.toml", {"absent.toml"});
+}
+
+TEST_CASE("mistakes in a case to be identified, and in its data") {
+  const Row cases[] = {
+      {"missing data", "data = \"data.csv\"", "data = \"no.csv\"", {"case.toml:36", "no.csv"}},
+      {"bounds crossed", "upper = 1.0", "upper = 0.0001", {"case.toml:18", "lower", "upper"}},
+      {"start outside the bounds", "value = 0.05", "value = 5.0", {"case.toml:15", "5"}},
+      {"unknown method",
+       "measure = \"mean_distance\"",
+       "measure = \"mean_distance\"\n[optimiser]\nmethod = \"annealing\"",
+       {"annealing"}},
+      {"free parameters without data",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nuse = \"validate\"",
+       {"case.toml", "without data"}},
+      {"nothing free", "free = true\nlower = 0.001\nupper = 1.0", "", {"case.toml"}},
+      {"window without frames",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nfrom = 7.0",
+       {"0 frames"}},
+      {"angles asked of markers", "kind = \"markers\"", "kind = \"angles\"", {"theta_1_rad"}},
+  };
+  const Row data[] = {
+      {"not a number", "0.27", "abc", {"data.csv:3", "side_1_m", "abc"}},
+      {"a short row", "0.1,0.27,0.42,0.55,0.84", "0.1,0.27,0.42", {"data.csv:3", "3 fields", "5"}},
+      {"a long row", "0.84", "0.84,1,2", {"data.csv:3", "7 fields"}},
+      {"NaN", "0.27", "nan", {"data.csv:3", "nan"}},
+      {"times not increasing", "0.2,0.24", "0.1,0.24", {"data.csv:4", "time_s", "increase"}},
+      {"no time", "0.2,0.24", ",0.24", {"data.csv:4", "time_s"}},
+      {"no such columns", "side_1_m", "sideways", {"data.csv", "side_1_m"}},
+      {"one frame", "0.1,0.27,0.42,0.55,0.84\n0.2,0.24,0.44,0.50,0.87\n", "", {"1 frames", "two"}},
+  };
+  const testing::TemporaryFolder folder;
+  const std::string whole =
+      replaced(replaced(testing::kFit, "swing/positions.csv", "data.csv"), "fit_until = 0.6\n", "");
+  folder.write("data.csv", kData);
+  for (const Row& row : cases) {
+    CAPTURE(std::string(row.what));
+    std::string text = replaced(whole, row.from, row.to);
+    if (std::string(row.what) == "nothing free")
+      text = replaced(text, "free = true\nlower = 0.0001\nupper = 1.0", "");
+    check_refused(folder, "identify", folder.write("case.toml", text), row.expected);
+  }
+  const auto study = folder.write("case.toml", whole);
+  for (const Row& row : data) {
+    CAPTURE(std::string(row.what));
+    folder.write("data.csv", replaced(kData, row.from, row.to));
+    check_refused(folder, "identify", study, row.expected);
+  }
+  folder.write("data.csv", "");
+  check_refused(folder, "identify", study, {"data.csv", "empty"});
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "identify/cases/case.hpp"
+#include "tests/identify/program/catena_program.hpp"
+
+using namespace catena;
+using testing::run_catena;
+
+namespace {
+
+/// A folder with swing/positions.csv, made with k = 0.1 and c = 0.005.
+struct Twin {
+  testing::TemporaryFolder folder;
+  Twin() {
+    const auto swing = folder.write("swing.toml", testing::kSwing);
+    REQUIRE(
+        run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
+        0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it") {
+  const Twin twin;
+  for (const char* method : {"nelder_mead", "least_squares"}) {
+    CAPTURE(std::string(method));
+    const auto study = twin.folder.write(
+        "fit.toml", std::string(testing::kFit) + "[optimiser]\nmethod = \"" + method + "\"\n");
+    const std::filesystem::path out = twin.folder.path() / "out" / method;
+    const ProcessResult run = run_catena({"identify", study, "--output", out});
+    CHECK_MESSAGE(run.exit_status == 0, run.output);
+    for (const char* word : {"identified", "fit", "validate", "RMS before", "RMS after", "mm"})
+      CHECK(run.output.find(word) != std::string::npos);
+    const Case fitted = read_case(out / "fitted.toml");
+    CHECK(fitted.parameters[0].value == doctest::Approx(0.1).epsilon(1e-3));
+    CHECK(fitted.parameters[1].value == doctest::Approx(0.005).epsilon(1e-3));
+    const ProcessResult again =
+        run_catena({"simulate", out / "fitted.toml", "--output", out / "again"});
+    CHECK_MESSAGE(again.exit_status == 0, again.output);
+    // the fitted case simulates to what the fit saw, digit by digit
+    CHECK(testing::text_of(out / "again" / "residuals.csv") ==
+          testing::text_of(out / "residuals.csv"));
+    CHECK(testing::text_of(out / "residuals.csv").find(",validate,") != std::string::npos);
+    const std::string before = testing::text_of(out / "result.json");
+    CHECK(run_catena({"identify", study, "--output", out, "-q"}).output.empty());
+    CHECK(testing::text_of(out / "result.json") == before);
+  }
+}
+
+TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
+  const Twin twin;
+  // a long fit: many links, many starts
+  std::string slow = testing::replaced(testing::kFit, "links = 2", "links = 60");
+  slow +=
+      "[optimiser]\nmethod = \"nelder_mead\"\nstarts = 1000\nmax_evaluations = 1000000\n"
+      "[simulation]\nrelative_tolerance = 1e-11\n";
+  const auto study = twin.folder.write("fit.toml", slow);
+  const std::filesystem::path out = twin.folder.path() / "out";
+  const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program.c_str(), "catena", "identify", study.c_str(), "--output", out.c_str(), "-q",
+          nullptr);
+    _exit(127);
+  }
+  usleep(1'500'000);
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 130);
+  CHECK(testing::text_of(out / "result.json").find("\"status\": \"interrupted\"") !=
+        std::string::npos);
+  CHECK(read_case(out / "fitted.toml").parameters.size() == 2);
+
+  const ProcessResult limited =
+      run_catena({"identify", study, "--output", out / "limited", "--time-limit", "1.5", "-q"});
+  CHECK(limited.exit_status == 0);
+  CHECK(testing::text_of(out / "limited" / "result.json").find("\"status\": \"time_limit\"") !=
+        std::string::npos);
+}
+
+TEST_CASE("a run killed at random times and resumed ends as an undisturbed one does") {
+  const Twin twin;
+  const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
+  for (const char* method : {"nelder_mead", "least_squares"}) {
+    CAPTURE(std::string(method));
+    const bool simplex = method == std::string("nelder_mead");
+    const auto study =
+        twin.folder.write("fit.toml", testing::replaced(testing::kFit, "links = 2", "links = 12") +
+                                          "[optimiser]\nmethod = \"" + method +
+                                          "\"\nstarts = " + (simplex ? "8" : "60") +
+                                          "\n[simulation]\nrelative_tolerance = 1e-9\n");
+    const std::filesystem::path whole = twin.folder.path() / method / "whole";
+    const std::filesystem::path killed = twin.folder.path() / method / "killed";
+    const auto begin = std::chrono::steady_clock::now();
+    REQUIRE(run_catena({"identify", study, "--output", whole, "-q"}).exit_status == 0);
+    const std::chrono::duration<double> needed = std::chrono::steady_clock::now() - begin;
+
+    std::mt19937_64 random(simplex ? 1 : 2);
+    int kills = 0, logged = 0, grew = 0;
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      const pid_t child = fork();
+      if (child == 0) {
+        execl(program.c_str(), "catena", "identify", study.c_str(), "--output", killed.c_str(),
+              "--resume", "-q", nullptr);
+        _exit(127);
+      }
+      const double share = static_cast<double>(random() % 1000) / 1000;  // of what the whole needs
+      usleep(static_cast<useconds_t>(1e6 * (0.02 + 0.3 * share) * needed.count()));
+      kill(child, SIGKILL);
+      int status = 0;
+      waitpid(child, &status, 0);
+      kills += WIFSIGNALED(status);
+      const std::string log = testing::text_of(killed / "run.log");
+      const auto lines = static_cast<int>(std::count(log.begin(), log.end(), '\n'));
+      grew += lines > logged;
+      logged = lines;
+    }
+    CHECK(kills >= 4);  // else the run ended before it could be killed
+    CHECK(grew >= 2);   // what came before a kill is kept
+    REQUIRE(run_catena({"identify", study, "--output", killed, "--resume", "-q"}).exit_status == 0);
+    for (const char* file : {"result.json", "fitted.toml", "residuals.csv", "positions.csv"}) {
+      CAPTURE(std::string(file));
+      CHECK(testing::text_of(killed / file) == testing::text_of(whole / file));
+    }
+  }
+}
+
+TEST_CASE("a study of the number of links refits, tells how the numbers converge and recommends") {
+  testing::TemporaryFolder folder;
+  // a cable with bending stiffness and damping of its own, the same for any number of links
+  const auto as_cable = [](std::string text) {
+    for (const auto& [from, to] :
+         {std::pair{"\"stiffness\"", "\"bending_stiffness\""},
+          std::pair{"\"damping\"", "\"damping_length\""}, std::pair{"\"N m/rad\"", "\"N m^2\""},
+          std::pair{"\"N m s/rad\"", "\"N m^2 s/rad\""}})
+      text = testing::replaced(text, from, to);
+    return text;
+  };
+  const std::string fine = as_cable(testing::replaced(testing::kSwing, "links = 2", "links = 24"));
+  const auto swing = folder.write("swing.toml", fine);
+  REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
+          0);
+  std::string fit = as_cable(testing::kFit);
+  fit = testing::replaced(
+      fit, "kind = \"markers\"",
+      "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
+      "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
+  const auto study = folder.write("fit.toml", fit + "[optimiser]\nmethod = \"least_squares\"\n");
+  const std::filesystem::path out = folder.path() / "out";
+  const ProcessResult run = run_catena(
+      {"identify", study, "--links-study", "2,4,12,24", "--output", out, "--error-budget", "0.05"});
+  CHECK_MESSAGE(run.exit_status == 0, run.output);
+  // nothing but 24 links comes near the data of 24 links, which are without noise
+  CHECK(run.output.find("fewest links within 5 % of the least error: 24") != std::string::npos);
+  const auto json = nlohmann::json::parse(testing::text_of(out / "links_study.json"));
+  REQUIRE(json["links_study"].size() == 4);
+  double last = 1;
+  for (const auto& row : json["links_study"]) {
+    CHECK(row["error"].get<double>() < last);
+    last = row["error"];
+    if (row["links"] == 24)
+      CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+  }
+  const ProcessResult wide = run_catena(
+      {"identify", study, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
+  CHECK(wide.output.find("least error: 2\n") != std::string::npos);
+  const ProcessResult refused = run_catena(
+      {"identify",
+       folder.write("joint.toml", testing::replaced(fit, "arc_length = 0.5", "joint = 1")),
+       "--links-study", "2,4", "--output", out});
+  CHECK(refused.exit_status == 2);
+  CHECK(refused.output.find("is at a joint") != std::string::npos);
+}

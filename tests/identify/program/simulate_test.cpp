@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <doctest/doctest.h>
+
+#include "identify/recordings/recording.hpp"
+#include "identify/recordings/table.hpp"
+#include "tests/identify/program/catena_program.hpp"
+
+using namespace catena;
+using testing::run_catena;
+
+TEST_CASE("simulate writes what it says, the same every time") {
+  const testing::TemporaryFolder folder;
+  const auto study = folder.write("swing.toml", testing::kSwing);
+  const std::string first = folder.path() / "first", second = folder.path() / "second";
+  const ProcessResult run = run_catena({"simulate", study, "--output", first});
+  CHECK_MESSAGE(run.exit_status == 0, run.output);
+  CHECK(run.output.find("energy balance kept within") != std::string::npos);
+  CHECK(run.output.find("\033") == std::string::npos);  // no terminal, no colours, no progress
+  CHECK(run.output.find("\r") == std::string::npos);
+  CHECK(run_catena({"simulate", study, "--output", second, "--quiet"}).output.empty());
+  for (const char* name : {"result.json", "positions.csv", "angles.csv", "energy.csv"}) {
+    CAPTURE(std::string(name));
+    const std::string text = testing::text_of(std::filesystem::path(first) / name);
+    CHECK(text.size() > 500);
+    CHECK(text == testing::text_of(std::filesystem::path(second) / name));
+  }
+  const Table positions = read_table(std::filesystem::path(first) / "positions.csv");
+  CHECK(positions.rows() == 51);
+  CHECK(positions.column("time_s").back() == 1.0);
+  CHECK(positions.column("side_1_m").front() ==
+        doctest::Approx(0.5 * std::sin(0.6)).epsilon(1e-15));
+  CHECK(positions.column("down_2_m").front() == doctest::Approx(std::cos(0.6)).epsilon(1e-15));
+  CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() ==
+        0.6);
+  const ProcessResult json = run_catena({"simulate", study, "--output", second, "--json"});
+  CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
+  CHECK(json.output.find("The Lagrangian is") != std::string::npos);
+}
+
+TEST_CASE("a simulation that fails says which state and when, exits with 1 and writes nothing") {
+  const testing::TemporaryFolder folder;
+  const auto study = folder.write("swing.toml", testing::replaced(testing::kSwing, "step = 0.02",
+                                                                  "step = 0.02\nmax_steps = 10"));
+  const std::string output = folder.path() / "out";
+  const ProcessResult run = run_catena({"simulate", study, "--output", output});
+  CHECK(run.exit_status == 1);
+  CHECK(run.output.find("t = ") != std::string::npos);
+  CHECK(!std::filesystem::exists(output));
+}
+
+TEST_CASE("help fits a screen and shows an example; derive is handed over") {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"--help"}, {"simulate", "--help"}, {"identify", "--help"}}) {
+    const ProcessResult help = run_catena(command);
+    CHECK(help.exit_status == 0);
+    CHECK(std::count(help.output.begin(), help.output.end(), '\n') <= 40);
+    CHECK(help.output.find("xample") != std::string::npos);
+  }
+  const ProcessResult derive = run_catena({"derive", "--help"});
+  CHECK(derive.exit_status == 0);
+  CHECK(derive.output.find("--links") != std::string::npos);
+  CHECK(run_catena({}).exit_status == 2);
+  CHECK(run_catena({"simulat"}).exit_status == 2);
+  CHECK(run_catena({"simulate"}).exit_status == 2);
+  CHECK(run_catena({"simulate", "a.toml", "--no-such-option"}).exit_status == 2);
+}

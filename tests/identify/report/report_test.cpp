@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/report/report.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "common/input_error.hpp"
+#include "identify/report/html.hpp"
+#include "identify/report/payload.hpp"
+#include "identify/report/report_figures.hpp"
+#include "identify/report/residuals.hpp"
+#include "identify/report/spectrum.hpp"
+#include "tests/identify/report/made_results.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace catena::report {
+namespace {
+
+using nlohmann::json;
+
+std::filesystem::path write(const std::filesystem::path& file, const json& value) {
+  std::ofstream(file) << value;
+  return file;
+}
+
+Document read(const json& value) {
+  const testing::TemporaryFolder folder;
+  return read_document(write(folder.path() / "result.json", value));
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::set<std::string> families(const std::vector<ReportFigure>& figures) {
+  std::set<std::string> names;
+  for (const ReportFigure& entry : figures) names.insert(entry.family);
+  return names;
+}
+
+TEST_CASE("a file that cannot be read says where and why") {
+  struct Row {
+    std::function<void(json&)> spoil;
+    const char* words;
+  };
+  const std::vector<Row> rows = {
+      {[](json& r) { r["kind"] = "case"; },
+       "result.kind is \"case\"; it must be \"result\" or \"diagnosis\""},
+      {[](json& r) { r["format"] = 2; }, "result.format is 2; this program reads format 1"},
+      {[](json& r) { r = 3; }, "it must be a result or a diagnosis"},
+      {[](json& r) { r["title"] = 7; }, "result.title is 7; it must be text"},
+      {[](json& r) { r["experiments"][0]["trajectory"]["side"][1].push_back(1.0); },
+       "result.experiments[0].trajectory.side[1] is"},
+      {[](json& r) { r["experiments"][0]["measured"]["side"].erase(0); },
+       "it has 12 rows where side has 11"},
+      {[](json& r) {
+         r["experiments"][0]["predicted"]["side"].erase(0);
+         r["experiments"][0]["predicted"]["down"].erase(0);
+       },
+       "predicted has 11 rows for 12 points"},
+      {[](json& r) { r["parameters"][0]["interval"] = {1}; },
+       "parameters[0].interval is [1]; it must have two ends"},
+      {[](json& r) { r["parameters"][0]["value"] = "big"; },
+       "parameters[0].value is \"big\"; it must be a number or null"},
+      {[](json& r) { r["optimiser"]["history"]["error"].push_back(1.0); },
+       "it must have one number per error"},
+      {[](json& r) { r["experiments"][0]["energy"]["items"][0]["value"] = {1}; },
+       "one number per time of the energy"},
+      {[](json& r) {
+         r["correlation"] = {{1, 0}, {0}};
+       },
+       "it has 1 entries where 2 are due"},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.words);
+    json result = made_identification(3, 1, 30);
+    row.spoil(result);
+    std::string message;
+    try {
+      read(result);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(message.find(row.words) != std::string::npos);
+    CHECK(message.find("result.json") != std::string::npos);
+  }
+  const testing::TemporaryFolder folder;
+  CHECK_THROWS_WITH_AS(read_document(folder.path() / "none.json"),
+                       doctest::Contains("cannot be opened"), InputError);
+  std::ofstream(folder.path() / "half.json") << "{\"format\": 1, ";
+  CHECK_THROWS_WITH_AS(read_document(folder.path() / "half.json"), doctest::Contains("not JSON"),
+                       InputError);
+}
+
+TEST_CASE(
+    "a folder stands for its diagnosis, else for its result; a round's result may be a file") {
+  const testing::TemporaryFolder folder;
+  write(folder.path() / "result.json", made_pendulum());
+  CHECK(read_document(folder.path()).result.title == "A made-up double pendulum");
+  json diagnosis = made_diagnosis();
+  write(folder.path() / "after.json", diagnosis["rounds"][1]["result"]);
+  diagnosis["rounds"][1]["result"] = "after.json";
+  write(folder.path() / "diagnosis.json", diagnosis);
+  const Document document = read_document(folder.path());
+  REQUIRE(document.diagnosis);
+  CHECK(document.result.title == "A made-up diagnosis");
+  CHECK(document.diagnosis->rounds[1].result->experiments.size() == 1);
+}
+
+TEST_CASE("null is NaN for a number and infinity for the end of an interval") {
+  const Document document = read(made_identification(3, 1, 30));
+  const Parameter& beta = document.result.parameters[1];
+  CHECK(std::isnan(beta.lower));
+  CHECK(std::isinf(beta.high));
+  CHECK(beta.low == 0.2);
+  CHECK(std::isnan(document.result.history_error[10]));
+}
+
+TEST_CASE("residuals: measured minus predicted in mm, gaps kept") {
+  Experiment experiment;
+  experiment.measured = Measured{{{"a", 1.0}},
+                                 {{0, 1}, {{1.003, kAbsent}}, {{2.0, 2.0}}, {}},
+                                 {{0, 1}, {{1.0, 1.0}}, {{2.004, 2.0}}, {}}};
+  const Residuals residuals = residuals_of(experiment);
+  CHECK(residuals.unit == "mm");
+  CHECK(residuals.side[0][0] == doctest::Approx(3));
+  CHECK(residuals.down[0][0] == doctest::Approx(-4));
+  CHECK(residuals.size[0][0] == doctest::Approx(5));
+  CHECK(std::isnan(residuals.size[0][1]));
+  CHECK(mean_over_points({{1, kAbsent}, {3, kAbsent}}, 2)[0] == 2);
+  CHECK(std::isnan(mean_over_points({{1, kAbsent}, {3, kAbsent}}, 2)[1]));
+  CHECK(root_mean_square({3, kAbsent, 4}) == doctest::Approx(std::sqrt(12.5)));
+}
+
+TEST_CASE("a sine's amplitude and frequency are seen, at any offset, across a gap") {
+  Row time;
+  Row value;
+  for (int k = 0; k < 400; ++k) {
+    time.push_back(10 + 0.01 * k);
+    const bool lost = k > 100 && k < 104;
+    value.push_back(lost ? kAbsent : 7 + 3 * std::sin(2 * std::numbers::pi * 2.5 * time.back()));
+  }
+  const Spectrum spectrum = amplitude_spectrum(time, value);
+  const auto largest = std::max_element(spectrum.amplitude.begin(), spectrum.amplitude.end());
+  CHECK(*largest == doctest::Approx(3).epsilon(0.01));
+  CHECK(spectrum.frequency[static_cast<std::size_t>(largest - spectrum.amplitude.begin())] ==
+        doctest::Approx(2.5));
+  CHECK(spectrum.frequency.back() == doctest::Approx(50));
+  CHECK(amplitude_spectrum({0, 1, 2}, {1, 2, 3}).frequency.empty());
+  CHECK(amplitude_spectrum(time, Row(400, kAbsent)).frequency.empty());
+}
+
+TEST_CASE("every figure that the data allow, each drawable under its own name") {
+  struct Row {
+    json result;
+    std::set<std::string> families;
+  };
+  const std::set<std::string> motion = {"shapes", "frames", "position_side", "position_down"};
+  const auto with = [](std::set<std::string> all, const std::set<std::string>& more) {
+    all.insert(more.begin(), more.end());
+    return all;
+  };
+  const std::set<std::string> seen =
+      with(motion, {"residuals", "error_over_time", "residual_map", "spectrum_side",
+                    "spectrum_down", "energy", "energy_balance"});
+  for (const Row& row :
+       {Row{made_simulation(4, 2, 50),
+            with(motion, {"position_angle", "energy", "energy_balance"})},
+        Row{made_identification(4, 2, 50),
+            with(seen, {"error_by_step", "parameter_by_step", "waterfall", "profile", "correlation",
+                        "error_by_links"})},
+        Row{made_pendulum(),
+            {"shapes", "frames", "position_angle", "residuals", "error_over_time", "residual_map",
+             "spectrum_angle"}},
+        Row{made_diagnosis(),
+            with(seen, {"gap", "scores", "before_after_error", "before_after_position",
+                        "residual_map_before", "residual_map_after", "before_after_spectrum",
+                        "missing_force"})}}) {
+    const auto figures = report_figures(read(row.result));
+    CHECK(families(figures) == row.families);
+    std::set<std::string> ids;
+    for (const ReportFigure& entry : figures) {
+      CAPTURE(entry.figure.id);
+      CHECK_NOTHROW(plot::check(entry.figure));
+      CHECK(ids.insert(entry.figure.id).second);
+      CHECK_FALSE(entry.figure.title.empty());
+      CHECK_FALSE(entry.figure.x.label.empty());
+    }
+  }
+}
+
+TEST_CASE("a result with next to nothing in it still makes a report") {
+  const Document document = read({{"format", 1}, {"kind", "result"}, {"command", "simulate"}});
+  CHECK(report_figures(document).empty());
+  CHECK(to_html(document, {}).find("<h1>catena simulate</h1>") != std::string::npos);
+}
+
+TEST_CASE("the HTML stands alone: nothing from elsewhere, nothing that ends the script early") {
+  const Document document = read(made_identification(4, 2, 50));
+  const std::string html = to_html(document, report_figures(document));
+  const std::string page = html.substr(0, html.rfind("<script>"));  // its words, not the script's
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count(page, " src=") == 0);
+  CHECK(count(page, "<link") == 0);
+  CHECK(count(page, "@import") == 0);
+  CHECK(count(page, "url(http") == 0);
+  CHECK(count(html, "</script>") == 2);
+  CHECK(html.find("<h1>A made-up cable &lt;1&gt; &amp; its fit</h1>") != std::string::npos);
+  CHECK(html.find("links = 4  # &lt;b&gt; &amp; &quot;quotes&quot;") != std::string::npos);
+  CHECK(html.find("practically not; the data bound it from below only") != std::string::npos);
+  CHECK(html.find("0.2\u00a0…\u00a0∞") != std::string::npos);
+  CHECK(html.find("As derived from the Lagrangian and the effects, with 2 links") !=
+        std::string::npos);
+  CHECK(html.find("- k_{1} \\theta_{1}^{2} &lt; 0") !=
+        std::string::npos);                                         // for the script to typeset
+  CHECK(html.find("Dissipation per length") != std::string::npos);  // the built-in effect's formula
+  CHECK(to_html(document, report_figures(document)) == html);
+}
+
+TEST_CASE("60 links, 12 markers, 6 s at 60 Hz stay under 5 MB") {
+  const Document document = read(made_identification(60, 6, 60));
+  CHECK(to_html(document, report_figures(document)).size() < 5'000'000);
+}
+
+TEST_CASE("the data as JSON: figures refer to columns; long ones are thinned only where asked") {
+  const Document document = read(made_identification(4, 2, 50));
+  const auto figures = report_figures(document);
+  for (const std::size_t most : {std::size_t{0}, std::size_t{30}}) {
+    CAPTURE(most);
+    const json data = json::parse(payload(document, figures, most));
+    CHECK(data["kind"] == "report");
+    std::size_t longest = 0;
+    for (const json& figure : data["figures"]) {
+      for (const json& series : figure["series"]) {
+        const json& x = data["columns"].at(series["x"].get<std::size_t>());
+        CHECK(x.size() == data["columns"].at(series["y"].get<std::size_t>()).size());
+        longest = std::max(longest, x.size());
+      }
+    }
+    CHECK(longest == (most == 0 ? 101 : 30));  // 101 frames; every third of 90 steps
+  }
+}
+
+TEST_CASE(
+    "a diagnosis gives its estimates' errors to the last round's parameters, and its formulas") {
+  const Document document = read(made_diagnosis());
+  const auto& parameters = document.result.parameters;
+  REQUIRE(parameters.size() == 4);
+  CHECK(parameters[2].name == "drag");
+  CHECK(parameters[2].value == 0.00891);
+  CHECK(parameters[2].high == 0.00905);
+  CHECK(parameters[2].verdict == "identifiable");
+  const std::string html = to_html(document, {});
+  CHECK(html.find("<math><mi>V</mi></math>") != std::string::npos);
+  for (const char* shown :
+       {"12 links are enough", "The case's 12 links are those of the final model",
+        "too small a change to matter", "it opposes the motion and grows with its square",
+        "film it for 12 s; look at the load", "the predictions differ by 8.7 times the noise there",
+        "Refitted, and worse", "10<sup>−523</sup>", "dissipated power",
+        "equals the case's to 3×10⁻¹⁵"}) {
+    CAPTURE(shown);
+    CHECK(html.find(shown) != std::string::npos);
+  }
+}
+
+TEST_CASE("formulas are read one by one or as two lists") {
+  json diagnosis = made_diagnosis();
+  json& candidate = diagnosis["rounds"][0]["candidates"][0];
+  candidate["formulas"] = {{"mathml", json::array({"<math><mi>Q</mi></math>"})},
+                           {"latex", json::array({"Q"})}};
+  const auto formulas = read(diagnosis).diagnosis->rounds[0].candidates[0].formulas;
+  REQUIRE(formulas.size() == 1);
+  CHECK(formulas[0].mathml == "<math><mi>Q</mi></math>");
+  CHECK(formulas[0].latex == "Q");
+}
+
+TEST_CASE("radial residuals are differences of the distance from the support") {
+  Experiment experiment;
+  experiment.measured = Measured{};
+  experiment.measured->points = {{"load", 1}};
+  experiment.measured->values = {{0, 1}, {{3, 0.6}}, {{4, 0.8}}, {}};
+  experiment.measured->predicted = {{0, 1}, {{0, 0.6}}, {{4.9, 0.8}}, {}};
+  const Residuals residuals = residuals_of(experiment);
+  REQUIRE(residuals.radial.size() == 1);
+  CHECK(residuals.radial[0][0] == doctest::Approx(100));  // mm
+  CHECK(residuals.radial[0][1] == 0);
+  CHECK(mean_absolute(residuals.radial[0]) == doctest::Approx(50));
+  CHECK(residuals.size[0][0] == doctest::Approx(1e3 * std::hypot(3, 0.9)));
+}
+
+TEST_CASE("files: one CSV and one SVG for each figure, and the parameters") {
+  const testing::TemporaryFolder folder;
+  const Document document = read(made_diagnosis());
+  const Written written = write_report(
+      document, {folder.path() / "deep/report.html", folder.path() / "csv", folder.path() / "svg"});
+  const auto files = [&](const char* name) {
+    const std::filesystem::directory_iterator entries(folder.path() / name);
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+  };
+  CHECK(files("csv") == written.figures + 1);
+  CHECK(files("svg") == written.figures);
+  CHECK(std::filesystem::file_size(folder.path() / "deep/report.html") == written.html_bytes);
+  const std::string parameters = text_of(folder.path() / "csv/parameters.csv");
+  CHECK(parameters.find("\nbeta,0.9544,1,true,,0.2,inf,1.8,,100,practically_not,stiffness\n") !=
+        std::string::npos);
+  CHECK(text_of(folder.path() / "csv/gap.csv") ==
+        "series,model,gap / mm\nfitted part,baseline,31\nfitted part,with air_drag_quadratic,1.2\n"
+        "held out,baseline,44\nheld out,with air_drag_quadratic,1.3\n");
+}
+
+}  // namespace
+}  // namespace catena::report

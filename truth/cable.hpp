@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "truth/hidden.hpp"
+
+namespace truth {
+
+/// A cable in the plane, cut finer than the models that are to explain it, and its motion from
+/// rest. Written apart from generator/, generated/ and runtime/ on purpose: the equations are
+/// Newton's for each link, swept from tip to support, and the integrator is the implicit midpoint
+/// rule.
+struct Cable {
+  int links = 24;
+  double length = 2.585;    // m
+  double density = 0.1424;  // kg/m
+  double bending_stiffness =
+      0.014;  // EI, N m^2; joint stiffness EI / link length, double at the clamp
+  double bending_damping = 0.008;  // N m^2 s; joint damping likewise
+  double load_mass = 1.381;        // kg
+  double gravity = 9.81;           // m/s^2
+};
+
+/// Positions of points on the cable over time.
+struct Motion {
+  std::vector<double> time;                            // s
+  std::vector<double> arc;                             // m from the support, unstretched
+  std::vector<std::vector<double>> side, down, angle;  // [time][point], m and rad
+};
+
+struct Integration {
+  double step = 2e-4;  // s; halving it moves no marker of the recordings by more than 0.05 mm
+};
+
+/// Absolute angles of the links of a cable hanging between the origin and a held point, released
+/// from there: chords of the catenary of the given length. Throws std::invalid_argument if the
+/// point is out of reach.
+std::vector<double> catenary_angles(const Cable& cable, double held_side, double held_down);
+
+/// The motion from rest at the given link angles, seen at the points `arc` at times `time`
+/// (increasing, from 0). Throws std::runtime_error if the integration fails.
+Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
+            const std::vector<double>& arc, const std::vector<double>& time,
+            const Integration& integration = {});
+
+/// Kinetic plus potential energy over time of the same motion without hidden effects, J, for the
+/// tests of this simulator itself.
+std::vector<double> mechanical_energy(const Cable& cable, const std::vector<double>& start_angles,
+                                      const std::vector<double>& time,
+                                      const Integration& integration = {});
+
+}  // namespace truth

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "truth/cable.hpp"
+#include "truth/hidden.hpp"
+
+namespace truth {
+
+/// A camera that follows marks on the cable.
+struct Camera {
+  double rate = 60;        // frames per second
+  double duration = 6;     // s
+  int markers = 12;        // evenly spaced, the last one at the load
+  double noise = 1e-3;     // m, standard deviation per coordinate
+  double lost = 0;         // share of marks not seen, half of them in runs of ten frames
+  double pixel = 0;        // m; positions are rounded to whole pixels after the noise, 0: not
+  std::uint64_t seed = 1;  // of noise and loss
+};
+
+/// What is written to markers.csv; NaN where a marker was not seen.
+struct Recording {
+  std::vector<double> time;                     // s
+  std::vector<double> arc;                      // m
+  std::vector<std::vector<double>> side, down;  // [frame][marker], m
+};
+
+/// Random numbers that are the same on every machine (splitmix64, Box-Muller).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  double uniform();  // in (0, 1)
+  double normal();   // mean 0, deviation 1
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Films the motion from rest at the given link angles. The sensor's own hidden effects (clock,
+/// scale, tilt, offset) come before the noise.
+Recording film(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
+               const Camera& camera, const Integration& integration = {});
+
+}  // namespace truth

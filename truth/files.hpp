@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "truth/camera.hpp"
+
+namespace truth {
+
+/// time_s, side_i_m, down_i_m; an empty field where a marker was not seen.
+void write_markers(const Recording& recording, const std::filesystem::path& path);
+
+/// What an analyst knows: geometry, masses, rate, camera; stiffness and damping unknown, the start
+/// a smooth unknown shape at rest.
+std::string case_text(const Cable& cable, const Camera& camera, int case_links);
+
+/// Everything, for comparing afterwards.
+std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& camera,
+                       const std::vector<double>& held);
+
+/// Throws std::runtime_error if it cannot be written.
+void write_text(const std::string& text, const std::filesystem::path& path);
+
+}  // namespace truth

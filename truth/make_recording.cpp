@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Makes a recording of a cable with something hidden in it: markers.csv and case.toml for the
+// analyst, truth.toml, which the workflow under test never reads, for whoever wants to compare
+// afterwards.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "truth/camera.hpp"
+#include "truth/files.hpp"
+
+int main(int argc, char** argv) {
+  truth::Cable cable;
+  truth::Camera camera;
+  truth::Integration integration;
+  std::vector<double> held = {1.2, 2.0};
+  std::vector<std::string> effects;
+  std::filesystem::path output;
+  int case_links = 24;
+
+  CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
+  app.add_option("--output", output, "folder to write to")->required();
+  app.add_option("--effect", effects,
+                 "NAME=VALUE, e.g. air_drag_quadratic.normal=0.05; repeatable");
+  app.add_option("--links", cable.links, "links of the hidden chain")->check(CLI::Range(1, 500));
+  app.add_option("--case-links", case_links, "links of the case's model")
+      ->check(CLI::Range(1, 500));
+  app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
+  app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
+  app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");
+  app.add_option("--bending-damping", cable.bending_damping, "N m^2 s");
+  app.add_option("--load", cable.load_mass, "kg")->check(CLI::NonNegativeNumber);
+  app.add_option("--held", held, "side and down of the point the end is released from, m")
+      ->expected(2);
+  app.add_option("--rate", camera.rate, "frames/s")->check(CLI::PositiveNumber);
+  app.add_option("--duration", camera.duration, "s")->check(CLI::PositiveNumber);
+  app.add_option("--markers", camera.markers, "marks on the cable")->check(CLI::Range(1, 1000));
+  app.add_option("--noise", camera.noise, "m")->check(CLI::NonNegativeNumber);
+  app.add_option("--lost", camera.lost, "share of marks not seen")->check(CLI::Range(0.0, 0.9));
+  app.add_option("--pixel", camera.pixel, "m")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", camera.seed, "of noise and losses");
+  app.add_option("--step", integration.step, "of the integrator, s")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    truth::Hidden hidden;
+    for (const std::string& effect : effects) {
+      const std::size_t equals = effect.find('=');
+      if (equals == std::string::npos)
+        throw std::invalid_argument("--effect " + effect + ": NAME=VALUE is expected");
+      truth::set_hidden(hidden, effect.substr(0, equals), std::stod(effect.substr(equals + 1)));
+    }
+    const auto start = truth::catenary_angles(cable, held[0], held[1]);
+    const truth::Recording recording = truth::film(cable, hidden, start, camera, integration);
+    std::filesystem::create_directories(output);
+    truth::write_markers(recording, output / "markers.csv");
+    truth::write_text(truth::case_text(cable, camera, case_links), output / "case.toml");
+    truth::write_text(truth::truth_text(cable, hidden, camera, held), output / "truth.toml");
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "make_recording: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "make_recording: " << error.what() << '\n';
+    return 1;
+  }
+}
