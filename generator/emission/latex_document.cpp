@@ -290,7 +290,7 @@ class Document {
 
   void matrix_equation(std::vector<LatexEquations>& found) {
     std::string text =
-        "I(\\vec{\\theta}) \\ddot{\\vec{\\theta}} + C "
+        "M(\\vec{\\theta}) \\ddot{\\vec{\\theta}} + C "
         "\\dot{\\vec{\\theta}} + K \\vec{\\theta} + \\vec{F}(\\vec{\\theta}, "
         "\\dot{\\vec{\\theta}}) + \\vec{G}(\\vec{\\theta}) = \\vec{T}";
     for (const Effect& effect : description_.effects) {
@@ -309,17 +309,17 @@ class Document {
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const std::size_t n = chain.coordinates().size();
     found.push_back(
-        {"with the symmetric inertia matrix", matrix("I", n, n, [](std::size_t i, std::size_t j) {
-           return "I_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
+        {"with the symmetric mass matrix", matrix("M", n, n, [](std::size_t i, std::size_t j) {
+           return "M_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
          })});
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < n; ++i) {
       const ex row = latex.written_out(chain.residual()[i]);
       for (std::size_t j = 0; j < n; ++j) {
         const std::string comma = i > 8 || j > 8 ? "," : "";
-        const std::string left = "I_{" + number(i) + comma + number(j) + "}";
+        const std::string left = "M_{" + number(i) + comma + number(j) + "}";
         if (j < i) {
-          equations.push_back(left + " ={}& I_{" + number(j) + comma + number(i) + "}");
+          equations.push_back(left + " ={}& M_{" + number(j) + comma + number(i) + "}");
           continue;
         }
         const ex entry = row.coeff(chain.accelerations()[j]).expand();

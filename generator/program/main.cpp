@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// catena-derive: everything that takes computer algebra. Exit status 0 success, 1 a failed
-// computation or a difference found, 2 usage or input.
+// catena-derive: the commands that need computer algebra. Exit status 0: success; 1: a computation
+// failed or a difference was found; 2: wrong usage or input.
 #include <cstdio>
 #include <exception>
 
+#include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/manual.hpp"
 #include "generator/program/commands.hpp"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   catena::add_verify_command(app, status);
   catena::add_manual_command(app);
   try {
+    catena::check_command_name(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;

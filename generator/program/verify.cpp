@@ -15,7 +15,7 @@ void add_verify_command(CLI::App& app, int& status) {
   CLI::App* command =
       app.add_subcommand("verify", "Derive the plain chain, compare with closed forms");
   command->add_option("--links", *links, "link counts")->capture_default_str();
-  command->footer("Example: catena-derive verify --links 2 3 4 12 60");
+  command->footer("Exit status 1 if one differs.\nExample: catena verify --links 2 3 4 12 60");
   command->callback([links, &status] {
     for (const int n : *links) {
       if (n < 1)

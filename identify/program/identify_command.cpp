@@ -5,6 +5,7 @@
 #include <iostream>
 #include <thread>
 
+#include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
@@ -210,24 +211,24 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
   command->add_option("--bootstrap", options.bootstrap, "so many refits of resampled residuals")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command
       ->add_option("--links-study", options.links_study,
                    "refit with these numbers of links: 6,12,24")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--error-budget", options.error_budget,
                    "so much above its least error will do; 0.05")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command->add_flag("--resume", options.resume, "go on where a run that was killed stopped");
   command
       ->add_option("--time-limit", options.time_limit,
                    "stop after so many seconds, with the best so far")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->callback([&exit_status] { exit_status = identify_case(options); });
 }
 

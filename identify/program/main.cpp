@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 
+#include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/manual.hpp"
 #include "identify/models/process.hpp"
@@ -9,16 +10,27 @@
 namespace catena {
 namespace {
 
-const char* const kHandedOver[] = {"derive", "check", "certify"};
+struct HandedOver {
+  const char* name;
+  const char* summary;
+};
 
-/// `catena derive ...` is `catena-derive derive ...`, as git hands over to git-foo.
+/// The commands of catena-derive, which needs GiNaC: `catena derive ...` becomes
+/// `catena-derive derive ...`.
+constexpr HandedOver kHandedOver[] = {
+    {"derive", "derive models and emit their C++"},
+    {"check", "check a derivation made by hand"},
+    {"verify", "compare the derived plain chain with the closed forms"},
+    {"certify", "compare emitted models with their certificates"},
+};
+
 void hand_over(int argc, char** argv) {
   if (argc < 2) return;
-  for (const char* name : kHandedOver)
-    if (std::string(argv[1]) == name) {
-      std::vector<std::string> command = {find_derive_program().string()};
-      command.insert(command.end(), argv + 1, argv + argc);
-      become_process(command);
+  for (const HandedOver& command : kHandedOver)
+    if (std::string(argv[1]) == command.name) {
+      std::vector<std::string> call = {find_derive_program().string()};
+      call.insert(call.end(), argv + 1, argv + argc);
+      become_process(call);
     }
 }
 
@@ -34,11 +46,11 @@ int run(int argc, char** argv) {
   add_identify_command(program, exit_status);
   add_report_command(program, exit_status);
   add_diagnose_command(program, exit_status);
-  program.add_subcommand("derive", "derive models and emit their C++");
-  program.add_subcommand("check", "check a derivation made by hand");
-  program.add_subcommand("certify", "hold emitted models against their certificates");
+  for (const HandedOver& command : kHandedOver)
+    program.add_subcommand(command.name, command.summary);
   add_manual_command(program);
   program.footer("catena COMMAND --help tells more. Example:\n  catena identify cable.toml");
+  check_command_name(program, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the LaTeX says, held against chapter 3's printed equations, typed in by hand.
+// The LaTeX is compared with the equations printed in chapter 3, typed in by hand. Chapter 3 calls
+// the mass matrix I; catena calls it M everywhere (docs/model.md).
 #include <doctest/doctest.h>
 
 #include <string>
@@ -54,8 +55,8 @@ const Row kChapter3[] = {
     {2, R"(= T_{\theta_2} - c_2 (\dot{\theta}_2 - \dot{\theta}_1)
         = T_{\theta_2} + c_2 \dot{\theta}_1 - c_2 \dot{\theta}_2)"},
     // after (3.5)
-    {2, R"(I_{11} = (\frac{m_1}{4} + m_2 + m_c) l_1^2 + I_{R_1})"},
-    {2, R"(I_{12} = l_1 l_2 (\frac{m_2}{2} + m_c) \cos(\theta_1 - \theta_2))"},
+    {2, R"(M_{11} = (\frac{m_1}{4} + m_2 + m_c) l_1^2 + I_{R_1})"},
+    {2, R"(M_{12} = l_1 l_2 (\frac{m_2}{2} + m_c) \cos(\theta_1 - \theta_2))"},
     {2, R"(C = \begin{bmatrix} c_1 + c_2 & -c_2 \\ -c_2 & c_2 \end{bmatrix})"},
     {2, R"(K = \begin{bmatrix} k_1 + k_2 & -k_2 \\ -k_2 & k_2 \end{bmatrix})"},
     {2, R"(f_1 = l_1 l_2 (\frac{m_2}{2} + m_c) \sin(\theta_1 - \theta_2) \dot{\theta}_2^2)"},
@@ -79,7 +80,7 @@ const Row kChapter3[] = {
         + (\frac{m_4}{2} + m_c) l_3 l_4 \cos(\theta_3 - \theta_4) \dot{\theta}_3 \dot{\theta}_4
         - \frac{1}{2} k_1 \theta_1^2 - \frac{1}{2} k_2 (\theta_2 - \theta_1)^2
         - \frac{1}{2} k_3 (\theta_3 - \theta_2)^2 - \frac{1}{2} k_4 (\theta_4 - \theta_3)^2)"},
-    {4, R"(I_{23} = l_2 l_3 (\frac{m_3}{2} + m_4 + m_c) \cos(\theta_2 - \theta_3))"},
+    {4, R"(M_{23} = l_2 l_3 (\frac{m_3}{2} + m_4 + m_c) \cos(\theta_2 - \theta_3))"},
 };
 
 }  // namespace

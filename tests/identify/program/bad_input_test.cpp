@@ -144,3 +144,25 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
   folder.write("data.csv", "");
   check_refused(folder, "identify", study, {"data.csv", "empty"});
 }
+
+TEST_CASE("mistakes on the command line") {
+  struct CommandRow {
+    std::vector<std::string> arguments;
+    std::vector<std::string> expected;
+  };
+  const CommandRow rows[] = {
+      {{"symulate"}, {"symulate is not a command; did you mean \"simulate\"?"}},
+      {{"foo"}, {"foo is not a command; known are certify, check,", "simulate"}},
+      {{"identify", "case.toml", "--threads", "0"}, {"--threads: 0 is not a number above 0"}},
+      {{"identify", "case.toml", "--time-limit", "x"}, {"--time-limit: x is not a number above 0"}},
+      {{"identify", "case.toml", "--bootstrap", "-1"},
+       {"--bootstrap: -1 is not a number from 0 on"}},
+  };
+  for (const CommandRow& row : rows) {
+    const ProcessResult run = run_catena(row.arguments);
+    CHECK_MESSAGE(run.exit_status == 2, run.output);
+    for (const std::string& part : row.expected)
+      CHECK_MESSAGE(run.output.find(part) != std::string::npos, run.output, " lacks ", part);
+    CHECK_MESSAGE(run.output.size() < 200, run.output);
+  }
+}

@@ -48,7 +48,7 @@ TEST_CASE("a simulation that fails says which state and when, exits with 1 and w
   CHECK(!std::filesystem::exists(output));
 }
 
-TEST_CASE("help fits a screen and shows an example; derive is handed over") {
+TEST_CASE("help fits a screen and shows an example") {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"--help"}, {"simulate", "--help"}, {"identify", "--help"}}) {
     const ProcessResult help = run_catena(command);
@@ -56,11 +56,21 @@ TEST_CASE("help fits a screen and shows an example; derive is handed over") {
     CHECK(std::count(help.output.begin(), help.output.end(), '\n') <= 40);
     CHECK(help.output.find("xample") != std::string::npos);
   }
-  const ProcessResult derive = run_catena({"derive", "--help"});
-  CHECK(derive.exit_status == 0);
-  CHECK(derive.output.find("--links") != std::string::npos);
   CHECK(run_catena({}).exit_status == 2);
   CHECK(run_catena({"simulat"}).exit_status == 2);
   CHECK(run_catena({"simulate"}).exit_status == 2);
   CHECK(run_catena({"simulate", "a.toml", "--no-such-option"}).exit_status == 2);
+}
+
+TEST_CASE("every command of catena-derive can be called as a command of catena") {
+  const ProcessResult help = run_catena({"--help"});
+  for (const std::string command : {"derive", "check", "verify", "certify"}) {
+    CHECK(help.output.find("\n  " + command + " ") != std::string::npos);
+    const ProcessResult handed_over = run_catena({command, "--help"});
+    CHECK_MESSAGE(handed_over.exit_status == 0, handed_over.output);
+    CHECK_MESSAGE(handed_over.output.find("--links") != std::string::npos, handed_over.output);
+  }
+  const ProcessResult verified = run_catena({"verify", "--links", "2"});
+  CHECK_MESSAGE(verified.exit_status == 0, verified.output);
+  CHECK_MESSAGE(verified.output.find("M equal, F equal") != std::string::npos, verified.output);
 }
