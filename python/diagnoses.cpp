@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "common/input_error.hpp"
+#include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "python/core.hpp"
@@ -61,9 +62,10 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   std::exception_ptr raised;
   const auto finished = std::make_shared<FinishedDiagnosis>();
   const auto work = [&] {
-    const Case study = read_case(case_file);
-    finished->workshop = std::make_unique<Workshop>(
-        study.description, effects, finished->scratch.path(), fit_least_squares, ProviderOptions{});
+    const Case the_case = read_case(case_file);
+    finished->workshop =
+        std::make_unique<Workshop>(the_case.description, effects, finished->scratch.path(),
+                                   fit_least_squares, ProviderOptions{});
     Workshop& workshop = *finished->workshop;
     workshop.stop = &stop;
     workshop.threads = threads;
@@ -79,7 +81,7 @@ Shared diagnose_case(const std::filesystem::path& case_file,
         }
       };
     try {
-      finished->found = diagnose(study, workshop, {max_effects, max_links, refits});
+      finished->found = diagnose(the_case, workshop, {max_effects, max_links, refits});
       finished->findings = find_out(finished->found);
     } catch (const InputError&) {
       throw;

@@ -10,6 +10,8 @@
 #include <atomic>
 #include <memory>
 
+#include "identify/cases/case_reader.hpp"
+#include "identify/cases/case_writer.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -167,7 +169,7 @@ void add_studies(py::module_& module) {
 
   py::class_<Study>(module, "Study", "A case file with its model and its data.")
       .def(py::init<const std::filesystem::path&>(), "case"_a)
-      .def_property_readonly("title", [](const Study& s) { return s.problem->study().title; })
+      .def_property_readonly("title", [](const Study& s) { return s.problem->the_case().title; })
       .def_property_readonly("model", [](const Study& s) { return s.problem->model(); })
       .def_property_readonly("unknowns", &unknown_names, "Names of what is to be found.")
       .def_property_readonly(

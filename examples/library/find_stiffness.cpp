@@ -13,13 +13,13 @@ namespace {
 
 /// Four links, seen at the middle and at the load 50 times a second for two seconds.
 catena::Case four_links() {
-  catena::Case study;
-  study.links = 4;
-  study.cable.length = 1.0;   // m
-  study.cable.density = 0.1;  // kg/m
-  study.cable.load_mass = 0.2;
-  study.initial.shape = catena::Shape::kStraight;
-  study.initial.coefficients = {0.6};  // rad
+  catena::Case the_case;
+  the_case.links = 4;
+  the_case.cable.length = 1.0;   // m
+  the_case.cable.density = 0.1;  // kg/m
+  the_case.cable.load_mass = 0.2;
+  the_case.initial.shape = catena::Shape::kStraight;
+  the_case.initial.coefficients = {0.6};  // rad
 
   catena::ParameterSpec stiffness;
   stiffness.name = "k";
@@ -41,12 +41,12 @@ catena::Case four_links() {
   clamp.name = "k_1";
   clamp.sets = "stiffness_1";
   clamp.unit = "N m/rad";
-  study.parameters = {stiffness, damping, clamp};
+  the_case.parameters = {stiffness, damping, clamp};
 
   catena::ExperimentSpec run;
   run.name = "run";
-  study.experiments = {run};
-  return study;
+  the_case.experiments = {run};
+  return the_case;
 }
 
 catena::Recording blank_recording() {

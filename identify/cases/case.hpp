@@ -11,7 +11,7 @@
 namespace catena {
 
 /// What a case file (TOML, kind = "case") says, checked as far as that goes without model and data.
-/// SI units, angles in rad. Every key is described in docs/file-formats.md.
+/// SI units, angles in rad. Every key is described in docs/case-files.md.
 
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
@@ -181,17 +181,5 @@ struct Case {
   OptimiserSpec optimiser;
   SimulationSpec simulation;
 };
-
-/// Reads and checks a case file. Throws InputError naming file, line, key, value and rule.
-Case read_case(const std::filesystem::path& path);
-/// The same from text; relative paths in it are relative to `directory`.
-Case parse_case(const std::string& text, const std::string& name,
-                const std::filesystem::path& directory);
-
-/// The case as text that parse_case reads back to the same case. Paths are written relative to
-/// `directory`; numbers read back to the same doubles.
-std::string case_text(const Case& study, const std::filesystem::path& directory);
-/// Writes case_text, whole or not at all.
-void write_case(const Case& study, const std::filesystem::path& path);
 
 }  // namespace catena

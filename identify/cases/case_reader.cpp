@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/cases/case_reader.hpp"
+
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -6,7 +8,6 @@
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
-#include "identify/cases/case.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
@@ -302,42 +303,43 @@ SimulationSpec read_simulation(const TomlTable& table) {
 
 Case read(const TomlTable& file, const std::filesystem::path& path,
           const std::filesystem::path& directory) {
-  Case study;
-  study.file = path;
-  study.title = file.optional_text("title").value_or("");
+  Case the_case;
+  the_case.file = path;
+  the_case.title = file.optional_text("title").value_or("");
   const TomlTable model = file.table("model");
-  study.links = count(model, "links", 0, 1);
-  if (study.links > kMostLinks)
-    model.fail("links", std::to_string(study.links) + "; more than " + std::to_string(kMostLinks) +
-                            " do not fit into memory");
+  the_case.links = count(model, "links", 0, 1);
+  if (the_case.links > kMostLinks)
+    model.fail("links", std::to_string(the_case.links) + "; more than " +
+                            std::to_string(kMostLinks) + " do not fit into memory");
   if (const auto description = model.optional_text("description")) {
-    study.description = directory / *description;
-    if (!std::filesystem::is_regular_file(study.description))
-      model.fail("description", study.description.string() + "; there is no such file");
+    the_case.description = directory / *description;
+    if (!std::filesystem::is_regular_file(the_case.description))
+      model.fail("description", the_case.description.string() + "; there is no such file");
   }
-  study.cable = read_cable(file.table("cable"), study.links);
+  the_case.cable = read_cable(file.table("cable"), the_case.links);
   std::set<std::string> names;
   for (const TomlTable& table : file.tables("parameter")) {
-    study.parameters.push_back(read_parameter(table));
-    if (!names.insert(study.parameters.back().name).second)
-      table.fail("name", "\"" + study.parameters.back().name + "\"; names must differ");
+    the_case.parameters.push_back(read_parameter(table));
+    if (!names.insert(the_case.parameters.back().name).second)
+      table.fail("name", "\"" + the_case.parameters.back().name + "\"; names must differ");
   }
   if (const auto initial = file.optional_table("initial"))
-    study.initial = read_initial(*initial, study.links);
-  study.signals = read_signals(file, directory);
+    the_case.initial = read_initial(*initial, the_case.links);
+  the_case.signals = read_signals(file, directory);
   names.clear();
   for (const TomlTable& table : file.tables("experiment")) {
-    study.experiments.push_back(read_experiment(
-        table, static_cast<int>(study.experiments.size()) + 1, study.links, directory));
-    if (!names.insert(study.experiments.back().name).second)
-      table.fail("name", "\"" + study.experiments.back().name + "\"; names must differ");
+    the_case.experiments.push_back(read_experiment(
+        table, static_cast<int>(the_case.experiments.size()) + 1, the_case.links, directory));
+    if (!names.insert(the_case.experiments.back().name).second)
+      table.fail("name", "\"" + the_case.experiments.back().name + "\"; names must differ");
   }
-  if (const auto table = file.optional_table("error")) study.error = read_error(*table);
-  if (const auto table = file.optional_table("optimiser")) study.optimiser = read_optimiser(*table);
+  if (const auto table = file.optional_table("error")) the_case.error = read_error(*table);
+  if (const auto table = file.optional_table("optimiser"))
+    the_case.optimiser = read_optimiser(*table);
   if (const auto table = file.optional_table("simulation"))
-    study.simulation = read_simulation(*table);
+    the_case.simulation = read_simulation(*table);
   file.finish();
-  return study;
+  return the_case;
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/cases/case_writer.hpp"
+
 #include <cmath>
 
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
-#include "identify/cases/case.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
@@ -185,34 +186,34 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
 
 }  // namespace
 
-std::string case_text(const Case& study, const std::filesystem::path& directory) {
+std::string case_text(const Case& the_case, const std::filesystem::path& directory) {
   Writer out;
-  out.text("title", study.title);
+  out.text("title", the_case.title);
   out.header("[model]");
-  if (!study.description.empty())
-    out.text("description", relative_path(study.description, directory));
-  out.line("links", std::to_string(study.links));
+  if (!the_case.description.empty())
+    out.text("description", relative_path(the_case.description, directory));
+  out.line("links", std::to_string(the_case.links));
   out.header("[cable]");
-  out.number("length", study.cable.length);
-  out.number("density", study.cable.density);
-  out.numbers("link_lengths", study.cable.link_lengths);
-  out.numbers("link_masses", study.cable.link_masses);
-  out.numbers("link_inertias", study.cable.link_inertias);
-  out.number("load_mass", study.cable.load_mass, 0);
-  out.number("gravity", study.cable.gravity);
-  for (const ParameterSpec& parameter : study.parameters) write_parameter(out, parameter);
-  write_initial(out, study.initial, "initial");
-  write_signals(out, study.signals, "signal", directory);
-  for (const ExperimentSpec& experiment : study.experiments)
+  out.number("length", the_case.cable.length);
+  out.number("density", the_case.cable.density);
+  out.numbers("link_lengths", the_case.cable.link_lengths);
+  out.numbers("link_masses", the_case.cable.link_masses);
+  out.numbers("link_inertias", the_case.cable.link_inertias);
+  out.number("load_mass", the_case.cable.load_mass, 0);
+  out.number("gravity", the_case.cable.gravity);
+  for (const ParameterSpec& parameter : the_case.parameters) write_parameter(out, parameter);
+  write_initial(out, the_case.initial, "initial");
+  write_signals(out, the_case.signals, "signal", directory);
+  for (const ExperimentSpec& experiment : the_case.experiments)
     write_experiment(out, experiment, directory);
 
   out.header("[error]");
-  out.text("measure", word(kMeasureWords, study.error.measure));
-  if (study.error.loss != Loss::kNone) {
-    out.text("loss", word(kLossWords, study.error.loss));
-    out.number("loss_scale", study.error.loss_scale);
+  out.text("measure", word(kMeasureWords, the_case.error.measure));
+  if (the_case.error.loss != Loss::kNone) {
+    out.text("loss", word(kLossWords, the_case.error.loss));
+    out.number("loss_scale", the_case.error.loss_scale);
   }
-  const OptimiserSpec optimiser, &chosen = study.optimiser;
+  const OptimiserSpec optimiser, &chosen = the_case.optimiser;
   out.header("[optimiser]");
   out.text("method", word(kMethodWords, chosen.method));
   out.count("max_evaluations", chosen.max_evaluations, optimiser.max_evaluations);
@@ -221,7 +222,7 @@ std::string case_text(const Case& study, const std::filesystem::path& directory)
   out.count("starts", chosen.starts, 1);
   out.count("seed", chosen.seed, optimiser.seed);
   out.numbers("growing_windows", chosen.growing_windows);
-  const SimulationSpec simulation, &wanted = study.simulation;
+  const SimulationSpec simulation, &wanted = the_case.simulation;
   out.header("[simulation]");
   out.number("duration", wanted.duration);
   out.number("step", wanted.step, simulation.step);
@@ -234,8 +235,8 @@ std::string case_text(const Case& study, const std::filesystem::path& directory)
   return out.take();
 }
 
-void write_case(const Case& study, const std::filesystem::path& path) {
-  write_whole_file(path, case_text(study, path.parent_path()));
+void write_case(const Case& the_case, const std::filesystem::path& path) {
+  write_whole_file(path, case_text(the_case, path.parent_path()));
 }
 
 }  // namespace catena

@@ -29,7 +29,7 @@ VectorXd more_damped(const Problem& problem, double factor) {
     const Unknown& unknown = problem.unknowns()[j];
     if (unknown.parameter < 0) continue;
     const ParameterSpec& spec =
-        problem.study().parameters[static_cast<std::size_t>(unknown.parameter)];
+        problem.the_case().parameters[static_cast<std::size_t>(unknown.parameter)];
     double& value = start[static_cast<Index>(j)];
     if (spec.sets.starts_with("damping"))
       value = std::clamp(factor * value, spec.lower, spec.upper);
@@ -39,34 +39,35 @@ VectorXd more_damped(const Problem& problem, double factor) {
 
 }  // namespace
 
-void hold_out(Case& study, Workshop& workshop, std::vector<std::string>& notes) {
+void hold_out(Case& the_case, Workshop& workshop, std::vector<std::string>& notes) {
   bool held = false;
-  for (const ExperimentSpec& experiment : study.experiments)
+  for (const ExperimentSpec& experiment : the_case.experiments)
     held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
   if (held) return;
-  const Problem problem(study, workshop.model_with({}, study.links));
-  for (std::size_t e = 0; e < study.experiments.size(); ++e) {
+  const Problem problem(the_case, workshop.model_with({}, the_case.links));
+  for (std::size_t e = 0; e < the_case.experiments.size(); ++e) {
     const auto& time = problem.experiments()[e].recording.time;
-    ExperimentSpec& experiment = study.experiments[e];
-    if (problem.experiments().size() == study.experiments.size())
+    ExperimentSpec& experiment = the_case.experiments[e];
+    if (problem.experiments().size() == the_case.experiments.size())
       experiment.fit_until = time.back() - kHeldOutShare * (time.back() - time.front());
   }
   notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
 }
 
-Case for_the_search(Case study) {
-  SimulationSpec& simulation = study.simulation;
+Case for_the_search(Case the_case) {
+  SimulationSpec& simulation = the_case.simulation;
   simulation.relative_tolerance = std::max(simulation.relative_tolerance, 1e-6);
   simulation.absolute_tolerance_position = std::max(simulation.absolute_tolerance_position, 1e-8);
   simulation.absolute_tolerance_velocity = std::max(simulation.absolute_tolerance_velocity, 1e-7);
-  study.optimiser.tolerance = std::max(study.optimiser.tolerance, 1e-4);
-  return study;
+  the_case.optimiser.tolerance = std::max(the_case.optimiser.tolerance, 1e-4);
+  return the_case;
 }
 
-FittedModel fit_baseline(Case study, Workshop& workshop) {
-  study.optimiser.max_evaluations = std::min(study.optimiser.max_evaluations, kFirstEvaluations);
-  const Model model_of_case = workshop.model_with({}, study.links);
-  const auto problem = std::make_shared<const Problem>(study, model_of_case);
+FittedModel fit_baseline(Case the_case, Workshop& workshop) {
+  the_case.optimiser.max_evaluations =
+      std::min(the_case.optimiser.max_evaluations, kFirstEvaluations);
+  const Model model_of_case = workshop.model_with({}, the_case.links);
+  const auto problem = std::make_shared<const Problem>(the_case, model_of_case);
   // With more damping the motion is simpler, and what the fit descends on too.
   const std::vector<double> factors = {1, 5, 25};
   std::vector<FittedModel> fits(factors.size());
@@ -79,8 +80,8 @@ FittedModel fit_baseline(Case study, Workshop& workshop) {
   for (FittedModel& fit : fits)
     if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
   if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
-  study.optimiser.max_evaluations = kEvaluations;
-  const auto longer = std::make_shared<const Problem>(study, model_of_case);
+  the_case.optimiser.max_evaluations = kEvaluations;
+  const auto longer = std::make_shared<const Problem>(the_case, model_of_case);
   FittedModel model = fit_model(longer, best->x, workshop.least_squares, workshop.stop);
   return model.ok ? model : *best;
 }

@@ -45,7 +45,7 @@ struct Candidate {
   std::vector<int> with_role(ParameterRole role) const;
 };
 
-/// The built-in effects and those of the files given, less what `study` has in its model already
+/// The built-in effects and those of the files given, less what `the_case` has in its model already
 /// (`present`): in the order of their ids. What cannot be tried says why.
 std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
                                              const Description& present);

@@ -34,17 +34,17 @@ class Physician {
   Physician(Workshop& workshop, const DiagnosisOptions& options)
       : workshop_(workshop), options_(options) {}
 
-  Diagnosis examine(Case study) {
+  Diagnosis examine(Case the_case) {
     const auto begin = std::chrono::steady_clock::now();
-    if (study.experiments.empty()) throw InputError("the case has no experiment to diagnose");
-    hold_out(study, workshop_, result_.notes);
+    if (the_case.experiments.empty()) throw InputError("the case has no experiment to diagnose");
+    hold_out(the_case, workshop_, result_.notes);
     workshop_.say("fitting the baseline");
-    enter(fit_baseline(for_the_search(study), workshop_), {}, "");
+    enter(fit_baseline(for_the_search(the_case), workshop_), {}, "");
     look_ahead_and_back();
     // One after the other two effects may both be missed: neither is worth much alone, or a third
     // imitates both.
     if ((!explained() || one_may_imitate_two()) && add_pair()) look_ahead_and_back();
-    conclude(result_, study, workshop_);
+    conclude(result_, the_case, workshop_);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(result_);
@@ -76,7 +76,7 @@ class Physician {
     next.effects = std::move(effects);
     next.added = added;
     next.removed = removed;
-    next.links = model.problem->study().links;
+    next.links = model.problem->the_case().links;
     next.fit = fit_gap(model, result_.floors);
     next.held_out = held_out_gap(model, result_.floors);
     next.model = std::move(model);
@@ -471,14 +471,14 @@ class Physician {
 
   Stage stage_without(const std::string& id, const std::vector<std::string>& others) {
     Stage without;
-    const Case study = without_effect(stage().model.problem->study(), id);
+    const Case the_case = without_effect(stage().model.problem->the_case(), id);
     const auto problem =
-        std::make_shared<const Problem>(study, workshop_.model_with(others, study.links));
+        std::make_shared<const Problem>(the_case, workshop_.model_with(others, the_case.links));
     without.model = fit_model(problem, transfer(*stage().model.problem, stage().model.x, *problem),
                               workshop_.least_squares, workshop_.stop);
     if (!without.model.ok) return {};
     without.effects = others;
-    without.links = study.links;
+    without.links = the_case.links;
     without.fit = fit_gap(without.model, result_.floors);
     without.held_out = held_out_gap(without.model, result_.floors);
     // Something that nearly fits may stand in the place of the right one.
@@ -542,8 +542,8 @@ class Physician {
 
 }  // namespace
 
-Diagnosis diagnose(Case study, Workshop& workshop, const DiagnosisOptions& options) {
-  return Physician(workshop, options).examine(std::move(study));
+Diagnosis diagnose(Case the_case, Workshop& workshop, const DiagnosisOptions& options) {
+  return Physician(workshop, options).examine(std::move(the_case));
 }
 
 }  // namespace catena

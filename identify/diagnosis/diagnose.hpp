@@ -76,6 +76,6 @@ struct DiagnosisOptions {
 /// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to
 /// fit), ModelError where a model cannot be made, std::runtime_error where the baseline cannot be
 /// fitted.
-Diagnosis diagnose(Case study, Workshop& workshop, const DiagnosisOptions& options);
+Diagnosis diagnose(Case the_case, Workshop& workshop, const DiagnosisOptions& options);
 
 }  // namespace catena

@@ -5,6 +5,7 @@
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
+#include "identify/cases/case_writer.hpp"
 #include "identify/models/process.hpp"
 
 namespace catena {
@@ -20,18 +21,19 @@ void make_folder(const fs::path& folder) {
 
 /// The case with the final model, its description and the emitted code.
 void write_model(const Diagnosis& found, const Workshop& workshop, const fs::path& folder) {
-  Case study = found.final.problem->with(found.final.x);
+  Case the_case = found.final.problem->with(found.final.x);
   if (!found.effects.empty()) {
-    study.description = folder / "model.toml";
-    workshop.write_description_with(found.effects, study.links, "diagnosed", study.description);
+    the_case.description = folder / "model.toml";
+    workshop.write_description_with(found.effects, the_case.links, "diagnosed",
+                                    the_case.description);
     const ProcessResult derived = run_process(
-        {find_derive_program().string(), "derive", "--description", study.description.string(),
-         "--links", std::to_string(study.links), "--output", (folder / "model").string()},
+        {find_derive_program().string(), "derive", "--description", the_case.description.string(),
+         "--links", std::to_string(the_case.links), "--output", (folder / "model").string()},
         true);
     if (derived.exit_status != 0)
       throw ModelError("deriving the model again failed: " + derived.output);
   }
-  write_case(study, folder / "diagnosed.toml");
+  write_case(the_case, folder / "diagnosed.toml");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ Json numbers(const Range& values) {
 }
 
 bool of_angles(const Diagnosis& d) {
-  const auto& experiments = d.final.problem->study().experiments;
+  const auto& experiments = d.final.problem->the_case().experiments;
   return std::all_of(experiments.begin(), experiments.end(), [](const ExperimentSpec& experiment) {
     return experiment.kind == DataKind::kAngles;
   });
@@ -184,16 +184,16 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
                                                                  const Workshop& workshop) {
   std::vector<std::pair<std::string, std::string>> files;
   const std::string unit = unit_of(d);
-  const Case& study = d.stages.front().model.problem->study();
+  const Case& the_case = d.stages.front().model.problem->the_case();
   Json json;
   json["format"] = 1;
   json["kind"] = "diagnosis";
-  json["title"] = study.title;
+  json["title"] = the_case.title;
   json["versions"] = {{"catena", CATENA_VERSION}};
-  std::ifstream in(study.file, std::ios::binary);
+  std::ifstream in(the_case.file, std::ios::binary);
   std::ostringstream case_text;
   case_text << in.rdbuf();
-  json["case"] = {{"file", study.file.filename().string()},
+  json["case"] = {{"file", the_case.file.filename().string()},
                   {"text", case_text.str()},
                   {"sha256", sha256_hex(case_text.str())}};
   json["verdict"] = name_of(d.verdict);

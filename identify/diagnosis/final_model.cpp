@@ -197,13 +197,13 @@ bool is_special_case(const Candidate& special, const Candidate& general, const M
 }
 
 void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& workshop) {
-  Case study = diagnosis.final.problem->with(diagnosis.final.x);
-  study.simulation = asked.simulation;
-  study.optimiser = asked.optimiser;
-  const Model model = workshop.model_with(diagnosis.effects, study.links);
+  Case the_case = diagnosis.final.problem->with(diagnosis.final.x);
+  the_case.simulation = asked.simulation;
+  the_case.optimiser = asked.optimiser;
+  const Model model = workshop.model_with(diagnosis.effects, the_case.links);
   if (!diagnosis.effects.empty())
-    diagnosis.equality = largest_difference(workshop.model_with({}, study.links), model, 1);
-  const auto problem = std::make_shared<const Problem>(study, model);
+    diagnosis.equality = largest_difference(workshop.model_with({}, the_case.links), model, 1);
+  const auto problem = std::make_shared<const Problem>(the_case, model);
   FittedModel refitted =
       fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
                 workshop.least_squares, workshop.stop);

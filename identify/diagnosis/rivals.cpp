@@ -40,13 +40,13 @@ MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& fl
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<double>& floors, int max_links, Workshop& workshop) {
   FinerChain finer;
-  const Case& study = model.problem->study();
-  finer.links = std::min(2 * study.links, std::max(max_links, study.links));
-  if (finer.links <= study.links) {
+  const Case& the_case = model.problem->the_case();
+  finer.links = std::min(2 * the_case.links, std::max(max_links, the_case.links));
+  if (finer.links <= the_case.links) {
     finer.note = "no more than " + std::to_string(max_links) + " links are allowed";
     return finer;
   }
-  const std::optional<Case> larger = with_links(study, finer.links, finer.note);
+  const std::optional<Case> larger = with_links(the_case, finer.links, finer.note);
   if (!larger) return finer;
   const auto problem =
       std::make_shared<const Problem>(*larger, workshop.model_with(effects, finer.links));
@@ -88,7 +88,7 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
 FittedModel refitted_with_links(const FittedModel& model, int links,
                                 const std::vector<std::string>& effects, Workshop& workshop) {
   std::string why_not;
-  const std::optional<Case> other = with_links(model.problem->study(), links, why_not);
+  const std::optional<Case> other = with_links(model.problem->the_case(), links, why_not);
   if (!other) return {};
   const auto problem = std::make_shared<const Problem>(*other, workshop.model_with(effects, links));
   workshop.say("refitting with " + std::to_string(links) + " links");

@@ -142,11 +142,11 @@ Search::Search(Workshop& workshop, FittedModel base, std::vector<std::string> ef
   for (const Candidate& candidate : workshop_.library())
     if (candidate.unavailable.empty() && !candidate.own_model && !in_base(candidate.id))
       others.push_back(candidate);
-  const Case& study = base_.problem->study();
-  const Case freer = with_freer_start(study, kMoreTerms, kRateTerms).value_or(study);
-  all_ =
-      std::make_shared<const Problem>(with_effects(freer, others, true),
-                                      workshop_.model_with_all(study.links, own_models_in_base()));
+  const Case& the_case = base_.problem->the_case();
+  const Case freer = with_freer_start(the_case, kMoreTerms, kRateTerms).value_or(the_case);
+  all_ = std::make_shared<const Problem>(
+      with_effects(freer, others, true),
+      workshop_.model_with_all(the_case.links, own_models_in_base()));
   x_ = transfer(*base_.problem, base_.x, *all_);
   frequencies_ = driving_frequencies(base_, floors_);
 }
@@ -163,11 +163,11 @@ std::vector<std::string> Search::own_models_in_base() const {
 }
 
 std::shared_ptr<const Problem> Search::problem_with(const Candidate& candidate) const {
-  const Case& study = base_.problem->study();
+  const Case& the_case = base_.problem->the_case();
   std::vector<std::string> effects = effects_;
   effects.push_back(candidate.id);
-  return std::make_shared<const Problem>(with_effects(study, {candidate}, true),
-                                         workshop_.model_with(effects, study.links));
+  return std::make_shared<const Problem>(with_effects(the_case, {candidate}, true),
+                                         workshop_.model_with(effects, the_case.links));
 }
 
 MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
@@ -179,8 +179,8 @@ MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
       for (auto& derivative : derivatives) derivative.emplace_back();
       continue;
     }
-    const std::vector<Direction> every = problem.directions(x, index);
-    std::vector<Direction> along;
+    const std::vector<Seed> every = problem.directions(x, index);
+    std::vector<Seed> along;
     for (const Index j : unknowns) along.push_back(every[static_cast<std::size_t>(j)]);
     Prediction prediction = problem.predict(x, index, false, along);
     if (!prediction.ok())
@@ -429,7 +429,7 @@ Explanation Search::score_limit(ScoreTest& test, int index) const {
 
 void Search::refit(Explanation& explanation, bool far) const {
   if (explanation.candidate < 0) {
-    const auto freer = with_freer_start(base_.problem->study(), kMoreTerms, kRateTerms);
+    const auto freer = with_freer_start(base_.problem->the_case(), kMoreTerms, kRateTerms);
     if (!freer) return;
     const auto problem = std::make_shared<const Problem>(*freer, base_.problem->model());
     fit_from(explanation, problem, transfer(*base_.problem, base_.x, *problem));

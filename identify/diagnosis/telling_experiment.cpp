@@ -37,7 +37,7 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
         State state = model.problem->initial_state(model.x, index);
         state.q.head(model.problem->model().links()) *= start.factor;
         state.v *= start.factor;
-        SimulationOptions options = simulation_options(model.problem->study().simulation);
+        SimulationOptions options = simulation_options(model.problem->the_case().simulation);
         options.energy = false;
         motions[m] =
             simulate(model.problem->model(), model.problem->model_parameters(model.x, index), state,

@@ -67,8 +67,8 @@ bool polynomial(const InitialSpec& initial) {
 
 }  // namespace
 
-Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes) {
-  Case result = study;
+Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates, bool shapes) {
+  Case result = the_case;
   for (const Candidate& candidate : candidates) {
     for (const CandidateParameter& parameter : candidate.parameters) {
       ParameterSpec spec;
@@ -87,22 +87,22 @@ Case with_effects(const Case& study, const std::vector<Candidate>& candidates, b
   return result;
 }
 
-Case without_effect(const Case& study, const std::string& id) {
-  Case result = study;
+Case without_effect(const Case& the_case, const std::string& id) {
+  Case result = the_case;
   std::erase_if(result.parameters,
                 [&](const ParameterSpec& spec) { return spec.sets.starts_with(id + "."); });
   return result;
 }
 
-std::optional<Case> with_links(const Case& study, int links, std::string& why_not) {
+std::optional<Case> with_links(const Case& the_case, int links, std::string& why_not) {
   const auto refuse = [&](const std::string& reason) -> std::optional<Case> {
     why_not = reason;
     return std::nullopt;
   };
-  if (!study.cable.link_lengths.empty() || !study.cable.link_masses.empty() ||
-      !study.cable.link_inertias.empty())
+  if (!the_case.cable.link_lengths.empty() || !the_case.cable.link_masses.empty() ||
+      !the_case.cable.link_inertias.empty())
     return refuse("the links are real parts, given one by one");
-  const double ratio = static_cast<double>(links) / study.links;
+  const double ratio = static_cast<double>(links) / the_case.links;
   // Joint i of the case is joint (i - 1) ratio + 1 of the other chain, if there is one.
   const auto whole = [&](int joint) {
     const double place = (joint - 1) * ratio;
@@ -111,7 +111,7 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
   const auto joint_of = [&](int joint) {
     return static_cast<int>(std::lround((joint - 1) * ratio)) + 1;
   };
-  Case result = study;
+  Case result = the_case;
   result.links = links;
   for (ParameterSpec& parameter : result.parameters) {
     if (names_one_link(parameter.sets))
@@ -140,10 +140,10 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
       initial.velocity_coefficients.clear();
     }
   };
-  refit_start(result.initial, study.links);
+  refit_start(result.initial, the_case.links);
   for (ExperimentSpec& experiment : result.experiments) {
     if (experiment.kind == DataKind::kAngles) return refuse("the data are angles of links");
-    if (experiment.initial) refit_start(*experiment.initial, study.links);
+    if (experiment.initial) refit_start(*experiment.initial, the_case.links);
     for (PointSpec& point : experiment.points)
       if (point.joint > 0) {
         if (!whole(point.joint + 1)) return refuse("a marker sits at a joint that chain has not");
@@ -153,9 +153,9 @@ std::optional<Case> with_links(const Case& study, int links, std::string& why_no
   return result;
 }
 
-std::optional<Case> with_freer_start(const Case& study, int more_terms, int rate_terms) {
-  if (study.links < 2) return std::nullopt;
-  Case result = study;
+std::optional<Case> with_freer_start(const Case& the_case, int more_terms, int rate_terms) {
+  if (the_case.links < 2) return std::nullopt;
+  Case result = the_case;
   if (!polynomial(result.initial)) return std::nullopt;
   free_start(result.initial, more_terms, rate_terms);
   for (ExperimentSpec& experiment : result.experiments) {

@@ -17,20 +17,20 @@ namespace catena {
 /// The case with every parameter of the candidates added as a free quantity, at its neutral or
 /// default value; phases and shapes are free only if `shapes`. The description is left as it is:
 /// the model that has these effects is chosen where the problem is made (Workshop).
-Case with_effects(const Case& study, const std::vector<Candidate>& candidates, bool shapes);
+Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates, bool shapes);
 
 /// The case without the parameters of an effect, which then stays at its default.
-Case without_effect(const Case& study, const std::string& id);
+Case without_effect(const Case& the_case, const std::string& id);
 
 /// The same case with another number of links, all physical quantities kept: per-joint stiffness
 /// and damping change with the spacing. Empty, with the reason in `why_not`, where links are real
 /// parts (lengths, masses or angles given link by link) or something sits at a joint the other
 /// chain has not.
-std::optional<Case> with_links(const Case& study, int links, std::string& why_not);
+std::optional<Case> with_links(const Case& the_case, int links, std::string& why_not);
 
 /// The same case with a start that may bend more (`more_terms` further polynomials) and move
 /// (`rate_terms` polynomials of the rates). Empty if the start is not a polynomial.
-std::optional<Case> with_freer_start(const Case& study, int more_terms, int rate_terms);
+std::optional<Case> with_freer_start(const Case& the_case, int more_terms, int rate_terms);
 
 /// Unknowns of `to` from those of `from` by name; coefficients of the start that are new are zero,
 /// other new unknowns start as their case says.

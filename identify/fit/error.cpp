@@ -94,35 +94,35 @@ std::vector<Distance> distances_of(const Problem& problem, const Residuals& resi
   return out;
 }
 
-Joints joints_of(const Problem& problem, const Evaluation& evaluation) {
-  Joints joints;
+ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& evaluation) {
+  ShootingDefects defects;
   const Index size = 2 * problem.model().coordinates();
   Index count = 0;
   for (const Experiment& experiment : problem.experiments())
     count += experiment.meets >= 0 ? size : 0;
-  joints.value.resize(count);
-  joints.weight.resize(count);
+  defects.value.resize(count);
+  defects.weight.resize(count);
   if (evaluation.with_jacobian)
-    joints.jacobian.resize(count, static_cast<Index>(problem.unknowns().size()));
+    defects.jacobian.resize(count, static_cast<Index>(problem.unknowns().size()));
   Index row = 0;
   for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
     const Experiment& experiment = problem.experiments()[e];
     if (experiment.meets < 0) continue;
     const Prediction& here = evaluation.predictions[e];
     const Prediction& next = evaluation.predictions[static_cast<std::size_t>(experiment.meets)];
-    joints.value.segment(row, size) = here.last - next.first;
+    defects.value.segment(row, size) = here.last - next.first;
     const double noise = std::isnan(experiment.spec.noise) ? 1 : experiment.spec.noise;
-    joints.weight.segment(row, size).setConstant(problem.joint_weight() / noise);
+    defects.weight.segment(row, size).setConstant(problem.defect_weight() / noise);
     if (evaluation.with_jacobian)
-      joints.jacobian.middleRows(row, size) = here.last_along - next.first_along;
+      defects.jacobian.middleRows(row, size) = here.last_along - next.first_along;
     row += size;
   }
-  return joints;
+  return defects;
 }
 
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
   Eigen::VectorXd noise(residuals.value.size());
-  if (problem.study().error.measure == Measure::kLikelihood) {
+  if (problem.the_case().error.measure == Measure::kLikelihood) {
     const std::vector<ChannelNoise> channels = channels_of(problem, residuals);
     const std::vector<std::size_t> places = channel_places(problem, residuals);
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -146,7 +146,7 @@ std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& r
     const Experiment& experiment =
         problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)];
     channel.name =
-        problem.study().experiments[static_cast<std::size_t>(experiment.source)].name + ": " +
+        problem.the_case().experiments[static_cast<std::size_t>(experiment.source)].name + ": " +
         experiment.recording.channels[static_cast<std::size_t>(residuals.index[i].channel)].name;
     ++channel.count;
     channel.deviation +=
@@ -176,13 +176,14 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
 
 namespace {
 
-/// The case's measure of residuals and joints.
-double error_of(const Problem& problem, const Residuals& residuals, const Joints& joints) {
+/// The case's measure of residuals and shooting defects.
+double error_of(const Problem& problem, const Residuals& residuals,
+                const ShootingDefects& defects) {
   double error = 0;
-  switch (problem.study().error.measure) {
+  switch (problem.the_case().error.measure) {
     case Measure::kLeastSquares:
       error = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm() +
-              joints.value.cwiseProduct(joints.weight).squaredNorm();
+              defects.value.cwiseProduct(defects.weight).squaredNorm();
       error = std::sqrt(error / static_cast<double>(residuals.value.size()));
       break;
     case Measure::kMeanDistance: {
@@ -206,15 +207,16 @@ double error_of(const Problem& problem, const Residuals& residuals, const Joints
 
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part) {
   if (!evaluation.ok) return kInfinite;
-  const Joints joints = part == Part::kFit ? joints_of(problem, evaluation) : Joints{};
-  return error_of(problem, residuals_of(problem, evaluation, part), joints);
+  const ShootingDefects defects =
+      part == Part::kFit ? shooting_defects_of(problem, evaluation) : ShootingDefects{};
+  return error_of(problem, residuals_of(problem, evaluation, part), defects);
 }
 
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
   if (!evaluation.ok) return {false, {}, {}, kInfinite};
-  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit), joints_of(problem, evaluation),
-                0};
-  misfit.error = error_of(problem, misfit.residuals, misfit.joints);
+  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit),
+                shooting_defects_of(problem, evaluation), 0};
+  misfit.error = error_of(problem, misfit.residuals, misfit.defects);
   return misfit;
 }
 
@@ -223,19 +225,19 @@ double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::V
   gradient.setZero(static_cast<Index>(problem.unknowns().size()));
   if (!misfit.ok) return kInfinite;
   const Residuals& residuals = misfit.residuals;
-  const Joints& joints = misfit.joints;
+  const ShootingDefects& defects = misfit.defects;
   const Eigen::VectorXd& r = residuals.value;
   const auto rounded = [&](double square) { return std::sqrt(square + rounding * rounding); };
   Eigen::VectorXd by_residual(r.size());
   double error = 0;
-  switch (problem.study().error.measure) {
+  switch (problem.the_case().error.measure) {
     case Measure::kLeastSquares: {
       const Eigen::VectorXd noise = noise_of(problem, residuals);
       const auto count = static_cast<double>(r.size());
-      const Eigen::VectorXd gaps = joints.value.cwiseProduct(joints.weight);
+      const Eigen::VectorXd gaps = defects.value.cwiseProduct(defects.weight);
       error = std::sqrt((r.cwiseQuotient(noise).squaredNorm() + gaps.squaredNorm()) / count);
       by_residual = r.array() / noise.array().square() / (count * error);
-      gradient = joints.jacobian.transpose() * gaps.cwiseProduct(joints.weight) / (count * error);
+      gradient = defects.jacobian.transpose() * gaps.cwiseProduct(defects.weight) / (count * error);
       break;
     }
     case Measure::kMeanDistance: {

@@ -34,12 +34,12 @@ std::vector<Distance> distances_of(const Problem& problem, const Residuals& resi
 
 /// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s),
 /// window by window. Nothing where none are joined.
-struct Joints {
+struct ShootingDefects {
   Eigen::VectorXd value;
-  Eigen::MatrixXd jacobian;  ///< joints x unknowns, empty if the evaluation had none
+  Eigen::MatrixXd jacobian;  ///< defects x unknowns, empty if the evaluation had none
   Eigen::VectorXd weight;    ///< of each in units of the residuals over their noise
 };
-Joints joints_of(const Problem& problem, const Evaluation& evaluation);
+ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& evaluation);
 
 /// The noise to weigh each residual by: the experiment's, or 1 where it states none. Under the
 /// likelihood: what its channel's residuals show, see channels_of.
@@ -66,7 +66,7 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
 struct Misfit {
   bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty
   Residuals residuals;
-  Joints joints;
+  ShootingDefects defects;
   double error = 0;  ///< error_of
 };
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation);

@@ -21,7 +21,7 @@ Eigen::VectorXd scale_slopes(const Problem& problem, const Eigen::VectorXd& x) {
 }
 
 Eigen::VectorXd first_steps(const Problem& problem, const Eigen::VectorXd& start) {
-  const double step = problem.study().optimiser.initial_step;
+  const double step = problem.the_case().optimiser.initial_step;
   Eigen::VectorXd steps(start.size());
   for (Eigen::Index j = 0; j < start.size(); ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
@@ -38,7 +38,7 @@ Eigen::VectorXd first_steps(const Problem& problem, const Eigen::VectorXd& start
 }
 
 FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
-  const OptimiserSpec& spec = problem.study().optimiser;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
   FitJournal journal(problem, options, spec.max_evaluations);
   const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
   const bool gradient_wanted = spec.method != FitMethod::kNelderMead;
@@ -110,14 +110,14 @@ namespace {
 
 FitResult fit_once(const Problem& problem, const FitOptions& options,
                    const LeastSquares& least_squares) {
-  return problem.study().optimiser.method == FitMethod::kLeastSquares
+  return problem.the_case().optimiser.method == FitMethod::kLeastSquares
              ? least_squares(problem, options)
              : fit_by_nlopt(problem, options);
 }
 
 // What a gap between joined windows costs at first: hardly anything, so that each window finds its
 // own best start; then more, up to the problem's own weight, with which it closes.
-constexpr double kLooseJoints[] = {0.1, 1, 10, 100, 1000};
+constexpr double kLooseDefects[] = {0.1, 1, 10, 100, 1000};
 
 bool finished(const FitResult& result) {
   return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
@@ -139,7 +139,7 @@ constexpr double kBeginningTolerance = 1e-2, kRoughBeginningTolerance = 0.1;
 
 FitResult fit_beginning(const Problem& problem, const FitOptions& options,
                         const LeastSquares& least_squares) {
-  const double tolerance = std::max(kBeginningTolerance, problem.study().optimiser.tolerance);
+  const double tolerance = std::max(kBeginningTolerance, problem.the_case().optimiser.tolerance);
   const Problem beginning = problem.with_tolerance(tolerance);
   if (!starts_roughly(problem)) return fit_once(beginning, options, least_squares);
   FitResult rough =
@@ -154,35 +154,36 @@ FitResult fit_beginning(const Problem& problem, const FitOptions& options,
 
 const char* strategy_of(const Problem& problem) {
   if (problem.joined()) return "multiple shooting";
-  if (problem.experiments().size() > problem.study().experiments.size()) return "separate windows";
-  return problem.study().optimiser.growing_windows.empty() ? "whole" : "growing windows";
+  if (problem.experiments().size() > problem.the_case().experiments.size())
+    return "separate windows";
+  return problem.the_case().optimiser.growing_windows.empty() ? "whole" : "growing windows";
 }
 
 bool starts_roughly(const Problem& problem) {
-  const Case& study = problem.study();
-  const bool squares =
-      study.error.measure == Measure::kLeastSquares || study.error.measure == Measure::kLikelihood;
-  return study.optimiser.method == FitMethod::kLeastSquares && !squares &&
+  const Case& the_case = problem.the_case();
+  const bool squares = the_case.error.measure == Measure::kLeastSquares ||
+                       the_case.error.measure == Measure::kLikelihood;
+  return the_case.optimiser.method == FitMethod::kLeastSquares && !squares &&
          problem.finer_than_rough();
 }
 
 void check_fittable(const Problem& problem) {
   if (problem.unknowns().empty())
-    throw InputError(problem.study().file.string() +
+    throw InputError(problem.the_case().file.string() +
                      ": nothing to identify; mark a [[parameter]] with free = true");
   bool data = false;
   for (const Experiment& experiment : problem.experiments()) data |= experiment.fitted();
   if (!data)
-    throw InputError(problem.study().file.string() +
+    throw InputError(problem.the_case().file.string() +
                      ": free parameters without data; add an [[experiment]] with use = \"fit\"");
 }
 
 FitResult fit(const Problem& problem, const FitOptions& options,
               const LeastSquares& least_squares) {
   check_fittable(problem);
-  const OptimiserSpec& spec = problem.study().optimiser;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
   if (spec.method == FitMethod::kLeastSquares && !least_squares)
-    throw InputError(problem.study().file.string() +
+    throw InputError(problem.the_case().file.string() +
                      ": optimiser.method: least_squares is not built in here; use another method");
   FitOptions next = options;
   next.recall = nullptr;  // errors of a part are not those of the whole
@@ -196,8 +197,8 @@ FitResult fit(const Problem& problem, const FitOptions& options,
     before = std::move(shorter);
   }
   if (problem.joined())
-    for (const double weight : kLooseJoints) {
-      FitResult looser = fit_once(problem.with_joint_weight(weight), next, least_squares);
+    for (const double weight : kLooseDefects) {
+      FitResult looser = fit_once(problem.with_defect_weight(weight), next, least_squares);
       add_effort(looser, before);
       if (!finished(looser)) return looser;
       next.start = looser.x;

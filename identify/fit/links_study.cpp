@@ -9,15 +9,15 @@
 
 namespace catena {
 
-Case with_links(const Case& study, int links) {
+Case with_links(const Case& the_case, int links) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(study.file.string() + ": " + what +
+    throw InputError(the_case.file.string() + ": " + what +
                      "; a study of the number of links needs a case that holds for any number");
   };
-  if (!study.cable.link_lengths.empty() || !study.cable.link_masses.empty() ||
-      !study.cable.link_inertias.empty())
+  if (!the_case.cable.link_lengths.empty() || !the_case.cable.link_masses.empty() ||
+      !the_case.cable.link_inertias.empty())
     refuse("cable: gives numbers per link");
-  for (const ParameterSpec& parameter : study.parameters)
+  for (const ParameterSpec& parameter : the_case.parameters)
     if (parameter.sets.find("..") != std::string::npos ||
         (!parameter.sets.empty() &&
          std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
@@ -27,25 +27,25 @@ Case with_links(const Case& study, int links) {
         (!initial.at_rest && initial.velocity_shape == Shape::kAngles))
       refuse("initial: gives numbers per link");
   };
-  check(study.initial);
-  for (const ExperimentSpec& experiment : study.experiments) {
+  check(the_case.initial);
+  for (const ExperimentSpec& experiment : the_case.experiments) {
     if (experiment.initial) check(*experiment.initial);
     if (experiment.kind == DataKind::kAngles)
       refuse(experiment.name + ": measures angles of links");
     for (const PointSpec& point : experiment.points)
       if (point.joint) refuse(experiment.name + ": " + point.name + " is at a joint");
   }
-  Case other = study;
+  Case other = the_case;
   other.links = links;
   return other;
 }
 
-std::vector<LinksResult> links_study(const Case& study, const std::vector<int>& links,
+std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int>& links,
                                      const std::function<Model(const Case&)>& model_of,
                                      const FitOptions& options, const LeastSquares& least_squares) {
   std::vector<LinksResult> results;
   for (const int count : links) {
-    const Case other = with_links(study, count);
+    const Case other = with_links(the_case, count);
     const Problem problem(other, model_of(other));
     LinksResult result;
     result.links = count;

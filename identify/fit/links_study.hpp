@@ -19,10 +19,10 @@ struct LinksResult {
 
 /// The case with another number of links. Throws InputError where the case says things that only
 /// hold for its own number: numbers per link, single joints, ranges.
-Case with_links(const Case& study, int links);
+Case with_links(const Case& the_case, int links);
 
 /// Fits the case with each number of links.
-std::vector<LinksResult> links_study(const Case& study, const std::vector<int>& links,
+std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int>& links,
                                      const std::function<Model(const Case&)>& model_of,
                                      const FitOptions& options, const LeastSquares& least_squares);
 

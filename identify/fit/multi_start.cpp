@@ -56,7 +56,7 @@ std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, uns
 std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& options,
                                      const LeastSquares& least_squares, int threads, RunLog* log) {
   check_fittable(problem);
-  const OptimiserSpec& spec = problem.study().optimiser;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
   const std::vector<Eigen::VectorXd> starts = start_points(problem, spec.starts, spec.seed);
   std::vector<FitResult> results(starts.size());
   std::mutex mutex;

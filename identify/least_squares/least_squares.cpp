@@ -139,7 +139,7 @@ DistanceCost::Box box_of(const Problem& problem) {
 }
 
 bool of_squares(const Problem& problem) {
-  const Measure measure = problem.study().error.measure;
+  const Measure measure = problem.the_case().error.measure;
   return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
 }
 
@@ -147,15 +147,15 @@ bool of_squares(const Problem& problem) {
 /// evaluations to be left.
 FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
                 SimulatedResiduals& simulated, VectorXd& y, std::string& message) {
-  const OptimiserSpec& spec = problem.study().optimiser;
-  const ErrorSpec& error = problem.study().error;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
+  const ErrorSpec& error = problem.the_case().error;
   const int unknowns = static_cast<int>(y.size());
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &simulated;
   ceres::Problem solver(problem_options);
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
-  const Joints& joints = simulated.joints();
+  const ShootingDefects& defects = simulated.defects();
   const bool squares = of_squares(problem);
   const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
   const DistanceCost::Box box = box_of(problem);
@@ -165,9 +165,9 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
     for (Index i = 0; i < noise.size(); ++i)
       solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
                               loss_of(error), y.data());
-    for (Index i = 0; i < joints.value.size(); ++i)
+    for (Index i = 0; i < defects.value.size(); ++i)
       solver.AddResidualBlock(
-          new Block(simulated, joints.value, joints.jacobian, i, joints.weight[i]), nullptr,
+          new Block(simulated, defects.value, defects.jacobian, i, defects.weight[i]), nullptr,
           y.data());
   } else {
     // In units of the start's error, as if each were over its noise.
@@ -244,7 +244,7 @@ FitStatus solve_roughly(const Problem& rough, FitJournal& journal, SimulatedResi
 }  // namespace
 
 FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
-  const OptimiserSpec& spec = problem.study().optimiser;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
   FitJournal journal(problem, options, spec.max_evaluations);
   VectorXd y = to_scaled(problem, options.start.size() ? options.start : problem.start());
   std::string message;
@@ -275,7 +275,7 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
     if (settled) return journal.result(FitStatus::kConverged, "");
     before = simulated.error();
     const FitStatus status = solve(problem, journal, 0, simulated, y, message);
-    if (status != FitStatus::kConverged || problem.study().error.measure != Measure::kLikelihood)
+    if (status != FitStatus::kConverged || problem.the_case().error.measure != Measure::kLikelihood)
       return journal.result(status, message);
   }
 }

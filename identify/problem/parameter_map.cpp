@@ -116,8 +116,8 @@ void check_unit(const ParameterSpec& parameter, const std::string& wanted) {
 
 }  // namespace
 
-ParameterMap::ParameterMap(const Case& study, const Model& model) : links_(model.links()) {
-  const CableGeometry& cable = study.cable;
+ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(model.links()) {
+  const CableGeometry& cable = the_case.cable;
   const Eigen::Index n = links_;
   relative_lengths_ = Eigen::VectorXd::Constant(n, 1.0 / links_);
   length_ = cable.length;
@@ -138,11 +138,11 @@ ParameterMap::ParameterMap(const Case& study, const Model& model) : links_(model
   base_[model.parameter_index("load_mass")] = cable.load_mass;
   base_[model.parameter_index("gravity")] = cable.gravity;
 
-  values_.resize(static_cast<Eigen::Index>(study.parameters.size()));
+  values_.resize(static_cast<Eigen::Index>(the_case.parameters.size()));
   std::vector<const ParameterSpec*> set_by(static_cast<std::size_t>(model.parameters()), nullptr);
   bool length_set = false, density_set = false;
-  for (std::size_t j = 0; j < study.parameters.size(); ++j) {
-    const ParameterSpec& parameter = study.parameters[j];
+  for (std::size_t j = 0; j < the_case.parameters.size(); ++j) {
+    const ParameterSpec& parameter = the_case.parameters[j];
     values_[static_cast<Eigen::Index>(j)] = parameter.value;
     Assignment assignment;
     assignment.factor = parameter.factor;
@@ -185,7 +185,7 @@ ParameterMap::ParameterMap(const Case& study, const Model& model) : links_(model
   for (Eigen::Index i = 0; i < array.size(); ++i)
     if (std::isnan(array[i])) {
       const catena_parameter& entry = model.table().parameter[i];
-      throw InputError(study.file.string() + ": the model's " + entry.name + " (" + entry.unit +
+      throw InputError(the_case.file.string() + ": the model's " + entry.name + " (" + entry.unit +
                        ") has no value; add a [[parameter]] that sets it");
     }
 }

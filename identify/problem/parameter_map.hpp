@@ -27,7 +27,7 @@ class ParameterMap {
  public:
   /// Throws InputError naming line and key for an unknown name, a wrong unit, a value outside the
   /// model's bounds, a model parameter that is set twice or not at all.
-  ParameterMap(const Case& study, const Model& model);
+  ParameterMap(const Case& the_case, const Model& model);
 
   /// `values`: one per parameter of the case, in its order and unit. Returns the model's array.
   Eigen::VectorXd operator()(const Eigen::VectorXd& values) const;

@@ -197,8 +197,7 @@ SimulationOptions simulation_options(const SimulationSpec& settings) {
 
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const VectorXd& parameters,
-                              const State& initial, bool all_frames,
-                              const std::vector<Direction>& along,
+                              const State& initial, bool all_frames, const std::vector<Seed>& along,
                               const std::function<bool()>& keep_going) {
   const Recording& recording = experiment.recording;
   const auto channels = static_cast<Index>(recording.channels.size());
@@ -212,7 +211,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   std::vector<Seed> seeds;
   std::vector<std::size_t> seed_of;  // direction of each seed
   for (std::size_t j = 0; j < along.size(); ++j) {
-    const Direction& direction = along[j];
+    const Seed& direction = along[j];
     if (!direction.parameters.size() && !direction.q.size() && !direction.v.size()) continue;
     seed_of.push_back(j);
     seeds.push_back({or_zero(direction.parameters, model.parameters()),

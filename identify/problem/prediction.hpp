@@ -14,8 +14,7 @@ namespace catena {
 /// and the derivatives of all that along the directions given.
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const Eigen::VectorXd& parameters,
-                              const State& initial, bool all_frames,
-                              const std::vector<Direction>& along,
+                              const State& initial, bool all_frames, const std::vector<Seed>& along,
                               const std::function<bool()>& keep_going);
 
 SimulationOptions simulation_options(const SimulationSpec& settings);

@@ -13,10 +13,10 @@
 namespace catena {
 namespace {
 
-double cable_length(const Case& study) {
-  if (study.cable.link_lengths.empty()) return study.cable.length;
+double cable_length(const Case& the_case) {
+  if (the_case.cable.link_lengths.empty()) return the_case.cable.length;
   double length = 0;
-  for (const double link : study.cable.link_lengths) length += link;
+  for (const double link : the_case.cable.link_lengths) length += link;
   return length;
 }
 
@@ -62,16 +62,16 @@ void cut_windows(const ExperimentSpec& spec, const Recording& whole, std::vector
 
 }  // namespace
 
-Problem::Problem(Case study, Model model) : Problem(std::move(study), std::move(model), {}) {}
+Problem::Problem(Case the_case, Model model) : Problem(std::move(the_case), std::move(model), {}) {}
 
-Problem::Problem(Case study, Model model, std::vector<Recording> recordings)
-    : study_(std::move(study)), model_(std::move(model)), map_(study_, model_) {
-  if (!recordings.empty() && recordings.size() != study_.experiments.size())
+Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
+    : case_(std::move(the_case)), model_(std::move(model)), map_(case_, model_) {
+  if (!recordings.empty() && recordings.size() != case_.experiments.size())
     throw std::invalid_argument("recordings: one per experiment of the case is wanted");
-  for (std::size_t e = 0; e < study_.experiments.size(); ++e) {
-    const ExperimentSpec& spec = study_.experiments[e];
+  for (std::size_t e = 0; e < case_.experiments.size(); ++e) {
+    const ExperimentSpec& spec = case_.experiments[e];
     Recording recording = recordings.empty()
-                              ? read_recording(spec, study_.links, cable_length(study_))
+                              ? read_recording(spec, case_.links, cable_length(case_))
                               : std::move(recordings[e]);
     if (!std::isnan(spec.window)) {
       const std::size_t before = experiments_.size();
@@ -90,14 +90,14 @@ Problem::Problem(Case study, Model model, std::vector<Recording> recordings)
 }
 
 void Problem::join(std::size_t first) {
-  const InitialSpec& initial = experiments_[first].spec.initial.value_or(study_.initial);
+  const InitialSpec& initial = experiments_[first].spec.initial.value_or(case_.initial);
   const auto refuse = [&](const std::string& what) {
     throw InputError(experiments_[first].spec.where + ": joined: " + what);
   };
-  if (study_.optimiser.method != FitMethod::kLeastSquares ||
-      study_.error.measure != Measure::kLeastSquares)
+  if (case_.optimiser.method != FitMethod::kLeastSquares ||
+      case_.error.measure != Measure::kLeastSquares)
     refuse("multiple shooting needs method and measure least_squares");
-  if (!study_.optimiser.growing_windows.empty())
+  if (!case_.optimiser.growing_windows.empty())
     refuse("and growing_windows; choose one of the two");
   if (!initial.free || initial.shape != Shape::kAngles || initial.at_rest ||
       !initial.velocity_free || initial.velocity_shape != Shape::kAngles)
@@ -117,29 +117,29 @@ bool Problem::joined() const {
   return false;
 }
 
-Problem Problem::with_joint_weight(double weight) const {
+Problem Problem::with_defect_weight(double weight) const {
   Problem other = *this;
-  other.joint_weight_ = weight;
+  other.defect_weight_ = weight;
   return other;
 }
 
 void Problem::prepare() {
   const Eigen::VectorXd parameters = map_(map_.values());
   const Eigen::VectorXd lengths =
-      parameters.segment(model_.parameter_index("length_1"), study_.links);
+      parameters.segment(model_.parameter_index("length_1"), case_.links);
   for (Experiment& experiment : experiments_) {
-    experiment.initial = experiment.spec.initial.value_or(study_.initial);
+    experiment.initial = experiment.spec.initial.value_or(case_.initial);
     complete_from_data(experiment.initial, experiment.recording, lengths);
     if (std::isnan(experiment.spec.start))
       experiment.spec.start = experiment.recording.time.front();
     experiment.signals =
-        read_signals(experiment.spec.signals.empty() ? study_.signals : experiment.spec.signals,
+        read_signals(experiment.spec.signals.empty() ? case_.signals : experiment.spec.signals,
                      model_, experiment.spec.where);
   }
   for (int e = -1; e < static_cast<int>(experiments_.size()); ++e) check_start(e);
   const auto add = [&](Unknown unknown) { unknowns_.push_back(std::move(unknown)); };
-  for (std::size_t j = 0; j < study_.parameters.size(); ++j) {
-    const ParameterSpec& spec = study_.parameters[j];
+  for (std::size_t j = 0; j < case_.parameters.size(); ++j) {
+    const ParameterSpec& spec = case_.parameters[j];
     if (!spec.free) continue;
     Unknown unknown{spec.name, spec.unit, spec.value, spec.lower, spec.upper, spec.scale};
     unknown.parameter = static_cast<int>(j);
@@ -184,11 +184,11 @@ void Problem::prepare() {
 void Problem::check_start(int experiment) const {
   const bool known = experiment >= 0;
   const InitialSpec& initial =
-      known ? experiments_[static_cast<std::size_t>(experiment)].initial : study_.initial;
+      known ? experiments_[static_cast<std::size_t>(experiment)].initial : case_.initial;
   const bool linear = initial.shape != Shape::kCatenary && initial.shape != Shape::kHanging;
   if (!known && (!experiments_.empty() || (linear && initial.coefficients.empty()))) return;
   const std::string where =
-      known ? experiments_[static_cast<std::size_t>(experiment)].spec.where : study_.file.string();
+      known ? experiments_[static_cast<std::size_t>(experiment)].spec.where : case_.file.string();
   const Eigen::VectorXd parameters = map_(map_.values());
   State state;
   try {
@@ -229,7 +229,7 @@ Eigen::VectorXd Problem::parameter_values(const Eigen::VectorXd& x, int experime
 
 InitialSpec Problem::initial_of(const Eigen::VectorXd& x, int experiment) const {
   InitialSpec initial =
-      experiment < 0 ? study_.initial : experiments_[static_cast<std::size_t>(experiment)].initial;
+      experiment < 0 ? case_.initial : experiments_[static_cast<std::size_t>(experiment)].initial;
   const std::size_t angles = initial.coefficients.size();
   for (std::size_t j = 0; j < unknowns_.size(); ++j) {
     const Unknown& unknown = unknowns_[j];
@@ -252,7 +252,7 @@ State Problem::initial_state(const Eigen::VectorXd& x, int experiment) const {
 State Problem::state_of(int experiment, const InitialSpec& initial,
                         const Eigen::VectorXd& parameters) const {
   const Eigen::VectorXd lengths =
-      parameters.segment(model_.parameter_index("length_1"), study_.links);
+      parameters.segment(model_.parameter_index("length_1"), case_.links);
   State state = State::zero(model_);
   if (initial.shape == Shape::kCatenary) {
     state = catenary(model_, parameters, {initial.held[0], initial.held[1]},
@@ -267,24 +267,24 @@ State Problem::state_of(int experiment, const InitialSpec& initial,
       throw std::runtime_error("hanging equilibrium: " + equilibrium.message);
     state = equilibrium.state;
   } else {
-    state.q.head(study_.links) = initial_angles(initial, lengths);
+    state.q.head(case_.links) = initial_angles(initial, lengths);
   }
-  state.v.head(study_.links) = initial_rates(initial, lengths);
+  state.v.head(case_.links) = initial_rates(initial, lengths);
   return state;
 }
 
-std::vector<Direction> Problem::directions(const Eigen::VectorXd& x, int experiment) const {
+std::vector<Seed> Problem::directions(const Eigen::VectorXd& x, int experiment) const {
   const Eigen::VectorXd values = parameter_values(x, experiment);
   const Eigen::MatrixXd by_value = map_.jacobian(values);
   const InitialSpec initial = initial_of(x, experiment);
   const Eigen::VectorXd parameters = map_(values);
   const Eigen::Index length_1 = model_.parameter_index("length_1");
-  const Eigen::VectorXd lengths = parameters.segment(length_1, study_.links);
-  const Eigen::Index n = study_.links;
-  std::vector<Direction> directions(unknowns_.size());
+  const Eigen::VectorXd lengths = parameters.segment(length_1, case_.links);
+  const Eigen::Index n = case_.links;
+  std::vector<Seed> directions(unknowns_.size());
   for (std::size_t j = 0; j < unknowns_.size(); ++j) {
     const Unknown& unknown = unknowns_[j];
-    Direction& direction = directions[j];
+    Seed& direction = directions[j];
     if (unknown.experiment >= 0 && unknown.experiment != experiment) continue;
     if (unknown.parameter >= 0) {
       direction.parameters = by_value.col(unknown.parameter);
@@ -305,20 +305,20 @@ std::vector<Direction> Problem::directions(const Eigen::VectorXd& x, int experim
     Eigen::VectorXd& moved = angle ? direction.q : direction.v;
     moved = Eigen::VectorXd::Zero(model_.coordinates());
     moved.head(n) =
-        angle ? shape_basis(initial.shape, study_.links, initial.terms, lengths).col(k)
-              : shape_basis(initial.velocity_shape, study_.links, initial.velocity_terms, lengths)
+        angle ? shape_basis(initial.shape, case_.links, initial.terms, lengths).col(k)
+              : shape_basis(initial.velocity_shape, case_.links, initial.velocity_terms, lengths)
                     .col(k - angles);
   }
   return directions;
 }
 
 Prediction Problem::predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
-                            const std::vector<Direction>& along,
+                            const std::vector<Seed>& along,
                             const std::function<bool()>& keep_going) const {
   const Experiment& chosen = experiments_[static_cast<std::size_t>(experiment)];
   try {
     const Eigen::VectorXd parameters = model_parameters(x, experiment);
-    return predict_experiment(model_, study_.simulation, chosen, parameters,
+    return predict_experiment(model_, case_.simulation, chosen, parameters,
                               state_of(experiment, initial_of(x, experiment), parameters),
                               all_frames, along, keep_going);
   } catch (const std::exception& error) {  // parameters or a start that cannot be
@@ -333,18 +333,18 @@ Prediction Problem::predict(const Eigen::VectorXd& x, int experiment, bool all_f
 }
 
 Case Problem::with(const Eigen::VectorXd& x) const {
-  Case study = study_;
+  Case the_case = case_;
   for (std::size_t j = 0; j < unknowns_.size(); ++j)
     if (unknowns_[j].parameter >= 0 && unknowns_[j].experiment <= 0)
-      study.parameters[static_cast<std::size_t>(unknowns_[j].parameter)].value =
+      the_case.parameters[static_cast<std::size_t>(unknowns_[j].parameter)].value =
           x[static_cast<Eigen::Index>(j)];
-  if (experiments_.size() == study.experiments.size())  // no windows: every start has its place
+  if (experiments_.size() == the_case.experiments.size())  // no windows: every start has its place
     for (std::size_t e = 0; e < experiments_.size(); ++e) {
       const InitialSpec initial = initial_of(x, static_cast<int>(e));
       if (initial.free || (!initial.at_rest && initial.velocity_free))
-        study.experiments[e].initial = initial;
+        the_case.experiments[e].initial = initial;
     }
-  return study;
+  return the_case;
 }
 
 Problem Problem::shortened(double seconds) const {
@@ -361,7 +361,7 @@ Problem Problem::shortened(double seconds) const {
 
 Problem Problem::with_tolerance(double tolerance) const {
   Problem other = *this;
-  other.study_.optimiser.tolerance = tolerance;
+  other.case_.optimiser.tolerance = tolerance;
   return other;
 }
 
@@ -375,13 +375,13 @@ constexpr Eigen::Index kValuesPerUnknown = 100;  // and at least so many numbers
 }  // namespace
 
 bool Problem::finer_than_rough() const {
-  return study_.simulation.relative_tolerance <= kRoughTolerance / 10 &&
-         study_.optimiser.tolerance < kRoughlyThere;
+  return case_.simulation.relative_tolerance <= kRoughTolerance / 10 &&
+         case_.optimiser.tolerance < kRoughlyThere;
 }
 
 Problem Problem::rough() const {
-  Problem other = with_tolerance(std::max(kRoughlyThere, study_.optimiser.tolerance));
-  SimulationSpec& simulation = other.study_.simulation;
+  Problem other = with_tolerance(std::max(kRoughlyThere, case_.optimiser.tolerance));
+  SimulationSpec& simulation = other.case_.simulation;
   const double coarser = std::max(1.0, kRoughTolerance / simulation.relative_tolerance);
   simulation.relative_tolerance *= coarser;
   simulation.absolute_tolerance_position *= coarser;
@@ -413,20 +413,20 @@ Problem Problem::rough() const {
 
 Problem Problem::alone(const Eigen::VectorXd& x, int experiment) const {
   const Experiment& chosen = experiments_[static_cast<std::size_t>(experiment)];
-  Case study = study_;
+  Case the_case = case_;
   const Eigen::VectorXd values = parameter_values(x, experiment);
-  for (std::size_t j = 0; j < study.parameters.size(); ++j) {
-    study.parameters[j].value = values[static_cast<Eigen::Index>(j)];
-    study.parameters[j].free = false;
+  for (std::size_t j = 0; j < the_case.parameters.size(); ++j) {
+    the_case.parameters[j].value = values[static_cast<Eigen::Index>(j)];
+    the_case.parameters[j].free = false;
   }
-  study.optimiser.growing_windows.clear();
-  study.experiments = {chosen.spec};
-  ExperimentSpec& spec = study.experiments.front();
+  the_case.optimiser.growing_windows.clear();
+  the_case.experiments = {chosen.spec};
+  ExperimentSpec& spec = the_case.experiments.front();
   spec.use = Use::kFit;
   spec.initial = initial_of(x, experiment);
   Recording recording = chosen.recording;
   recording.fit_frames = static_cast<Eigen::Index>(recording.time.size());
-  return Problem(std::move(study), model_, {std::move(recording)});
+  return Problem(std::move(the_case), model_, {std::move(recording)});
 }
 
 Problem Problem::started(const std::map<int, InitialSpec>& starts) const {
@@ -442,8 +442,8 @@ Problem Problem::fixed(int unknown, double value) const {
   if (parameter < 0 || unknowns_[static_cast<std::size_t>(unknown)].experiment >= 0)
     throw std::invalid_argument("only an unknown of the physics can be fixed");
   other.map_.set_value(parameter, value);
-  other.study_.parameters[static_cast<std::size_t>(parameter)].value = value;
-  other.study_.parameters[static_cast<std::size_t>(parameter)].free = false;
+  other.case_.parameters[static_cast<std::size_t>(parameter)].value = value;
+  other.case_.parameters[static_cast<std::size_t>(parameter)].free = false;
   other.unknowns_.erase(other.unknowns_.begin() + unknown);
   return other;
 }
@@ -466,9 +466,8 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, 
     if (!all && !experiment.fitted()) continue;
     const int index = static_cast<int>(e);
     Prediction& prediction = evaluation.predictions[e];
-    prediction = problem.predict(x, index, all,
-                                 jacobian ? problem.directions(x, index) : std::vector<Direction>{},
-                                 keep_going);
+    prediction = problem.predict(
+        x, index, all, jacobian ? problem.directions(x, index) : std::vector<Seed>{}, keep_going);
     if (prediction.ok()) continue;
     evaluation.ok = false;
     evaluation.message = experiment.spec.name + ": " + prediction.message;

@@ -13,6 +13,7 @@
 #include "identify/recordings/recording.hpp"
 #include "identify/recordings/signal_reader.hpp"
 #include "runtime/model.hpp"
+#include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "runtime/state.hpp"
 
@@ -56,12 +57,6 @@ struct Prediction {
   bool ok() const { return status == Status::kSuccess; }
 };
 
-/// A direction in which a prediction is differentiated: of the model's parameters and of the
-/// initial angles and rates of one experiment. Empty vectors are zero.
-struct Direction {
-  Eigen::VectorXd parameters, q, v;
-};
-
 /// A case, its model and its data: from the unknowns to predictions and back to a case.
 /// All functions may be called from several threads at once.
 ///
@@ -71,11 +66,11 @@ struct Direction {
 class Problem {
  public:
   /// Reads the data. Throws InputError.
-  Problem(Case study, Model model);
+  Problem(Case the_case, Model model);
   /// The same case with data given: one recording per experiment of the case.
-  Problem(Case study, Model model, std::vector<Recording> recordings);
+  Problem(Case the_case, Model model, std::vector<Recording> recordings);
 
-  const Case& study() const { return study_; }
+  const Case& the_case() const { return case_; }
   const Model& model() const { return model_; }
   const std::vector<Experiment>& experiments() const { return experiments_; }
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
@@ -89,13 +84,14 @@ class Problem {
   /// The state at the start of one experiment. Throws std::invalid_argument or std::runtime_error
   /// where there is none (held farther away than the cable is long, no equilibrium).
   State initial_state(const Eigen::VectorXd& x, int experiment) const;
-  /// The derivatives of both by every unknown; unknowns of other experiments give empty vectors.
-  std::vector<Direction> directions(const Eigen::VectorXd& x, int experiment) const;
+  /// The derivatives of both by every unknown. A vector that is empty is zero; all of an unknown of
+  /// another experiment are.
+  std::vector<Seed> directions(const Eigen::VectorXd& x, int experiment) const;
 
   /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities
   /// along `along` (model parameters and initial state: e.g. directions(), or any other).
   Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
-                     const std::vector<Direction>& along = {},
+                     const std::vector<Seed>& along = {},
                      const std::function<bool()>& keep_going = {}) const;
 
   /// The case with the values of `x` as its starting values.
@@ -105,8 +101,8 @@ class Problem {
   bool joined() const;
   /// What a gap between windows costs, in residuals of the same size: so much that it closes. Lower
   /// while a fit is on its way.
-  double joint_weight() const { return joint_weight_; }
-  Problem with_joint_weight(double weight) const;
+  double defect_weight() const { return defect_weight_; }
+  Problem with_defect_weight(double weight) const;
 
   /// The same, only the first `seconds` of each experiment.
   Problem shortened(double seconds) const;
@@ -138,12 +134,12 @@ class Problem {
   State state_of(int experiment, const InitialSpec& initial,
                  const Eigen::VectorXd& parameters) const;
 
-  Case study_;
+  Case case_;
   Model model_;
   ParameterMap map_;
   std::vector<Experiment> experiments_;
   std::vector<Unknown> unknowns_;
-  double joint_weight_ = 1e4;
+  double defect_weight_ = 1e4;
 };
 
 /// Predictions of all experiments (those to be fitted, or all) and, if asked for, their

@@ -36,11 +36,11 @@ void watch_for_interruption() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-Model model_of(const Case& study, const CommonOptions& options) {
+Model model_of(const Case& the_case, const CommonOptions& options) {
   ProviderOptions provider;
   if (!options.quiet)
     provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
-  return provide_model(study.description, study.links, provider);
+  return provide_model(the_case.description, the_case.links, provider);
 }
 
 void write_output(const std::filesystem::path& folder, const OutputFiles& files) {

@@ -16,13 +16,6 @@ namespace catena {
 /// Exit statuses of the programs.
 enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted = 130 };
 
-/// Each command adds itself to the program and stores its exit status there when it has run. What
-/// it throws is printed by main: InputError and std::invalid_argument end with 2, others with 1.
-void add_simulate_command(CLI::App& program, int& exit_status);
-void add_identify_command(CLI::App& program, int& exit_status);
-void add_report_command(CLI::App& program, int& exit_status);
-void add_diagnose_command(CLI::App& program, int& exit_status);
-
 /// What every command that works on a case takes.
 struct CommonOptions {
   std::filesystem::path case_file;
@@ -37,7 +30,7 @@ const std::atomic<bool>& interrupted();
 void watch_for_interruption();
 
 /// The model of a case, with a line on standard error where it has to be made first.
-Model model_of(const Case& study, const CommonOptions& options);
+Model model_of(const Case& the_case, const CommonOptions& options);
 
 /// Files under their names, written into a folder one by one, each whole; the folder is made.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;

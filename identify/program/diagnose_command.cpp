@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/diagnose_command.hpp"
+
 #include <unistd.h>
 
 #include <iostream>
 
+#include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
@@ -20,12 +23,12 @@ struct DiagnoseOptions : CommonOptions {
 
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
-  const Case study = read_case(options.case_file);
+  const Case the_case = read_case(options.case_file);
   const ScratchFolder scratch;
   ProviderOptions provider;
   if (!options.quiet)
     provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
-  Workshop workshop(study.description, options.effects, scratch.path(), fit_least_squares,
+  Workshop workshop(the_case.description, options.effects, scratch.path(), fit_least_squares,
                     provider);
   workshop.stop = &interrupted();
   workshop.threads = options.threads;
@@ -34,7 +37,7 @@ int diagnose_case(const DiagnoseOptions& options) {
   if (!folder.has_filename()) folder = folder.parent_path();  // "found/"
   UnfinishedFolder output(folder);
   try {
-    const Diagnosis found = diagnose(study, workshop, options.diagnosis);
+    const Diagnosis found = diagnose(the_case, workshop, options.diagnosis);
     const DiagnosisFindings findings = find_out(found);
     const std::string json = write_diagnosis(found, findings, workshop, output.path());
     output.publish();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/identify_command.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +11,9 @@
 #include "common/input_error.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
+#include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_words.hpp"
+#include "identify/cases/case_writer.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
@@ -17,6 +21,7 @@
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
+#include "identify/results/csv_tables.hpp"
 #include "identify/results/result_writer.hpp"
 #include "identify/uncertainty/bootstrap.hpp"
 #include "identify/uncertainty/profile.hpp"
@@ -53,7 +58,7 @@ OutputFiles files_of(const Problem& problem, const Identification& found,
 
 /// Everything that decides a run: the case, its numbers, the data, the model.
 std::string run_key(const Problem& problem) {
-  std::string all = case_text(problem.study(), std::filesystem::current_path());
+  std::string all = case_text(problem.the_case(), std::filesystem::current_path());
   all += problem.model().table().description_hash;
   const auto add = [&](const double* values, std::size_t count) {
     all.append(reinterpret_cast<const char*>(values), count * sizeof(double));
@@ -93,15 +98,15 @@ int check_case(const Problem& problem, const IdentifyOptions& options) {
   return kExitSuccess;
 }
 
-int study_links(const Case& study, const IdentifyOptions& options) {
+int study_links(const Case& the_case, const IdentifyOptions& options) {
   std::vector<LinksResult> results;
   {
     ProgressLine line(!options.quiet);
     results = links_study(
-        study, options.links_study, [&](const Case& other) { return model_of(other, options); },
+        the_case, options.links_study, [&](const Case& other) { return model_of(other, options); },
         fit_options_of(options, line), fit_least_squares);
   }
-  const std::string text = links_study_result_text(study, results);
+  const std::string text = links_study_result_text(the_case, results);
   write_output(output_folder(options), {{"links_study.json", text}});
   if (options.json) std::cout << text;
   if (!options.quiet && !options.json)
@@ -128,29 +133,30 @@ void complete(const Problem& problem, const IdentifyOptions& options, Identifica
     found.profiles =
         profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares, options.threads);
   if (options.bootstrap > 0 && !interrupted())
-    found.bootstrap = bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares,
-                                options.bootstrap, problem.study().optimiser.seed, options.threads);
+    found.bootstrap =
+        bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares, options.bootstrap,
+                  problem.the_case().optimiser.seed, options.threads);
 }
 
 /// How well joined windows meet: nothing to say where none are joined.
 std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluation) {
-  const Joints joints = joints_of(problem, evaluation);
+  const ShootingDefects defects = shooting_defects_of(problem, evaluation);
   const Eigen::Index n = problem.model().coordinates();
   double angle = 0, rate = 0;
-  for (Eigen::Index i = 0; i < joints.value.size(); ++i)
+  for (Eigen::Index i = 0; i < defects.value.size(); ++i)
     (i % (2 * n) < n ? angle : rate) =
-        std::max(i % (2 * n) < n ? angle : rate, std::abs(joints.value[i]));
-  if (joints.value.size() == 0) return "";
+        std::max(i % (2 * n) < n ? angle : rate, std::abs(defects.value[i]));
+  if (defects.value.size() == 0) return "";
   return fmt::format("; the largest of {} gaps between windows is {:.2g} rad and {:.2g} rad/s",
-                     joints.value.size() / (2 * n), angle, rate);
+                     defects.value.size() / (2 * n), angle, rate);
 }
 
 int identify_case(const IdentifyOptions& options) {
-  Case study = read_case(options.case_file);
+  Case the_case = read_case(options.case_file);
   watch_for_interruption();
-  if (!options.links_study.empty()) return study_links(study, options);
-  const Model model = model_of(study, options);
-  const Problem problem(std::move(study), model);
+  if (!options.links_study.empty()) return study_links(the_case, options);
+  const Model model = model_of(the_case, options);
+  const Problem problem(std::move(the_case), model);
   if (options.check) return check_case(problem, options);
   check_fittable(problem);
 
@@ -186,7 +192,7 @@ int identify_case(const IdentifyOptions& options) {
     std::cout << fmt::format(
                      "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.4f} "
                      "s of a core; {}\n",
-                     kMeasureWords[static_cast<std::size_t>(problem.study().error.measure)],
+                     kMeasureWords[static_cast<std::size_t>(problem.the_case().error.measure)],
                      measured_error(problem, found.starts.front().start_error),  // the case's own
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,

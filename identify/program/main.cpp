@@ -6,6 +6,10 @@
 #include "common/manual.hpp"
 #include "identify/models/process.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/diagnose_command.hpp"
+#include "identify/program/identify_command.hpp"
+#include "identify/program/report_command.hpp"
+#include "identify/program/simulate_command.hpp"
 
 namespace catena {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/report_command.hpp"
+
 #include <fmt/format.h>
 
 #include <iostream>

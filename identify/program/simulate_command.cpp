@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/simulate_command.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iostream>
 
 #include "common/input_error.hpp"
+#include "identify/cases/case_reader.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/tables.hpp"
+#include "identify/results/csv_tables.hpp"
 #include "identify/results/result_writer.hpp"
-#include "identify/results/simulated_motion.hpp"
 
 namespace catena {
 namespace {
@@ -40,12 +43,12 @@ void add_motion_files(const Problem& problem, int experiment, const Motion& moti
 
 /// The case alone, for as long as it says.
 int simulate_alone(const Problem& problem, const CommonOptions& options) {
-  const Case& study = problem.study();
+  const Case& the_case = problem.the_case();
   const Eigen::VectorXd x = problem.start();
   const Motion motion = simulate_motion(
       problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
-      output_times(study.simulation), study.simulation,
-      read_signals(study.signals, problem.model(), study.file.string()), keep_going);
+      output_times(the_case.simulation), the_case.simulation,
+      read_signals(the_case.signals, problem.model(), the_case.file.string()), keep_going);
   if (!succeeded(motion.simulation, "simulation")) return kExitInterrupted;
   OutputFiles files;
   const std::string result = simulation_result_text(problem, motion);
@@ -86,13 +89,13 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
 }
 
 int simulate_case(const CommonOptions& options) {
-  Case study = read_case(options.case_file);
-  if (study.experiments.empty() && std::isnan(study.simulation.duration))
+  Case the_case = read_case(options.case_file);
+  if (the_case.experiments.empty() && std::isnan(the_case.simulation.duration))
     throw InputError(
-        study.file.string() +
+        the_case.file.string() +
         ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
-  const Model model = model_of(study, options);
-  const Problem problem(std::move(study), model);
+  const Model model = model_of(the_case, options);
+  const Problem problem(std::move(the_case), model);
   return problem.experiments().empty() ? simulate_alone(problem, options)
                                        : simulate_experiments(problem, options);
 }

@@ -94,7 +94,7 @@ std::string measured_error(const Problem& problem, double error) {
     noise |= !std::isnan(experiment.spec.noise);
     angles |= experiment.spec.kind == DataKind::kAngles;
   }
-  if (noise && problem.study().error.measure == Measure::kLeastSquares)
+  if (noise && problem.the_case().error.measure == Measure::kLeastSquares)
     return fmt::format("{:.4g} times the noise", error);
   return fmt::format("{:.4g} {}", 1e3 * error, angles ? "mrad" : "mm");
 }

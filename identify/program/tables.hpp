@@ -6,7 +6,7 @@
 
 #include "identify/fit/fit.hpp"
 #include "identify/fit/links_study.hpp"
-#include "identify/results/simulated_motion.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/uncertainty/profile.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 

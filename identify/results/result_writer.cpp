@@ -44,29 +44,29 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 Json head(const Problem& problem, const char* command) {
-  const Case& study = problem.study();
-  const std::string text = text_of(study.file);
+  const Case& the_case = problem.the_case();
+  const std::string text = text_of(the_case.file);
   Json json;
   json["format"] = 1;
   json["kind"] = "result";
   json["command"] = command;
-  json["title"] = study.title;
+  json["title"] = the_case.title;
   json["status"] = "success";
   json["message"] = "";
   json["versions"] = {{"catena", CATENA_VERSION}};
   json["case"] = {
-      {"file", study.file.filename().string()}, {"text", text}, {"sha256", sha256_hex(text)}};
+      {"file", the_case.file.filename().string()}, {"text", text}, {"sha256", sha256_hex(text)}};
   Json& model = json["model"];
   model["id"] = problem.model().table().id;
   model["links"] = problem.model().links();
   model["description_hash"] = problem.model().table().description_hash;
-  model["load_mass"] = study.cable.load_mass;
-  const std::string derived = derived_equations(study.description, problem.model().links());
+  model["load_mass"] = the_case.cable.load_mass;
+  const std::string derived = derived_equations(the_case.description, problem.model().links());
   if (!derived.empty()) model["derived"] = Json::parse(derived);
   model["effects"] = Json::array();
-  if (!study.description.empty()) {
-    model["description"] = text_of(study.description);
-    for (const Effect& effect : read_description(study.description).effects) {
+  if (!the_case.description.empty()) {
+    model["description"] = text_of(the_case.description);
+    for (const Effect& effect : read_description(the_case.description).effects) {
       Json formulas_of = Json::array();
       for (const Formula& formula : formulas(effect))
         formulas_of.push_back(
@@ -215,7 +215,7 @@ Json measure_json(const Problem& problem, const Evaluation& evaluation) {
     noise_given |= !std::isnan(experiment.spec.noise);
     angles |= experiment.spec.kind == DataKind::kAngles;
   }
-  const Measure measure = problem.study().error.measure;
+  const Measure measure = problem.the_case().error.measure;
   const bool in_noise = noise_given && measure == Measure::kLeastSquares;
   return {{"name", kMeasureWords[static_cast<std::size_t>(measure)]},
           {"unit", in_noise ? "1"
@@ -243,16 +243,17 @@ Json unknown_json(const Unknown& unknown, const std::string& sets, double value)
 }
 
 Json parameters_json(const Problem& problem, const Eigen::VectorXd& x) {
-  const Case& study = problem.study();
+  const Case& the_case = problem.the_case();
   Json out = Json::array();
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     const std::string sets =
-        unknown.parameter >= 0 ? study.parameters[static_cast<std::size_t>(unknown.parameter)].sets
-                               : "initial";
+        unknown.parameter >= 0
+            ? the_case.parameters[static_cast<std::size_t>(unknown.parameter)].sets
+            : "initial";
     out.push_back(unknown_json(unknown, sets, x[static_cast<Eigen::Index>(j)]));
   }
-  for (const ParameterSpec& parameter : study.parameters)
+  for (const ParameterSpec& parameter : the_case.parameters)
     if (!parameter.free)
       out.push_back({{"name", parameter.name},
                      {"sets", parameter.sets},
@@ -285,8 +286,8 @@ void put_uncertainty(Json& json, const Problem& problem, const Identification& f
   json["correlation"] = rows(uncertainty.correlation);
   Json& noise = json["residuals"];
   noise = {{"deviation", number(uncertainty.noise)},
-           {"lag_one_correlation", number(uncertainty.colour)},
-           {"coloured", uncertainty.coloured},
+           {"lag_one_correlation", number(uncertainty.autocorrelation)},
+           {"coloured", uncertainty.autocorrelated},
            {"singular_values", numbers(uncertainty.singular_values)}};
   noise["channels"] = Json::array();
   const Residuals residuals = residuals_of(problem, found.after, Part::kFit);
@@ -324,7 +325,7 @@ Json starts_json(const std::vector<FitResult>& starts) {
 }
 
 Json optimiser_json(const Problem& problem, const FitResult& fit) {
-  const OptimiserSpec& spec = problem.study().optimiser;
+  const OptimiserSpec& spec = problem.the_case().optimiser;
   Json history;
   Json step = Json::array(), error = Json::array();
   std::vector<Json> parameters(problem.unknowns().size(), Json::array());
@@ -377,8 +378,9 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
   return text(json);
 }
 
-std::string links_study_result_text(const Case& study, const std::vector<LinksResult>& results) {
-  Json json = {{"format", 1}, {"kind", "result"}, {"command", "identify"}, {"title", study.title}};
+std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& results) {
+  Json json = {
+      {"format", 1}, {"kind", "result"}, {"command", "identify"}, {"title", the_case.title}};
   json["links_study"] = Json::array();
   for (const LinksResult& result : results) {
     Json parameters;

@@ -8,7 +8,7 @@
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/fit/links_study.hpp"
-#include "identify/results/simulated_motion.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/uncertainty/profile.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 
@@ -34,6 +34,6 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
 /// result.json of `catena identify`.
 std::string identification_result_text(const Problem& problem, const Identification& found);
 /// links_study.json of `catena identify --links-study`.
-std::string links_study_result_text(const Case& study, const std::vector<LinksResult>& results);
+std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& results);
 
 }  // namespace catena

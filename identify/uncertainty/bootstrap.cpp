@@ -32,7 +32,7 @@ MatrixXd drawn_again(const MatrixXd& residuals, Index block, std::mt19937_64& ge
 MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertainty& uncertainty,
                    const LeastSquares& least_squares, int count, unsigned seed, int threads) {
   const Evaluation best = evaluate(problem, fit.x, false, false);
-  const double rho = std::clamp(uncertainty.colour, 0.0, 0.97);
+  const double rho = std::clamp(uncertainty.autocorrelation, 0.0, 0.97);
   MatrixXd rows(count, fit.x.size());
   in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
     std::mt19937_64 generator(seed + 1'000'003ULL * (row + 1));

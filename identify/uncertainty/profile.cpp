@@ -21,7 +21,8 @@ VectorXd without(const VectorXd& x, Eigen::Index j) {
 /// over their noise, or, where the noise is found from them, what its sizes leave of it.
 double minus_log_likelihood(const Problem& problem, const Residuals& residuals) {
   const VectorXd noise = noise_of(problem, residuals);
-  if (problem.study().error.measure == Measure::kLikelihood) return 2 * noise.array().log().sum();
+  if (problem.the_case().error.measure == Measure::kLikelihood)
+    return 2 * noise.array().log().sum();
   return residuals.value.cwiseQuotient(noise).squaredNorm();
 }
 
@@ -65,12 +66,13 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
   const Evaluation best = evaluate(problem, fit.x, false, false);
   const Residuals residuals = residuals_of(problem, best, Part::kFit);
   const double least = minus_log_likelihood(problem, residuals);
-  const bool by_likelihood = problem.study().error.measure == Measure::kLikelihood;
+  const bool by_likelihood = problem.the_case().error.measure == Measure::kLikelihood;
   const double variance = by_likelihood ? 1 : uncertainty.noise * uncertainty.noise;
   // A residual that repeats the one before says less than a new one (AR(1)).
-  const double repeated = uncertainty.coloured && uncertainty.colour > 0
-                              ? (1 + uncertainty.colour) / (1 - uncertainty.colour)
-                              : 1;
+  const double repeated =
+      uncertainty.autocorrelated && uncertainty.autocorrelation > 0
+          ? (1 + uncertainty.autocorrelation) / (1 - uncertainty.autocorrelation)
+          : 1;
   std::vector<Profile> profiles(chosen.size());
   in_parallel(chosen.size(), threads, [&](std::size_t p) {
     Profile& profile = profiles[p];

@@ -13,7 +13,7 @@ struct Profile {
   int unknown = 0;
   std::vector<double> value;
   std::vector<double>
-      cost;  ///< twice the negative log likelihood above the minimum, colour allowed for
+      cost;  ///< twice the negative log likelihood above the minimum, autocorrelation allowed for
   double threshold = 3.84;  ///< the 95 % quantile of chi square with one degree of freedom
   Verdict verdict = Verdict::kIdentifiable;
 };

@@ -55,14 +55,14 @@ std::pair<double, Index> lag_one(const Residuals& residuals, const VectorXd& r) 
   return {products / r.squaredNorm(), pairs};
 }
 
-/// J'WJ for residuals that follow AR(1) in every channel: W_kl = colour^|k - l|.
+/// J'WJ for residuals that follow AR(1) in every channel: W_kl = autocorrelation^|k - l|.
 MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacobian,
-                               double colour) {
+                               double autocorrelation) {
   const Index unknowns = jacobian.cols();
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
   struct Tail {
     Index frame = -1;
-    VectorXd sum;  // of colour^(k - l) J_l over the earlier frames l of the channel
+    VectorXd sum;  // of autocorrelation^(k - l) J_l over the earlier frames l of the channel
   };
   std::vector<std::vector<Tail>> tails;  // by experiment and channel
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
@@ -75,7 +75,7 @@ MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacob
     const VectorXd row = jacobian.row(static_cast<Index>(i)).transpose();
     middle += row * row.transpose();
     if (tail.frame >= 0) {
-      tail.sum *= std::pow(colour, static_cast<double>(index.frame - tail.frame));
+      tail.sum *= std::pow(autocorrelation, static_cast<double>(index.frame - tail.frame));
       middle += row * tail.sum.transpose() + tail.sum * row.transpose();
       tail.sum += row;
     } else {
@@ -88,7 +88,7 @@ MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacob
 
 /// J'WJ: the covariance of the sums J'r over frames, with Bartlett's weights.
 MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
-                       double colour) {
+                       double autocorrelation) {
   const Index unknowns = jacobian.cols();
   MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
   std::vector<std::vector<VectorXd>> scores;  // by experiment and frame
@@ -99,7 +99,8 @@ MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, con
     if (scores[e].size() <= k) scores[e].resize(k + 1, VectorXd::Zero(unknowns));
     scores[e][k] += jacobian.row(static_cast<Index>(i)).transpose() * r[static_cast<Index>(i)];
   }
-  const double alpha = 4 * colour * colour / std::pow((1 - colour) * (1 + colour), 2);
+  const double alpha = 4 * autocorrelation * autocorrelation /
+                       std::pow((1 - autocorrelation) * (1 + autocorrelation), 2);
   for (const std::vector<VectorXd>& series : scores) {
     const auto frames = static_cast<Index>(series.size());
     const Index bandwidth = std::min<Index>(
@@ -156,23 +157,25 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     throw std::runtime_error("fewer measured values (" + std::to_string(count) +
                              ") than unknowns (" + std::to_string(unknowns) + ")");
   const VectorXd r = residuals.value.cwiseProduct(weights);
-  const Joints joints = joints_of(problem, evaluation);  // of joined windows: they bind the starts
+  const ShootingDefects defects =
+      shooting_defects_of(problem, evaluation);  // of joined windows: they bind the starts
 
   Uncertainty out;
   out.noise = expected_noise > 0
                   ? expected_noise
                   : std::sqrt(r.squaredNorm() /
-                              static_cast<double>(count - unknowns + joints.value.size()));
+                              static_cast<double>(count - unknowns + defects.value.size()));
   if (!(out.noise > 0)) out.noise = std::numeric_limits<double>::min();
   jacobian /= out.noise;
-  MatrixXd with_joints(count + joints.value.size(), unknowns);
-  with_joints << jacobian,
-      joints.weight.asDiagonal() * joints.jacobian * range.asDiagonal() / out.noise;
-  const Eigen::BDCSVD<MatrixXd> svd(with_joints, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  MatrixXd with_defects(count + defects.value.size(), unknowns);
+  with_defects << jacobian,
+      defects.weight.asDiagonal() * defects.jacobian * range.asDiagonal() / out.noise;
+  const Eigen::BDCSVD<MatrixXd> svd(with_defects, Eigen::ComputeThinU | Eigen::ComputeThinV);
   out.singular_values = svd.singularValues();
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
-  const double largest = joints.value.size() ? Eigen::BDCSVD<MatrixXd>(jacobian).singularValues()[0]
-                                             : out.singular_values[0];
+  const double largest = defects.value.size()
+                             ? Eigen::BDCSVD<MatrixXd>(jacobian).singularValues()[0]
+                             : out.singular_values[0];
   const double smallest = 1e-6 * largest;
   Index rank = 0;
   while (rank < unknowns && out.singular_values[rank] > smallest) ++rank;
@@ -183,15 +186,16 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
                            known.transpose();
   MatrixXd covariance = inverse;
   if (expected_noise <= 0) {
-    const auto [colour, pairs] = lag_one(residuals, r);
-    out.colour = colour;
-    out.coloured = pairs > 0 && std::abs(colour) > 2.58 / std::sqrt(static_cast<double>(pairs));
-    if (out.coloured) {
-      const double rho = std::clamp(colour, -0.97, 0.97);
+    const auto [autocorrelation, pairs] = lag_one(residuals, r);
+    out.autocorrelation = autocorrelation;
+    out.autocorrelated =
+        pairs > 0 && std::abs(autocorrelation) > 2.58 / std::sqrt(static_cast<double>(pairs));
+    if (out.autocorrelated) {
+      const double rho = std::clamp(autocorrelation, -0.97, 0.97);
       covariance = inverse * autoregressive_middle(residuals, jacobian, rho) * inverse;
       const VectorXd robust =
           (inverse * robust_middle(residuals, jacobian, r / out.noise, rho) * inverse).diagonal();
-      // The robust estimate scatters; where it is far above, markers are correlated or the colour
+      // The robust estimate scatters; where it is far above, markers are correlated or autocorrelation
       // lasts longer than AR(1) knows.
       constexpr double kFarAbove = 2;
       VectorXd stretch = VectorXd::Ones(unknowns);
@@ -255,7 +259,9 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
 Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty) {
   // The squares of an AR(1) process are correlated by the square of its correlation.
   const double square =
-      uncertainty.coloured ? std::min(uncertainty.colour * uncertainty.colour, 0.94) : 0;
+      uncertainty.autocorrelated
+          ? std::min(uncertainty.autocorrelation * uncertainty.autocorrelation, 0.94)
+          : 0;
   const double relative =
       std::sqrt((1 + square) / (1 - square) / (2 * static_cast<double>(channel.count)));
   return {channel.deviation * relative, channel.deviation * std::exp(-kQuantile * relative),

@@ -34,9 +34,9 @@ struct Estimate {
 struct Uncertainty {
   std::vector<Estimate> estimates;  ///< one per unknown
   Eigen::MatrixXd correlation;      ///< of the scaled unknowns; NaN with one that is not determined
-  double noise = 0;   ///< standard deviation of the residuals, m or rad (or over the stated noise)
-  double colour = 0;  ///< correlation of a residual with the one a frame before
-  bool coloured = false;                 ///< more than chance: errors then allow for it
+  double noise = 0;  ///< standard deviation of the residuals, m or rad (or over the stated noise)
+  double autocorrelation = 0;            ///< correlation of a residual with the one a frame before
+  bool autocorrelated = false;           ///< more than chance: errors then allow for it
   Eigen::VectorXd singular_values;       ///< of J, descending
   std::vector<WeakDirection> weak;       ///< directions known to no better than a scaled unit
   std::vector<std::string> suggestions;  ///< what to fix so that the rest is determined
@@ -49,13 +49,13 @@ struct Uncertainty {
 /// Errors are those of least squares: (J'J)^-1 where the residuals are white, else the sandwich
 /// (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with
 /// Bartlett's weights (Newey and West 1987, bandwidth of Andrews 1991) give more than twice that
-/// variance, theirs is taken: markers that err together, colour that lasts. For measures other than
+/// variance, theirs is taken: markers that err together, autocorrelation that lasts. For measures other than
 /// least squares they are an approximation. Throws std::runtime_error where the simulation fails.
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
 
 /// The noise of one channel, its error and interval, from the scatter of so many residuals,
-/// coloured or not. It is a property of the sensor: no unknown of the physics.
+/// autocorrelated or not. It is a property of the sensor: no unknown of the physics.
 Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty);
 
 }  // namespace catena

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/cases/case_reader.hpp"
 #include "identify/problem/problem.hpp"
 
 namespace catena::testing {
@@ -60,13 +61,13 @@ inline Recording empty_markers(const std::vector<double>& arc_lengths, int frame
 }
 
 /// Adds an experiment of that name for a recording that is handed in.
-inline void add_experiment(Case& study, const std::string& name,
+inline void add_experiment(Case& the_case, const std::string& name,
                            DataKind kind = DataKind::kMarkers) {
   ExperimentSpec spec;
   spec.name = name;
   spec.kind = kind;
   spec.where = "case.toml";
-  study.experiments.push_back(spec);
+  the_case.experiments.push_back(spec);
 }
 
 /// The recording filled with what the case itself predicts, plus normal noise.

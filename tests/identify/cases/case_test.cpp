@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "common/input_error.hpp"
+#include "identify/cases/case_reader.hpp"
+#include "identify/cases/case_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -125,38 +127,38 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST_CASE("a case is read as it stands") {
   const testing::TemporaryFolder folder;
   folder.write("data.csv", "x,y,phi\n");
-  const Case study = parse_case(kWhole, "case.toml", folder.path());
-  CHECK(study.title == "a \"whole\" case");
-  CHECK(study.links == 4);
-  CHECK(study.cable.gravity == 9.81);
-  REQUIRE(study.parameters.size() == 2);
-  CHECK(study.parameters[0].scale == Scale::kLogarithmic);
-  CHECK(study.parameters[1].scale == Scale::kLinear);
-  CHECK(study.parameters[1].per_experiment);
-  CHECK(study.parameters[1].factor == 2);
-  CHECK(study.initial.shape == Shape::kSmooth);
-  CHECK(study.initial.velocity_coefficients == std::vector<double>{0.25});
-  REQUIRE(study.experiments.size() == 2);
-  const ExperimentSpec& first = study.experiments[0];
+  const Case the_case = parse_case(kWhole, "case.toml", folder.path());
+  CHECK(the_case.title == "a \"whole\" case");
+  CHECK(the_case.links == 4);
+  CHECK(the_case.cable.gravity == 9.81);
+  REQUIRE(the_case.parameters.size() == 2);
+  CHECK(the_case.parameters[0].scale == Scale::kLogarithmic);
+  CHECK(the_case.parameters[1].scale == Scale::kLinear);
+  CHECK(the_case.parameters[1].per_experiment);
+  CHECK(the_case.parameters[1].factor == 2);
+  CHECK(the_case.initial.shape == Shape::kSmooth);
+  CHECK(the_case.initial.velocity_coefficients == std::vector<double>{0.25});
+  REQUIRE(the_case.experiments.size() == 2);
+  const ExperimentSpec& first = the_case.experiments[0];
   CHECK(first.upward);
   CHECK(first.origin[0] == 320);
   CHECK(first.points[1].joint == 2);
   CHECK(first.points[2].load);
   REQUIRE(first.initial);
   CHECK(first.initial->held[1] == 1.25);
-  CHECK(study.experiments[1].use == Use::kValidate);
-  CHECK(study.experiments[1].points[0].link == 2);
-  CHECK(study.experiments[1].signals[0].column == "y");
-  CHECK(study.error.loss == Loss::kHuber);
-  CHECK(study.optimiser.growing_windows.size() == 2);
-  CHECK(study.simulation.max_steps == 5000);
+  CHECK(the_case.experiments[1].use == Use::kValidate);
+  CHECK(the_case.experiments[1].points[0].link == 2);
+  CHECK(the_case.experiments[1].signals[0].column == "y");
+  CHECK(the_case.error.loss == Loss::kHuber);
+  CHECK(the_case.optimiser.growing_windows.size() == 2);
+  CHECK(the_case.simulation.max_steps == 5000);
 }
 
 TEST_CASE("what is written is read back the same") {
   const testing::TemporaryFolder folder;
   folder.write("data.csv", "x,y,phi\n");
-  const Case study = parse_case(kWhole, "case.toml", folder.path());
-  const std::string once = case_text(study, folder.path());
+  const Case the_case = parse_case(kWhole, "case.toml", folder.path());
+  const std::string once = case_text(the_case, folder.path());
   const std::string twice = case_text(parse_case(once, "case.toml", folder.path()), folder.path());
   CHECK(once == twice);
   for (const char* line : {"arc_length = 0.75", "origin = [320, 20]", "start = 0.25",

@@ -24,9 +24,9 @@ constexpr int kFrames = 400, kFitted = 250;
 
 Case two_links() {
   const std::string cable = testing::kTwoLinks;
-  Case study = testing::sections(cable.substr(0, cable.find("[initial]")) + kAnyStart);
-  testing::add_experiment(study, "run", DataKind::kAngles);
-  return study;
+  Case the_case = testing::sections(cable.substr(0, cable.find("[initial]")) + kAnyStart);
+  testing::add_experiment(the_case, "run", DataKind::kAngles);
+  return the_case;
 }
 
 /// Both angles at 100 Hz, with noise; the last 1.5 s held out.
@@ -54,10 +54,10 @@ Recording film() {
 
 TEST_CASE(
     "windows held out are left with the noise by the right model, and with more by a wrong one") {
-  Case study = two_links();
-  study.experiments[0].window = 0.5;
+  Case the_case = two_links();
+  the_case.experiments[0].window = 0.5;
   const auto problem =
-      std::make_shared<const Problem>(study, Model::built_in(2), std::vector<Recording>{film()});
+      std::make_shared<const Problem>(the_case, Model::built_in(2), std::vector<Recording>{film()});
   const FittedModel found = fit_model(problem, problem->start(), fit_least_squares, nullptr);
   REQUIRE(found.ok);
   const std::vector<double> floors(problem->experiments().size(), kNoise);

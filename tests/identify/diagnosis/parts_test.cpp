@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/candidate.hpp"
 #include "identify/diagnosis/noise.hpp"
 #include "identify/diagnosis/score.hpp"

@@ -10,14 +10,14 @@ using namespace catena;
 namespace {
 
 Problem problem_with(Measure measure, const Eigen::MatrixXd& offsets) {
-  Case study = testing::sections(testing::kTwoLinks);
-  study.error.measure = measure;
-  testing::add_experiment(study, "run");
+  Case the_case = testing::sections(testing::kTwoLinks);
+  the_case.error.measure = measure;
+  testing::add_experiment(the_case, "run");
   const Model model = Model::built_in(2);
   Recording recording = testing::empty_markers({0.5, 1.0}, static_cast<int>(offsets.cols()), 0.1);
-  recording = testing::with_truth(study, model, recording);
+  recording = testing::with_truth(the_case, model, recording);
   recording.measured -= offsets;  // so that simulated minus measured is what we say
-  return Problem(study, model, {recording});
+  return Problem(the_case, model, {recording});
 }
 
 }  // namespace

@@ -15,16 +15,16 @@ namespace {
 
 Problem twin(FitMethod method, Measure measure, double k, double c, double noise = 0,
              unsigned seed = 1) {
-  Case study = testing::sections(testing::kTwoLinks);
-  testing::add_experiment(study, "run");
-  Case truth = study;
+  Case the_case = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(the_case, "run");
+  Case truth = the_case;
   truth.parameters[0].value = k;
   truth.parameters[1].value = c;
-  study.optimiser.method = method;
-  study.error.measure = measure;
+  the_case.optimiser.method = method;
+  the_case.error.measure = measure;
   const Model model = Model::built_in(2);
   return Problem(
-      study, model,
+      the_case, model,
       {testing::with_truth(truth, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05), noise,
                            seed)});
 }
@@ -66,7 +66,7 @@ TEST_CASE("the noise of every channel is found with the physics and kept apart f
     for (Eigen::Index c = 0; c < 2; ++c) recording.measured(c, k) += normal(generator);
   const auto with = [&](FitMethod method, Measure measure) {
     const Problem problem = twin(method, measure, 0.1, 0.005);
-    return Problem(problem.study(), problem.model(), {recording});
+    return Problem(problem.the_case(), problem.model(), {recording});
   };
   const Problem weighed = with(FitMethod::kLeastSquares, Measure::kLikelihood);
   const FitResult found = fit(weighed, {}, fit_least_squares);
@@ -131,9 +131,9 @@ TEST_CASE("rough simulations lead to a fit of the problem itself") {
 
   for (int limit = 1; limit < result.evaluations; ++limit) {
     CAPTURE(limit);
-    Case study = problem.study();
-    study.optimiser.max_evaluations = limit;
-    const Problem shorter(study, problem.model(), {problem.experiments()[0].recording});
+    Case the_case = problem.the_case();
+    the_case.optimiser.max_evaluations = limit;
+    const Problem shorter(the_case, problem.model(), {problem.experiments()[0].recording});
     const FitResult limited = fit(shorter, {}, fit_least_squares);
     CHECK(limited.status == FitStatus::kEvaluationLimit);
     CHECK(limited.evaluations <= limit);
@@ -143,11 +143,11 @@ TEST_CASE("rough simulations lead to a fit of the problem itself") {
 
 TEST_CASE("rough simulations are of fewer frames, spread over all") {
   const Model model = Model::built_in(2);
-  Case study = testing::sections(testing::kTwoLinks);
-  testing::add_experiment(study, "run");
+  Case the_case = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(the_case, "run");
   const Problem problem(
-      study, model,
-      {testing::with_truth(study, model, testing::empty_markers({0.5, 1.0}, 1001, 0.002))});
+      the_case, model,
+      {testing::with_truth(the_case, model, testing::empty_markers({0.5, 1.0}, 1001, 0.002))});
   const Problem rough = problem.rough();
   const Recording &all = problem.experiments()[0].recording,
                   &few = rough.experiments()[0].recording;
@@ -155,16 +155,16 @@ TEST_CASE("rough simulations are of fewer frames, spread over all") {
   CHECK(few.time.back() == all.time.back());
   CHECK(few.time[1] == all.time[10]);
   CHECK(few.measured.col(100) == all.measured.col(1000));
-  CHECK(rough.study().simulation.relative_tolerance == doctest::Approx(1e-4));
+  CHECK(rough.the_case().simulation.relative_tolerance == doctest::Approx(1e-4));
   CHECK(!rough.finer_than_rough());
 }
 
 TEST_CASE("bounds hold") {
   for (const FitMethod method : {FitMethod::kNelderMead, FitMethod::kLeastSquares}) {
     Problem problem = twin(method, Measure::kLeastSquares, 0.1, 0.005);
-    Case study = problem.study();
-    study.parameters[0].upper = 0.07;
-    const Problem bounded(study, problem.model(), {problem.experiments()[0].recording});
+    Case the_case = problem.the_case();
+    the_case.parameters[0].upper = 0.07;
+    const Problem bounded(the_case, problem.model(), {problem.experiments()[0].recording});
     const FitResult result = fit(bounded, {}, fit_least_squares);
     CHECK(result.x[0] == doctest::Approx(0.07).epsilon(1e-6));
     CHECK(result.x[0] <= 0.07);
@@ -176,10 +176,10 @@ TEST_CASE("a robust loss is not led astray by outliers") {
   Recording recording = problem.experiments()[0].recording;
   for (Eigen::Index k = 5; k < 60; k += 10) recording.measured(4, k) += 0.2;  // a marker mistaken
   const auto found = [&](Loss loss, const Eigen::VectorXd& start = {}) {
-    Case study = problem.study();
-    study.experiments[0].noise = 1e-3;
-    study.error.loss = loss;
-    const Problem robust(study, problem.model(), {recording});
+    Case the_case = problem.the_case();
+    the_case.experiments[0].noise = 1e-3;
+    the_case.error.loss = loss;
+    const Problem robust(the_case, problem.model(), {recording});
     FitOptions options;
     options.start = start;
     return fit(robust, options, fit_least_squares).x;
@@ -205,10 +205,10 @@ TEST_CASE("fits stop when told to, with the best so far") {
   CHECK(interrupted.evaluations == 10);
   CHECK(interrupted.error <= interrupted.start_error);
 
-  Case study = problem.study();
-  study.optimiser.max_evaluations = 7;
+  Case the_case = problem.the_case();
+  the_case.optimiser.max_evaluations = 7;
   const FitResult limited =
-      fit(Problem(study, problem.model(), {problem.experiments()[0].recording}), {}, {});
+      fit(Problem(the_case, problem.model(), {problem.experiments()[0].recording}), {}, {});
   CHECK(limited.status == FitStatus::kEvaluationLimit);
   CHECK(limited.evaluations == 7);
 
@@ -220,11 +220,11 @@ TEST_CASE("fits stop when told to, with the best so far") {
 TEST_CASE("failures are counted, reported and never the best") {
   // Steps are limited so that stiff parameters fail and soft ones do not.
   Problem problem = twin(FitMethod::kNelderMead, Measure::kLeastSquares, 0.1, 0.005);
-  Case study = problem.study();
-  study.simulation.max_steps = 20;
-  const Problem hopeless(study, problem.model(), {problem.experiments()[0].recording});
+  Case the_case = problem.the_case();
+  the_case.simulation.max_steps = 20;
+  const Problem hopeless(the_case, problem.model(), {problem.experiments()[0].recording});
   for (const FitMethod method : {FitMethod::kNelderMead, FitMethod::kLeastSquares}) {
-    Case failing = study;
+    Case failing = the_case;
     failing.optimiser.method = method;
     const FitResult result =
         fit(Problem(failing, problem.model(), {problem.experiments()[0].recording}), {},
@@ -239,13 +239,13 @@ TEST_CASE("failures are counted, reported and never the best") {
 }
 
 TEST_CASE("what cannot be fitted is refused") {
-  Case study = testing::sections(testing::kTwoLinks);
+  Case the_case = testing::sections(testing::kTwoLinks);
   const Model model = Model::built_in(2);
-  CHECK_THROWS_AS(fit(Problem(study, model), {}, {}), InputError);  // free, but no data
+  CHECK_THROWS_AS(fit(Problem(the_case, model), {}, {}), InputError);  // free, but no data
   const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005);
   CHECK_THROWS_AS(fit(problem, {}, {}), InputError);  // no solver given
-  study = problem.study();
-  for (ParameterSpec& parameter : study.parameters) parameter.free = false;
-  CHECK_THROWS_AS(fit(Problem(study, model, {problem.experiments()[0].recording}), {}, {}),
+  the_case = problem.the_case();
+  for (ParameterSpec& parameter : the_case.parameters) parameter.free = false;
+  CHECK_THROWS_AS(fit(Problem(the_case, model, {problem.experiments()[0].recording}), {}, {}),
                   InputError);
 }

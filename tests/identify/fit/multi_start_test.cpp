@@ -16,7 +16,7 @@ using namespace catena;
 namespace {
 
 Problem swinging(FitMethod method, int starts) {
-  Case study = testing::sections(R"(
+  Case the_case = testing::sections(R"(
 [model]
 links = 2
 [cable]
@@ -41,16 +41,16 @@ upper = 0.1
 shape = "straight"
 angle = 0.6
 )");
-  study.optimiser.method = method;
-  study.optimiser.starts = starts;
-  study.optimiser.max_evaluations = 60;
-  testing::add_experiment(study, "run");
-  Case truth = study;
+  the_case.optimiser.method = method;
+  the_case.optimiser.starts = starts;
+  the_case.optimiser.max_evaluations = 60;
+  testing::add_experiment(the_case, "run");
+  Case truth = the_case;
   truth.parameters[0].value = 0.1;
   truth.parameters[1].value = 0.005;
   const Model model = Model::built_in(2);
   return Problem(
-      study, model,
+      the_case, model,
       {testing::with_truth(truth, model, testing::empty_markers({0.7, 1.0}, 40, 0.05), 1e-3)});
 }
 

@@ -76,11 +76,11 @@ Recording film() {
 }
 
 Problem arms(double window, bool joined) {
-  Case study = testing::sections(kArms);
-  testing::add_experiment(study, "run", DataKind::kAngles);
-  study.experiments[0].window = window;
-  study.experiments[0].joined = joined;
-  return Problem(study, Model::built_in(2), {film()});
+  Case the_case = testing::sections(kArms);
+  testing::add_experiment(the_case, "run", DataKind::kAngles);
+  the_case.experiments[0].window = window;
+  the_case.experiments[0].joined = joined;
+  return Problem(the_case, Model::built_in(2), {film()});
 }
 
 }  // namespace
@@ -98,9 +98,9 @@ TEST_CASE(
   CHECK(found.error == doctest::Approx(kNoise).epsilon(0.05));
   const Evaluation evaluation = evaluate(joined, found.x, false, true);
   REQUIRE(evaluation.ok);
-  const Joints joints = joints_of(joined, evaluation);
-  CHECK(joints.value.size() == 15 * 4);
-  CHECK(joints.value.cwiseAbs().maxCoeff() < 1e-5);  // one motion, not pieces
+  const ShootingDefects defects = shooting_defects_of(joined, evaluation);
+  CHECK(defects.value.size() == 15 * 4);
+  CHECK(defects.value.cwiseAbs().maxCoeff() < 1e-5);  // one motion, not pieces
   const Uncertainty uncertainty = uncertainty_of(joined, found.x);
   CHECK(uncertainty.noise == doctest::Approx(kNoise).epsilon(0.05));
   const double truth[] = {0.1, 1e-4};
@@ -118,21 +118,21 @@ TEST_CASE(
         2 * uncertainty.estimates[1].standard_error);
 }
 
-TEST_CASE("derivatives of the joints agree with differences") {
+TEST_CASE("derivatives of the shooting defects agree with differences") {
   const Problem problem = arms(0.5, true);
   const Eigen::VectorXd x = problem.start();
-  const Joints joints = joints_of(problem, evaluate(problem, x, false, true));
-  REQUIRE(joints.jacobian.cols() == x.size());
+  const ShootingDefects defects = shooting_defects_of(problem, evaluate(problem, x, false, true));
+  REQUIRE(defects.jacobian.cols() == x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double h = 1e-4 * std::max(std::abs(x[j]), 1e-2);
     Eigen::VectorXd above = x, below = x;
     above[j] += h;
     below[j] -= h;
     const Eigen::VectorXd difference =
-        (joints_of(problem, evaluate(problem, above, false, false)).value -
-         joints_of(problem, evaluate(problem, below, false, false)).value) /
+        (shooting_defects_of(problem, evaluate(problem, above, false, false)).value -
+         shooting_defects_of(problem, evaluate(problem, below, false, false)).value) /
         (2 * h);
-    CHECK((difference - joints.jacobian.col(j)).norm() <= 1e-3 * (1 + difference.norm()));
+    CHECK((difference - defects.jacobian.col(j)).norm() <= 1e-3 * (1 + difference.norm()));
   }
 }
 
@@ -140,11 +140,11 @@ TEST_CASE("what cannot be joined is refused") {
   const auto refused = [](const std::string& from, const std::string& to) {
     std::string text = kArms;
     text.replace(text.find(from), from.size(), to);
-    Case study = testing::sections(text);
-    testing::add_experiment(study, "run", DataKind::kAngles);
-    study.experiments[0].window = 1;
-    study.experiments[0].joined = true;
-    CHECK_THROWS_AS(Problem(study, Model::built_in(2), {film()}), InputError);
+    Case the_case = testing::sections(text);
+    testing::add_experiment(the_case, "run", DataKind::kAngles);
+    the_case.experiments[0].window = 1;
+    the_case.experiments[0].joined = true;
+    CHECK_THROWS_AS(Problem(the_case, Model::built_in(2), {film()}), InputError);
   };
   refused("method = \"least_squares\"", "method = \"nelder_mead\"");
   refused("max_evaluations = 60", "growing_windows = [1.0, 2.0]");

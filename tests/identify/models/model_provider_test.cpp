@@ -165,7 +165,7 @@ TEST_CASE("sensors are differentiated like the physics") {
   const testing::TemporaryFolder folder;
   const auto description = folder.write("seen.toml", kSensors);
   const Model model = provide_model(description, 2, options_for(folder, nullptr));
-  Case study = testing::sections(R"(
+  Case the_case = testing::sections(R"(
 [model]
 links = 2
 [cable]
@@ -197,16 +197,16 @@ angle = 0.6
       parameter.name = parameter.sets = name;
       parameter.value = model.table().parameter[i].neutral + 0.02;
       parameter.free = true;
-      study.parameters.push_back(parameter);
+      the_case.parameters.push_back(parameter);
     }
   }
-  REQUIRE(study.parameters.size() == 6);
-  testing::add_experiment(study, "run");
-  study.experiments[0].start = 0.01;
+  REQUIRE(the_case.parameters.size() == 6);
+  testing::add_experiment(the_case, "run");
+  the_case.experiments[0].start = 0.01;
   // from 0.23 s on: at the start itself the clock has a kink, where the cable is let go
   Recording recording = testing::empty_markers({0.3, 1.0}, 30, 0.05);
   for (double& t : recording.time) t += 0.23;
-  const Problem problem(study, model, {recording});
+  const Problem problem(the_case, model, {recording});
   const Eigen::VectorXd x = problem.start();
   const Residuals at = residuals_of(problem, evaluate(problem, x, true, true), Part::kFit);
   for (Eigen::Index j = 0; j < x.size(); ++j) {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "common/input_error.hpp"
+#include "identify/cases/case_reader.hpp"
 #include "tests/runtime/reference_model.hpp"
 
 using namespace catena;
@@ -30,13 +31,13 @@ const Model& model() {
 }  // namespace
 
 TEST_CASE("names, families, ranges, factors and physical quantities set what they say") {
-  const Case study =
+  const Case the_case =
       case_of("link_lengths = [0.5, 0.4, 0.6]\ndensity = 0.2",
               parameter("EI", "bending_stiffness", "value = 0.9\nunit = \"N m^2\"") +
                   parameter("c1", "damping_1", "value = 0.01\nunit = \"N m s/rad\"") +
                   parameter("c", "damping_2..3", "value = 3.0\nfactor = 0.002") +
                   parameter("T", "torque", "value = 0.25"));
-  const ParameterMap map(study, model());
+  const ParameterMap map(the_case, model());
   const Eigen::VectorXd p = map(map.values());
   const auto value = [&](const char* name) { return p[model().parameter_index(name)]; };
   struct Row {
@@ -56,10 +57,10 @@ TEST_CASE("names, families, ranges, factors and physical quantities set what the
 }
 
 TEST_CASE("a cable on a hinge bends from joint 2 on") {
-  const Case study = case_of(kUniform, parameter("EI", "bending_stiffness_2..3", "value = 0.9") +
-                                           parameter("k1", "stiffness_1", "value = 0.0") +
-                                           parameter("b", "damping_length", "value = 0.02"));
-  const ParameterMap map(study, model());
+  const Case the_case = case_of(kUniform, parameter("EI", "bending_stiffness_2..3", "value = 0.9") +
+                                              parameter("k1", "stiffness_1", "value = 0.0") +
+                                              parameter("b", "damping_length", "value = 0.02"));
+  const ParameterMap map(the_case, model());
   const Eigen::VectorXd p = map(map.values());
   CHECK(p[model().parameter_index("stiffness_1")] == 0);
   CHECK(p[model().parameter_index("stiffness_2")] == doctest::Approx(0.9 / 0.5));
@@ -67,11 +68,11 @@ TEST_CASE("a cable on a hinge bends from joint 2 on") {
 }
 
 TEST_CASE("the Jacobian is the derivative of the map") {
-  const Case study = case_of(kUniform, parameter("EI", "bending_stiffness", "value = 0.9") +
-                                           parameter("b", "damping_length", "value = 0.02") +
-                                           parameter("L", "cable.length", "value = 1.4") +
-                                           parameter("rho", "cable.density", "value = 0.3"));
-  const ParameterMap map(study, model());
+  const Case the_case = case_of(kUniform, parameter("EI", "bending_stiffness", "value = 0.9") +
+                                              parameter("b", "damping_length", "value = 0.02") +
+                                              parameter("L", "cable.length", "value = 1.4") +
+                                              parameter("rho", "cable.density", "value = 0.3"));
+  const ParameterMap map(the_case, model());
   const Eigen::VectorXd values = map.values();
   const Eigen::MatrixXd jacobian = map.jacobian(values);
   for (Eigen::Index j = 0; j < values.size(); ++j) {

@@ -82,20 +82,20 @@ TEST_CASE("sensitivities of markers agree with differences, whatever is unknown"
   const Model model = Model::built_in(3);
   for (const char* start : starts) {
     CAPTURE(std::string(start));
-    Case study = sections(std::string(kThreeLinks) + start);
-    testing::add_experiment(study, "run");
+    Case the_case = sections(std::string(kThreeLinks) + start);
+    testing::add_experiment(the_case, "run");
     // a marker in the middle of a link, one near a joint, one at the end of the shortest cable
     // tried
-    const Problem problem(study, model, {testing::empty_markers({0.2, 0.85, 1.19}, 20, 0.05)});
+    const Problem problem(the_case, model, {testing::empty_markers({0.2, 0.85, 1.19}, 20, 0.05)});
     check_jacobian(problem);
   }
 }
 
 TEST_CASE("angles are compared as they are, the hidden parameters come back from perfect data") {
-  Case study =
+  Case the_case =
       sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 0.5\n");
-  study.parameters.resize(2);
-  testing::add_experiment(study, "run", DataKind::kAngles);
+  the_case.parameters.resize(2);
+  testing::add_experiment(the_case, "run", DataKind::kAngles);
   Recording recording;
   recording.points.resize(1);
   recording.points[0].link = 2;
@@ -104,32 +104,32 @@ TEST_CASE("angles are compared as they are, the hidden parameters come back from
   recording.measured.setZero(1, 30);
   recording.fit_frames = 30;
   const Model model = Model::built_in(3);
-  recording = testing::with_truth(study, model, recording);
+  recording = testing::with_truth(the_case, model, recording);
   CHECK(recording.measured(0, 0) == doctest::Approx(0.5));
-  const Problem problem(study, model, {recording});
+  const Problem problem(the_case, model, {recording});
   CHECK(error_of(problem, evaluate(problem, problem.start(), true, false), Part::kFit) == 0);
   check_jacobian(problem);
 }
 
 TEST_CASE("experiments share the physics and have starts of their own") {
-  Case study =
+  Case the_case =
       sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nfree = true\n");
-  study.parameters.resize(2);
-  testing::add_experiment(study, "first");
-  testing::add_experiment(study, "second");
-  testing::add_experiment(study, "unseen");
-  study.experiments[2].use = Use::kValidate;
+  the_case.parameters.resize(2);
+  testing::add_experiment(the_case, "first");
+  testing::add_experiment(the_case, "second");
+  testing::add_experiment(the_case, "unseen");
+  the_case.experiments[2].use = Use::kValidate;
   const Model model = Model::built_in(3);
   std::vector<Recording> recordings;
   for (const double angle : {0.3, 0.6, 0.9}) {
-    Case truth = study;
+    Case truth = the_case;
     truth.experiments.resize(1);
     truth.initial.coefficients = {angle};
     recordings.push_back(
         testing::with_truth(truth, model, testing::empty_markers({0.6, 1.2}, 20, 0.05)));
   }
   recordings[2].fit_frames = 0;
-  const Problem problem(study, model, recordings);
+  const Problem problem(the_case, model, recordings);
   std::vector<std::string> names;
   for (const Unknown& unknown : problem.unknowns()) names.push_back(unknown.name);
   CHECK(names == std::vector<std::string>{"EI", "damping", "first: angle 1", "second: angle 1"});
@@ -147,18 +147,18 @@ TEST_CASE("experiments share the physics and have starts of their own") {
 }
 
 TEST_CASE("a window is an experiment with a start of its own; those after fit_until validate") {
-  Case study = sections(std::string(kThreeLinks) +
-                        "[initial]\nshape = \"angles\"\nfree = true\n"
-                        "[initial.velocity]\nshape = \"angles\"\nfree = true\n");
-  testing::add_experiment(study, "run");
-  Case truth = study;
+  Case the_case = sections(std::string(kThreeLinks) +
+                           "[initial]\nshape = \"angles\"\nfree = true\n"
+                           "[initial.velocity]\nshape = \"angles\"\nfree = true\n");
+  testing::add_experiment(the_case, "run");
+  Case truth = the_case;
   truth.initial.coefficients = {0.5, 0.4, 0.3};
   truth.initial.velocity_coefficients = {0, 0, 0};
-  study.experiments[0].window = 0.5;
+  the_case.experiments[0].window = 0.5;
   Recording recording = testing::empty_markers({0.4, 0.8, 1.2}, 61, 0.025);
   recording = testing::with_truth(truth, Model::built_in(3), recording);
   recording.fit_frames = 40;  // until 0.975 s
-  const Problem problem(study, Model::built_in(3), {recording});
+  const Problem problem(the_case, Model::built_in(3), {recording});
   REQUIRE(problem.experiments().size() == 3);
   CHECK(problem.experiments()[0].fitted());
   CHECK(problem.experiments()[1].fitted());
@@ -171,11 +171,11 @@ TEST_CASE("a window is an experiment with a start of its own; those after fit_un
 }
 
 TEST_CASE("a simulation that fails is infinitely bad, and says why") {
-  Case study = sections(std::string(kThreeLinks) +
-                        "[initial]\nshape = \"straight\"\nangle = 1.0\n"
-                        "[simulation]\nmax_steps = 20\n");
-  testing::add_experiment(study, "run");
-  const Problem problem(study, Model::built_in(3), {testing::empty_markers({1.0}, 50, 0.05)});
+  Case the_case = sections(std::string(kThreeLinks) +
+                           "[initial]\nshape = \"straight\"\nangle = 1.0\n"
+                           "[simulation]\nmax_steps = 20\n");
+  testing::add_experiment(the_case, "run");
+  const Problem problem(the_case, Model::built_in(3), {testing::empty_markers({1.0}, 50, 0.05)});
   const Evaluation evaluation = evaluate(problem, problem.start(), true, true);
   CHECK(!evaluation.ok);
   CHECK(evaluation.message.starts_with("run: "));
@@ -185,15 +185,15 @@ TEST_CASE("a simulation that fails is infinitely bad, and says why") {
 }
 
 TEST_CASE("the case with what was found gives the same error") {
-  Case study = sections(std::string(kThreeLinks) +
-                        "[initial]\nshape = \"smooth\"\nterms = 2\nfree = true\n");
-  testing::add_experiment(study, "run");
-  Case truth = study;
+  Case the_case = sections(std::string(kThreeLinks) +
+                           "[initial]\nshape = \"smooth\"\nterms = 2\nfree = true\n");
+  testing::add_experiment(the_case, "run");
+  Case truth = the_case;
   truth.initial.coefficients = {0.4, 0.2};
   const Model model = Model::built_in(3);
   const Recording recording =
       testing::with_truth(truth, model, testing::empty_markers({0.4, 0.8, 1.2}, 30, 0.05));
-  const Problem problem(study, model, {recording});
+  const Problem problem(the_case, model, {recording});
   Eigen::VectorXd x = problem.start();
   x *= 1.01;
   const Problem again(problem.with(x), model, {recording});

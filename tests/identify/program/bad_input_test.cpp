@@ -19,9 +19,10 @@ const char* const kData =
     "0.2,0.24,0.44,0.50,0.87\n";
 
 void check_refused(const testing::TemporaryFolder& folder, const std::string& command,
-                   const std::filesystem::path& study, const std::vector<std::string>& expected) {
+                   const std::filesystem::path& the_case,
+                   const std::vector<std::string>& expected) {
   const std::filesystem::path output = folder.path() / "out";
-  const ProcessResult run = run_catena({command, study, "--output", output});
+  const ProcessResult run = run_catena({command, the_case, "--output", output});
   CHECK_MESSAGE(run.exit_status == 2, run.output);
   for (const std::string& part : expected)
     CHECK_MESSAGE(run.output.find(part) != std::string::npos, run.output, " lacks ", part);
@@ -135,14 +136,14 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
       text = replaced(text, "free = true\nlower = 0.0001\nupper = 1.0", "");
     check_refused(folder, "identify", folder.write("case.toml", text), row.expected);
   }
-  const auto study = folder.write("case.toml", whole);
+  const auto the_case = folder.write("case.toml", whole);
   for (const Row& row : data) {
     CAPTURE(std::string(row.what));
     folder.write("data.csv", replaced(kData, row.from, row.to));
-    check_refused(folder, "identify", study, row.expected);
+    check_refused(folder, "identify", the_case, row.expected);
   }
   folder.write("data.csv", "");
-  check_refused(folder, "identify", study, {"data.csv", "empty"});
+  check_refused(folder, "identify", the_case, {"data.csv", "empty"});
 }
 
 TEST_CASE("mistakes on the command line") {

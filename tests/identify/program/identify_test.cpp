@@ -10,6 +10,7 @@
 #include <random>
 
 #include "identify/cases/case.hpp"
+#include "identify/cases/case_reader.hpp"
 #include "tests/identify/program/catena_program.hpp"
 
 using namespace catena;
@@ -34,10 +35,10 @@ TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it"
   const Twin twin;
   for (const char* method : {"nelder_mead", "least_squares"}) {
     CAPTURE(std::string(method));
-    const auto study = twin.folder.write(
+    const auto the_case = twin.folder.write(
         "fit.toml", std::string(testing::kFit) + "[optimiser]\nmethod = \"" + method + "\"\n");
     const std::filesystem::path out = twin.folder.path() / "out" / method;
-    const ProcessResult run = run_catena({"identify", study, "--output", out});
+    const ProcessResult run = run_catena({"identify", the_case, "--output", out});
     CHECK_MESSAGE(run.exit_status == 0, run.output);
     for (const char* word : {"identified", "fit", "validate", "RMS before", "RMS after", "mm"})
       CHECK(run.output.find(word) != std::string::npos);
@@ -52,7 +53,7 @@ TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it"
           testing::text_of(out / "residuals.csv"));
     CHECK(testing::text_of(out / "residuals.csv").find(",validate,") != std::string::npos);
     const std::string before = testing::text_of(out / "result.json");
-    CHECK(run_catena({"identify", study, "--output", out, "-q"}).output.empty());
+    CHECK(run_catena({"identify", the_case, "--output", out, "-q"}).output.empty());
     CHECK(testing::text_of(out / "result.json") == before);
   }
 }
@@ -64,12 +65,12 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   slow +=
       "[optimiser]\nmethod = \"nelder_mead\"\nstarts = 1000\nmax_evaluations = 1000000\n"
       "[simulation]\nrelative_tolerance = 1e-11\n";
-  const auto study = twin.folder.write("fit.toml", slow);
+  const auto the_case = twin.folder.write("fit.toml", slow);
   const std::filesystem::path out = twin.folder.path() / "out";
   const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
   const pid_t child = fork();
   if (child == 0) {
-    execl(program.c_str(), "catena", "identify", study.c_str(), "--output", out.c_str(), "-q",
+    execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", out.c_str(), "-q",
           nullptr);
     _exit(127);
   }
@@ -84,7 +85,7 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   CHECK(read_case(out / "fitted.toml").parameters.size() == 2);
 
   const ProcessResult limited =
-      run_catena({"identify", study, "--output", out / "limited", "--time-limit", "1.5", "-q"});
+      run_catena({"identify", the_case, "--output", out / "limited", "--time-limit", "1.5", "-q"});
   CHECK(limited.exit_status == 0);
   CHECK(testing::text_of(out / "limited" / "result.json").find("\"status\": \"time_limit\"") !=
         std::string::npos);
@@ -96,7 +97,7 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
   for (const char* method : {"nelder_mead", "least_squares"}) {
     CAPTURE(std::string(method));
     const bool simplex = method == std::string("nelder_mead");
-    const auto study =
+    const auto the_case =
         twin.folder.write("fit.toml", testing::replaced(testing::kFit, "links = 2", "links = 12") +
                                           "[optimiser]\nmethod = \"" + method +
                                           "\"\nstarts = " + (simplex ? "8" : "60") +
@@ -104,7 +105,7 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
     const std::filesystem::path whole = twin.folder.path() / method / "whole";
     const std::filesystem::path killed = twin.folder.path() / method / "killed";
     const auto begin = std::chrono::steady_clock::now();
-    REQUIRE(run_catena({"identify", study, "--output", whole, "-q"}).exit_status == 0);
+    REQUIRE(run_catena({"identify", the_case, "--output", whole, "-q"}).exit_status == 0);
     const std::chrono::duration<double> needed = std::chrono::steady_clock::now() - begin;
 
     std::mt19937_64 random(simplex ? 1 : 2);
@@ -112,7 +113,7 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
     for (int attempt = 0; attempt < 6; ++attempt) {
       const pid_t child = fork();
       if (child == 0) {
-        execl(program.c_str(), "catena", "identify", study.c_str(), "--output", killed.c_str(),
+        execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", killed.c_str(),
               "--resume", "-q", nullptr);
         _exit(127);
       }
@@ -129,7 +130,8 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
     }
     CHECK(kills >= 4);  // else the run ended before it could be killed
     CHECK(grew >= 2);   // what came before a kill is kept
-    REQUIRE(run_catena({"identify", study, "--output", killed, "--resume", "-q"}).exit_status == 0);
+    REQUIRE(run_catena({"identify", the_case, "--output", killed, "--resume", "-q"}).exit_status ==
+            0);
     for (const char* file : {"result.json", "fitted.toml", "residuals.csv", "positions.csv"}) {
       CAPTURE(std::string(file));
       CHECK(testing::text_of(killed / file) == testing::text_of(whole / file));
@@ -157,10 +159,10 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
       fit, "kind = \"markers\"",
       "kind = \"markers\"\nmarkers = [{side = \"side_12_m\", down = \"down_12_m\", "
       "arc_length = 0.5}, {side = \"side_24_m\", down = \"down_24_m\", load = true}]");
-  const auto study = folder.write("fit.toml", fit + "[optimiser]\nmethod = \"least_squares\"\n");
+  const auto the_case = folder.write("fit.toml", fit + "[optimiser]\nmethod = \"least_squares\"\n");
   const std::filesystem::path out = folder.path() / "out";
-  const ProcessResult run = run_catena(
-      {"identify", study, "--links-study", "2,4,12,24", "--output", out, "--error-budget", "0.05"});
+  const ProcessResult run = run_catena({"identify", the_case, "--links-study", "2,4,12,24",
+                                        "--output", out, "--error-budget", "0.05"});
   CHECK_MESSAGE(run.exit_status == 0, run.output);
   // nothing but 24 links comes near the data of 24 links, which are without noise
   CHECK(run.output.find("fewest links within 5 % of the least error: 24") != std::string::npos);
@@ -174,7 +176,7 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
       CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
   }
   const ProcessResult wide = run_catena(
-      {"identify", study, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
+      {"identify", the_case, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
   CHECK(wide.output.find("least error: 2\n") != std::string::npos);
   const ProcessResult refused = run_catena(
       {"identify",

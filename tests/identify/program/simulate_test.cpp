@@ -10,14 +10,14 @@ using testing::run_catena;
 
 TEST_CASE("simulate writes what it says, the same every time") {
   const testing::TemporaryFolder folder;
-  const auto study = folder.write("swing.toml", testing::kSwing);
+  const auto the_case = folder.write("swing.toml", testing::kSwing);
   const std::string first = folder.path() / "first", second = folder.path() / "second";
-  const ProcessResult run = run_catena({"simulate", study, "--output", first});
+  const ProcessResult run = run_catena({"simulate", the_case, "--output", first});
   CHECK_MESSAGE(run.exit_status == 0, run.output);
   CHECK(run.output.find("energy balance kept within") != std::string::npos);
   CHECK(run.output.find("\033") == std::string::npos);  // no terminal, no colours, no progress
   CHECK(run.output.find("\r") == std::string::npos);
-  CHECK(run_catena({"simulate", study, "--output", second, "--quiet"}).output.empty());
+  CHECK(run_catena({"simulate", the_case, "--output", second, "--quiet"}).output.empty());
   for (const char* name : {"result.json", "positions.csv", "angles.csv", "energy.csv"}) {
     CAPTURE(std::string(name));
     const std::string text = testing::text_of(std::filesystem::path(first) / name);
@@ -32,17 +32,18 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(positions.column("down_2_m").front() == doctest::Approx(std::cos(0.6)).epsilon(1e-15));
   CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() ==
         0.6);
-  const ProcessResult json = run_catena({"simulate", study, "--output", second, "--json"});
+  const ProcessResult json = run_catena({"simulate", the_case, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);
 }
 
 TEST_CASE("a simulation that fails says which state and when, exits with 1 and writes nothing") {
   const testing::TemporaryFolder folder;
-  const auto study = folder.write("swing.toml", testing::replaced(testing::kSwing, "step = 0.02",
-                                                                  "step = 0.02\nmax_steps = 10"));
+  const auto the_case = folder.write(
+      "swing.toml",
+      testing::replaced(testing::kSwing, "step = 0.02", "step = 0.02\nmax_steps = 10"));
   const std::string output = folder.path() / "out";
-  const ProcessResult run = run_catena({"simulate", study, "--output", output});
+  const ProcessResult run = run_catena({"simulate", the_case, "--output", output});
   CHECK(run.exit_status == 1);
   CHECK(run.output.find("t = ") != std::string::npos);
   CHECK(!std::filesystem::exists(output));

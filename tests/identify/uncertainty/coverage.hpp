@@ -45,22 +45,24 @@ relative_tolerance = 1e-7
 
 /// Perfect data of the cable, 60 frames of three markers.
 inline Problem perfect(const std::string& text = kCable) {
-  Case study = sections(text);
-  add_experiment(study, "run");
+  Case the_case = sections(text);
+  add_experiment(the_case, "run");
   const Model model = Model::built_in(2);
-  return Problem(study, model,
-                 {with_truth(study, model, empty_markers({0.3, 0.7, 1.0}, 60, 0.05))});
+  return Problem(the_case, model,
+                 {with_truth(the_case, model, empty_markers({0.3, 0.7, 1.0}, 60, 0.05))});
 }
 
-/// Noise of 2 mm on every channel: each frame `colour` times the one before plus something new.
-inline Problem noisy(const Problem& problem, double colour, unsigned seed) {
+/// Noise of 2 mm on every channel: each frame `autocorrelation` times the one before plus something new.
+inline Problem noisy(const Problem& problem, double autocorrelation, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0, 2e-3);
   Eigen::MatrixXd measured = problem.experiments()[0].recording.measured;
   for (Eigen::Index c = 0; c < measured.rows(); ++c) {
     double noise = normal(generator);
     for (Eigen::Index k = 0; k < measured.cols(); ++k) {
-      if (k) noise = colour * noise + std::sqrt(1 - colour * colour) * normal(generator);
+      if (k)
+        noise = autocorrelation * noise +
+                std::sqrt(1 - autocorrelation * autocorrelation) * normal(generator);
       measured(c, k) += noise;
     }
   }
@@ -74,9 +76,9 @@ struct Covered {
 };
 
 /// The same for one recording of perfect() with noise.
-inline Covered covered(const Problem& problem, double colour, unsigned seed) {
+inline Covered covered(const Problem& problem, double autocorrelation, unsigned seed) {
   const Eigen::VectorXd truth = problem.start();
-  const Problem seen = noisy(problem, colour, seed);
+  const Problem seen = noisy(problem, autocorrelation, seed);
   FitOptions options;
   options.start = truth;
   const Uncertainty uncertainty = uncertainty_of(seen, fit_least_squares(seen, options).x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// coverage_study FILE RECORDINGS: one line to FILE for each recording with white and with coloured
+// coverage_study FILE RECORDINGS: one line to FILE for each recording with white and with autocorrelated
 // noise; those that stand there already are not made again. scripts/study_coverage reads it.
 #include <cstdio>
 #include <cstdlib>
@@ -34,18 +34,18 @@ int main(int argc, char** argv) {
   out.precision(17);
   const catena::Problem problem = catena::testing::perfect();
   if (kept.empty()) {
-    out << "colour,seed";
+    out << "autocorrelation,seed";
     for (const catena::Unknown& unknown : problem.unknowns())
       out << "," << unknown.name << " inside," << unknown.name << " width," << unknown.name
           << " truth";
     out << std::endl;
   }
   for (int seed = 1; seed <= std::atoi(argv[2]); ++seed)
-    for (const char* colour : {"0.0", "0.6"}) {
-      const std::string key = std::string(colour) + "," + std::to_string(seed);
+    for (const char* autocorrelation : {"0.0", "0.6"}) {
+      const std::string key = std::string(autocorrelation) + "," + std::to_string(seed);
       if (done.contains(key)) continue;
-      const catena::testing::Covered covered =
-          catena::testing::covered(problem, std::atof(colour), static_cast<unsigned>(seed));
+      const catena::testing::Covered covered = catena::testing::covered(
+          problem, std::atof(autocorrelation), static_cast<unsigned>(seed));
       out << key;
       for (Eigen::Index j = 0; j < covered.inside.size(); ++j)
         out << "," << covered.inside[j] << "," << covered.width[j] << "," << problem.start()[j];

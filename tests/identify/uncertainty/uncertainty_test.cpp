@@ -18,19 +18,20 @@ using testing::kCable;
 using testing::noisy;
 using testing::perfect;
 
-TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and coloured noise") {
+TEST_CASE(
+    "95 % intervals contain the truth in 95 % of recordings, white and autocorrelated noise") {
   // seeds are 1, 2, 3, ...; scripts/study_coverage does the same with a thousand
   constexpr int recordings = 150;
   const Problem problem = perfect();
   const Eigen::VectorXd truth = problem.start();
-  for (const double colour : {0.0, 0.6}) {
-    CAPTURE(colour);
+  for (const double autocorrelation : {0.0, 0.6}) {
+    CAPTURE(autocorrelation);
     Eigen::MatrixXi inside(recordings, truth.size());
     Eigen::MatrixXd width(recordings, truth.size());
     in_parallel(recordings, 2, [&](std::size_t i) {
       const auto row = static_cast<Eigen::Index>(i);
       const testing::Covered covered =
-          testing::covered(problem, colour, static_cast<unsigned>(i + 1));
+          testing::covered(problem, autocorrelation, static_cast<unsigned>(i + 1));
       inside.row(row) = covered.inside;
       width.row(row) = covered.width;
     });
@@ -38,9 +39,11 @@ TEST_CASE("95 % intervals contain the truth in 95 % of recordings, white and col
       const double share = inside.col(j).cast<double>().mean();
       Eigen::VectorXd widths = width.col(j);
       std::sort(widths.begin(), widths.end());
-      MESSAGE("colour " << colour << ", " << problem.unknowns()[static_cast<std::size_t>(j)].name
-                        << ": inside " << 100 * share << " % of " << recordings << ", median width "
-                        << widths[recordings / 2] << " around " << truth[j]);
+      MESSAGE("autocorrelation " << autocorrelation << ", "
+                                 << problem.unknowns()[static_cast<std::size_t>(j)].name
+                                 << ": inside " << 100 * share << " % of " << recordings
+                                 << ", median width " << widths[recordings / 2] << " around "
+                                 << truth[j]);
       // three standard deviations of a binomial count about what is asked for, 93 to 97 %
       const double chance = 3 * std::sqrt(0.95 * 0.05 / recordings);
       CHECK(share > 0.94 - chance);
@@ -55,7 +58,7 @@ TEST_CASE("what cannot be determined is reported so, before and after the fit") 
   std::string text = kCable;
   const std::string one = "sets = \"stiffness\"";
   text.replace(text.find(one), one.size(), "sets = \"stiffness_1\"");
-  Case study = testing::sections(text + R"(
+  Case the_case = testing::sections(text + R"(
 [[parameter]]
 name = "k2"
 sets = "stiffness_2"
@@ -72,11 +75,11 @@ free = true
 lower = -1.0
 upper = 1.0
 )");
-  testing::add_experiment(study, "run");
+  testing::add_experiment(the_case, "run");
   const Model model = Model::built_in(2);
   const Problem problem(
-      study, model,
-      {testing::with_truth(study, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05))});
+      the_case, model,
+      {testing::with_truth(the_case, model, testing::empty_markers({0.3, 0.7, 1.0}, 60, 0.05))});
   const Uncertainty uncertainty = uncertainty_of(problem, problem.start(), 1e-3);
   REQUIRE(problem.unknowns()[3].name == "inertia of nothing");
   CHECK(uncertainty.estimates[3].verdict == Verdict::kStructurallyNot);
@@ -104,7 +107,7 @@ TEST_CASE("profiles and bootstrap agree with the intervals where all is well") {
   const FitResult result = fit_least_squares(problem, {});
   const Uncertainty uncertainty = uncertainty_of(problem, result.x);
   CHECK(uncertainty.noise == doctest::Approx(2e-3).epsilon(0.1));
-  CHECK(!uncertainty.coloured);
+  CHECK(!uncertainty.autocorrelated);
   const std::vector<Profile> profiles =
       profiles_of(problem, result, uncertainty, fit_least_squares, 2);
   REQUIRE(profiles.size() == 2);

@@ -2,28 +2,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "identify/fit/fit.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/problem/problem.hpp"
 
 namespace catena {
 
-/// A simulation with the positions of its points: support, far end of each link, load, one row
-/// each.
-struct Motion {
-  Simulation simulation;
-  Eigen::MatrixXd side, down;  ///< (links + 2) x times, m
-};
-
-/// Simulates from `initial` at times[0], energies included.
-Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
-                       const std::vector<double>& times, const SimulationSpec& settings,
-                       const Signals& signals, const std::function<bool()>& keep_going = {});
-
-/// One experiment at its frames (from its start on), with the unknowns x.
-Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
-                 const std::function<bool()>& keep_going = {});
+// Results as CSV texts: a line of names, then rows of numbers with 17 digits. A value that is not
+// there is an empty field.
 
 /// time_s, side_i_m, down_i_m for the far end of each link i, side_load_m, down_load_m. 17 digits.
 std::string positions_csv(const Motion& motion);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "identify/problem/problem.hpp"
+
+namespace catena {
+
+/// A simulation with the positions of its points.
+struct Motion {
+  Simulation simulation;
+  /// m, (links + 2) x times: the support, the far end of each link, the load.
+  Eigen::MatrixXd side, down;
+};
+
+/// Simulates a model, energies included.
+///
+/// `parameters`: the model's array. `initial`: the state at times[0]. `times`: s, increasing.
+/// `keep_going`: asked at every step; false ends the simulation. Throws std::invalid_argument for
+/// sizes that do not fit the model and for values outside its bounds. A simulation that fails says
+/// so in its status and has the times before the failure.
+Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
+                       const std::vector<double>& times, const SimulationSpec& settings,
+                       const Signals& signals, const std::function<bool()>& keep_going = {});
+
+/// The motion of one experiment (an index into problem.experiments()) with the unknowns x, from its
+/// start on, at its frames. Throws what simulate_motion throws, and ImpossibleValue where x gives
+/// the experiment no start.
+Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
+                 const std::function<bool()>& keep_going = {});
+
+}  // namespace catena
