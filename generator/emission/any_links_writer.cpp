@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/any_links_writer.hpp"
 
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -9,7 +8,7 @@
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/model_text.hpp"
 #include "generator/emission/parameter_table.hpp"
-#include "generator/emission/size_pattern.hpp"
+#include "generator/emission/program_pattern.hpp"
 #include "generator/emission/table_text.hpp"
 
 namespace catena {
@@ -70,10 +69,6 @@ bool describe(const std::vector<Family<Row>>& families, const std::vector<Row>& 
   return k == rows.size();
 }
 
-struct FunctionPattern {
-  SizePattern statements, operations;
-};
-
 class Writer {
  public:
   explicit Writer(const Description& description)
@@ -86,13 +81,11 @@ class Writer {
     const ModelFunctions more = derive(kGivesPattern + 1);
     require_alike(more);
     for (size_t k = 0; k < model_.functions.size(); ++k) {
-      const FunctionBody &a = model_.functions[k].body, &b = more.functions[k].body;
-      patterns_.push_back(
-          {{a.text, b.text, kGivesPattern},
-           {operations_text(a.operations), operations_text(b.operations), kGivesPattern}});
+      Statements& statements = model_.functions[k].body.statements;
+      statements = for_any_links(statements, more.functions[k].body.statements, kGivesPattern);
     }
-    counts_.emplace(std::to_string(model_.summary.parameters),
-                    std::to_string(more.summary.parameters), kGivesPattern);
+    parameter_count_ =
+        affine_through(model_.summary.parameters, more.summary.parameters, kGivesPattern);
     for (const int links : kCompared) compare(links);
   }
 
@@ -137,16 +130,15 @@ class Writer {
            "  int links() const {\n    if (number < kFewestLinks) __builtin_unreachable();\n"
            "    return number;\n  }\n  int coordinates() const { return number; }\n"
            "  int parameters() const {\n    const int links = number;\n    return "
-        << counts_->text() << ";\n  }\n";
-    for (size_t k = 0; k < patterns_.size(); ++k) {
-      const EmittedFunction& function = model_.functions[k];
+        << affine_text(parameter_count_) << ";\n  }\n";
+    for (const EmittedFunction& function : model_.functions) {
+      const Statements& statements = function.body.statements;
       std::string head = "\n/// " + function.comment;
-      if (function.body.statements > 0) head += "\n/// " + patterns_[k].operations.text();
+      if (!statements.empty()) head += "\n/// " + operations_text(operations_of(statements));
       head += function.body.along ? "\ntemplate <class T, class D>\n" : "\ntemplate <class T>\n";
       out << indented(head + function.signature + " const {\n" +
-                      (function.body.statements > 0 ? kLinks : "") + before(function))
-          << page_text(indented(patterns_[k].statements.text()))
-          << indented(function.after + "}\n");
+                      (!statements.empty() ? kLinks : "") + before(function))
+          << statements_text(statements, Language::kCpp, 2) << indented(function.after + "}\n");
     }
     out << "};\n\n#pragma GCC diagnostic pop\n\n}  // namespace catena::" << name_ << "\n";
     return out.str();
@@ -233,16 +225,16 @@ class Writer {
     const ModelFunctions there = derive(links);
     require_alike(there);
     const std::string at = " differs at " + std::to_string(links) + " links";
-    for (size_t k = 0; k < patterns_.size(); ++k) {
+    for (size_t k = 0; k < model_.functions.size(); ++k) {
       const EmittedFunction& function = there.functions[k];
-      if (written_out(patterns_[k].statements.at(links)) != written_out(function.body.text) ||
-          patterns_[k].operations.at(links) != operations_text(function.body.operations))
+      if (written_out(at_links(model_.functions[k].body.statements, links)) !=
+          written_out(function.body.statements))
         fail(function.name + at);
     }
     const ModelTable table = model_table(description_, links);
     if (!describe(coordinates_, table.coordinates, links, quantity_text) ||
         !describe(parameters_, table.parameters, links, parameter_text) ||
-        counts_->at(links) != std::to_string(there.summary.parameters))
+        parameter_count_.at(links) != there.summary.parameters)
       fail("the table" + at);
   }
 
@@ -296,8 +288,7 @@ class Writer {
   ModelTable table_;
   std::vector<Family<QuantityRow>> coordinates_;
   std::vector<Family<ParameterRow>> parameters_;
-  std::vector<FunctionPattern> patterns_;
-  std::optional<SizePattern> counts_;  // of parameters
+  Affine parameter_count_;
 };
 
 }  // namespace

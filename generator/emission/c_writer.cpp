@@ -151,7 +151,8 @@ std::string source_text(const Description& description, const ModelFunctions& fu
         }
       }
     }
-    out << function.before << page_text(function.body.text) << function.after << "}\n";
+    out << function.before << statements_text(function.body.statements, Language::kC, 1)
+        << function.after << "}\n";
   }
   out << "\n"
       << table_arrays(description, functions) << "const catena_model* " << s.name << "(void) {\n"

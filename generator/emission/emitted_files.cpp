@@ -44,10 +44,10 @@ std::string summary_text(const Description& description, const ModelSummary& s) 
   functions = nlohmann::ordered_json::object();
   for (const FunctionSummary& function : s.functions) {
     const OperationCount& count = function.operations;
-    functions[function.name] = {{"additions", count.additions},
-                                {"multiplications", count.multiplications},
-                                {"divisions", count.divisions},
-                                {"functions", count.functions}};
+    functions[function.name] = {{"additions", count.additions.constant},
+                                {"multiplications", count.multiplications.constant},
+                                {"divisions", count.divisions.constant},
+                                {"functions", count.functions.constant}};
   }
   return json.dump(2) + "\n";
 }

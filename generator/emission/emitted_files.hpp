@@ -12,6 +12,7 @@
 
 #include "description/description.hpp"
 #include "generator/emission/model_writer.hpp"
+#include "generator/emission/statement_text.hpp"
 
 namespace catena {
 

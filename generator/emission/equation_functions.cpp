@@ -32,7 +32,7 @@ void FunctionBuilder::terms() {
     result_.terms.push_back(name);
     add("term_" + name, "The term " + name + " of r alone.",
         "void term_" + name + "(const Point<T>& at, T* r)",
-        function_body(definitions, from_one("r", values), at_, layout_, language_), "");
+        function_body(definitions, from_one("r", values), at_, layout_), "");
   };
   for (const std::string& name : Chain::term_names(description_)) {
     Chain chain(description_, links_, name);
@@ -100,23 +100,20 @@ void FunctionBuilder::adjoint() {
   std::vector<Output> outputs;
   for (const InputPlace& place : input_places(description_, links_)) {
     if (std::string("qvzp").find(place.member) == std::string::npos) continue;
-    const std::string array = std::string("d") + place.member + "[";
-    const std::string offset = std::to_string(place.offset);
+    const Array array{"", std::string("d") + place.member, {}};
     for (int i = 1; i <= place.count; ++i) {
       const ex symbol = definitions_.input(place.family, place.indexed ? i : kNoIndex);
       if (place.indexed) {
-        outputs.push_back(
-            {array + (place.offset == 0 ? "" : offset + " + "), i, -1, "]", gradient.of(symbol)});
+        outputs.push_back({array, i, ArrayPlace{place.offset, true, -1}, gradient.of(symbol)});
       } else {
-        outputs.push_back({array + offset, kNoIndex, 0, "]", gradient.of(symbol)});
+        outputs.push_back(
+            {array, kNoIndex, ArrayPlace{{}, false, place.offset}, gradient.of(symbol)});
       }
     }
   }
-  InputDeclarations inputs = at_;
-  inputs["weight"] = {in_c() ? "const double* const weight = weights;"
-                             : "const FromOne<T> weight(weights);"};
-  inputs["rate_weight"] = {in_c() ? "const double* const rate_weight = rate_weights;"
-                                  : "const FromOne<T> rate_weight(rate_weights);"};
+  Inputs inputs = at_;
+  for (const std::string weight : {"weight", "rate_weight"})
+    inputs[weight] = Input{InputKind::kArray, Type::kScalar, weight, {"", weight + "s", {}}, {}};
   add("residual_adjoint",
       "Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.",
       "void residual_adjoint(const Point<T>& at, const T* weights,\n"

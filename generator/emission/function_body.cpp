@@ -5,6 +5,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "generator/emission/polynomial.hpp"
+
 namespace catena {
 
 using GiNaC::ex;
@@ -13,7 +15,7 @@ namespace {
 
 // A statement: a definition or an output.
 struct Item {
-  std::string family;  // of an output: before + after
+  std::string family;  // of an output: that of its array
   int index;
   ex value;
   int number = -1;  // of a definition
@@ -46,38 +48,29 @@ struct Sweep {
   }
 };
 
-// Where to break: before the last sum in reach outside brackets, or else the last product.
-size_t break_of(const std::string& text, size_t from, size_t width) {
-  size_t sum = std::string::npos, product = std::string::npos;
-  int brackets = 0;
-  for (size_t k = 0; k + 2 < width; ++k) {
-    if (text[k] == '[') ++brackets;
-    if (text[k] == ']') --brackets;
-    if (k <= from || brackets > 0 || text[k] != ' ' || text[k + 2] != ' ') continue;
-    if (text[k + 1] == '+' || text[k + 1] == '-') sum = k;
-    if (text[k + 1] == '*') product = k;
+// Outputs to one part of an array are a family.
+std::string family_of(const Output& output) {
+  const Array& array = output.array;
+  std::string name = "=" + array.owner + "." + array.name;
+  if (array.row) name += "[" + std::to_string(*array.row) + "]";
+  if (output.place) {
+    const ArrayPlace& place = *output.place;
+    name += "[" + std::to_string((place.of_link ? place.base : place.at).constant) + "]";
   }
-  return sum != std::string::npos && sum > from + width / 3 ? sum
-         : product != std::string::npos                     ? product
-                                                            : sum;
+  return name;
 }
 
 class Body {
  public:
-  Body(const Definitions& definitions, const std::vector<Output>& outputs,
-       const InputDeclarations& inputs, Layout layout, Language language)
-      : definitions_(definitions),
-        outputs_(outputs),
-        inputs_(inputs),
-        layout_(layout),
-        language_(language),
-        scalar_(language == Language::kC ? "double" : "T"),
-        differential_(language == Language::kC ? "double" : "D") {
+  Body(const Definitions& definitions, const std::vector<Output>& outputs, const Inputs& inputs,
+       Layout layout)
+      : definitions_(definitions), outputs_(outputs), inputs_(inputs), layout_(layout) {
     collect();
-    for (const auto& [family, input] : inputs) result_.along = result_.along || input.along;
+    for (const auto& [family, input] : inputs)
+      has_differentials_ = has_differentials_ || is_differential(input);
   }
 
-  FunctionBody straight() {
+  Statements straight() {
     declare_inputs();
     std::vector<const Item*> items;
     for (const Family& family : families_) {
@@ -87,24 +80,36 @@ class Body {
       if ((a->output == nullptr) != (b->output == nullptr)) return a->output == nullptr;
       return a->output == nullptr ? a->number < b->number : a->output < b->output;
     });
-    const SymbolText text = [&](int number) {
-      const Symbol& symbol = definitions_[number];
-      if (given(symbol)) return input_text(symbol, std::to_string(symbol.index + shift(symbol)));
+    const auto name_of = [](const Symbol& symbol) {
       return symbol.index == kNoIndex ? symbol.family
                                       : symbol.family + "_" + std::to_string(symbol.index);
     };
+    const ReadSymbol read = [&](int number) -> Read {
+      const Symbol& symbol = definitions_[number];
+      if (!given(symbol)) return {name_of(symbol), {}};
+      std::optional<ArrayPlace> place;
+      if (symbol.index != kNoIndex) place = {{}, false, symbol.index};
+      return entry(symbol, place);
+    };
     for (const Item* item : items) {
-      line(statement(*item, std::to_string(item->index), text, true), 1);
-      ++result_.statements;
+      Sum value = polynomial(definitions_, item->value, item->index, read);
+      if (item->output != nullptr) {
+        body_.push_back(at_link(assignment(*item, std::move(value)), item->index));
+      } else {
+        body_.push_back(
+            NamedValue{type_of(*item), name_of(definitions_[item->number]), std::move(value)});
+      }
     }
-    return std::move(result_);
+    return std::move(body_);
   }
 
-  FunctionBody loops() {
+  bool has_differentials() const { return has_differentials_; }
+
+  Statements loops() {
     declare_inputs();
     schedule();
     for (const Sweep& sweep : sweeps_) write_sweep(sweep);
-    return std::move(result_);
+    return std::move(body_);
   }
 
  private:
@@ -124,11 +129,11 @@ class Body {
     }
     for (const int number : needed) {  // a symbol's number is larger than those its value reads
       const Symbol& symbol = definitions_[number];
-      if (given(symbol) ? inputs_.at(symbol.family).along : along(symbol.value))
+      if (given(symbol) ? is_differential(inputs_.at(symbol.family)) : along(symbol.value))
         along_.insert(number);
     }
     std::map<std::string, size_t> position;
-    const auto family_of = [&](const std::string& name) -> Family& {
+    const auto family_named = [&](const std::string& name) -> Family& {
       const auto [found, is_new] = position.emplace(name, families_.size());
       if (is_new) {
         families_.emplace_back();
@@ -143,8 +148,8 @@ class Body {
         continue;
       }
       // A definition of no link is a family of its own.
-      family_of(symbol.family).items[symbol.index] = {symbol.family, symbol.index, symbol.value,
-                                                      number, nullptr};
+      family_named(symbol.family).items[symbol.index] = {symbol.family, symbol.index, symbol.value,
+                                                         number, nullptr};
     }
     // Families in the order of their first appearance in the derivation.
     std::stable_sort(families_.begin(), families_.end(), [&](const Family& a, const Family& b) {
@@ -154,8 +159,8 @@ class Body {
     position.clear();
     for (size_t k = 0; k < families_.size(); ++k) position[families_[k].name] = k;
     for (const Output& output : outputs_) {
-      const std::string name = "=" + output.before + output.after;
-      Family& family = family_of(name);
+      const std::string name = family_of(output);
+      Family& family = family_named(name);
       family.is_output = true;
       family.items[output.index] = {name, output.index, output.value, -1, &output};
     }
@@ -185,9 +190,14 @@ class Body {
                        [&](int number) { return along_.count(number) > 0; });
   }
 
-  const std::string& type_of(const Family& family) const {
-    return family.along ? differential_ : scalar_;
+  static bool is_differential(const std::optional<Input>& input) {
+    return input && input->type == Type::kDifferential;
   }
+
+  static Type type_of(const Family& family) {
+    return family.along ? Type::kDifferential : Type::kScalar;
+  }
+  Type type_of(const Item& item) const { return type_of(families_[position_.at(item.family)]); }
 
   // Inputs, and what a declaration brings in ready-made (sines and cosines).
   bool given(const Symbol& symbol) const { return inputs_.count(symbol.family) > 0; }
@@ -333,228 +343,140 @@ class Body {
       families_[k].carried = !families_[k].is_output && !families_[k].local && !stored.count(k);
   }
 
-  // ---- text -----------------------------------------------------------------------------------
-
-  void line(const std::string& text, int depth) {
-    result_.text += std::string(static_cast<size_t>(2 * depth), ' ') + text + "\n";
-  }
+  // ---- statements -----------------------------------------------------------------------------
 
   void declare_inputs() {
-    // Sines and cosines are brought in by one and the same declaration.
-    std::set<std::string> written;
+    std::set<std::string> declared;  // sines and cosines are brought in together
     for (const auto& [rank, family] : used_inputs_) {
-      std::string statements = inputs_.at(family).text;
-      if (statements.empty() || !written.insert(statements).second) continue;
-      statements += "\n";
-      indented(statements, 1);
+      const std::optional<Input>& input = inputs_.at(family);
+      if (input && declared.insert(input->name).second) body_.push_back(*input);
     }
   }
 
-  // Arrays of inputs count from 0 in C; in C++ FromOne lets them count from 1, as links do.
-  int shift(const Symbol& symbol) const {
-    return language_ == Language::kC && symbol.is_input ? -1 : 0;
+  // Of a symbol that is given.
+  Read entry(const Symbol& symbol, std::optional<ArrayPlace> place) const {
+    const std::optional<Input>& input = inputs_.at(symbol.family);
+    return {symbol.family, std::move(place), input && input->kind == InputKind::kArray};
   }
 
-  static std::string input_text(const Symbol& symbol, const std::string& index) {
-    return symbol.index == kNoIndex ? symbol.family : symbol.family + "[" + index + "]";
+  Assignment assignment(const Item& item, Sum value) {
+    // In a function of differentials what depends on none is a constant, mostly zero.
+    return {item.output->array, item.output->place, std::move(value),
+            has_differentials_ && !along(item.value)};
   }
 
-  std::string statement(const Item& item, const std::string& index, const SymbolText& text,
-                        bool straight) {
-    const auto value = [&] {
-      const std::string plain = expression_text(definitions_, item.value, item.index, text,
-                                                language_, &result_.operations);
-      // In a function of differentials what depends on none is a constant, mostly zero.
-      const bool constant = item.output != nullptr && result_.along && !along(item.value);
-      return constant && language_ == Language::kCpp ? differential_ + "(" + plain + ")" : plain;
-    };
-    if (item.output != nullptr) {
-      std::string place = item.output->before;
-      if (item.index != kNoIndex) {
-        const int shift = item.output->shift;
-        const bool number = std::isdigit(static_cast<unsigned char>(index[0])) != 0;
-        if (number) {
-          place += std::to_string(std::stoi(index) + shift);
-        } else {
-          place += index + (shift == 0  ? ""
-                            : shift > 0 ? " + " + std::to_string(shift)
-                                        : " - " + std::to_string(-shift));
-        }
-      }
-      return place + item.output->after + " = " + value() + ";";
-    }
-    const Symbol& symbol = definitions_[item.number];
+  static Statement at_link(Statement statement, int link) {
+    if (link == kNoIndex) return statement;
+    return std::move(at_step({std::move(statement)}, link).front());
+  }
+
+  // The statement of an item of a sweep, relative to its link.
+  Statement statement(const Item& item, const ReadSymbol& read) {
+    Sum value = polynomial(definitions_, item.value, item.index, read);
+    if (item.output != nullptr) return assignment(item, std::move(value));
     const Family& family = families_[position_.at(item.family)];
-    std::string name = symbol.family;
-    if (symbol.index != kNoIndex) {
-      if (straight) {
-        name += "_" + index;
-      } else if (!family.local && !family.carried) {
-        return name + "[" + index + "] = " + value() + ";";
-      }
-    }
-    return "const " + type_of(family) + " " + name + " = " + value() + ";";
+    if (item.index != kNoIndex && !family.local && !family.carried)
+      return Assignment{{"", family.name, {}}, ArrayPlace{{}, true, 0}, std::move(value)};
+    return NamedValue{type_of(family), family.name, std::move(value)};
   }
 
-  // Statements of one link; `index` is the text of its number ("i" or digits).
-  std::string link_text(const Sweep& sweep, int link, const std::string& index) {
-    const SymbolText text = [&](int number) {
+  // Statements of one link, relative to it.
+  Statements of_link(const Sweep& sweep, int link) {
+    const ReadSymbol read = [&](int number) -> Read {
       const Symbol& symbol = definitions_[number];
-      std::string at = index;
-      const int offset = symbol.index - link + shift(symbol);
-      if (symbol.index == kNoIndex) {
-        // of no link
-      } else if (index != "i") {
-        at = std::to_string(symbol.index + shift(symbol));
-      } else if (offset != 0) {
-        at += (offset > 0 ? " + " : " - ") + std::to_string(std::abs(offset));
-      }
-      if (given(symbol)) return input_text(symbol, at);
-      if (symbol.index == kNoIndex) return symbol.family;
+      std::optional<ArrayPlace> place;
+      if (symbol.index != kNoIndex && link != kNoIndex) place = {{}, true, symbol.index - link};
+      if (symbol.index != kNoIndex && link == kNoIndex) place = {{}, false, symbol.index};
+      if (given(symbol)) return entry(symbol, place);
+      if (symbol.index == kNoIndex) return {symbol.family, {}};
       const Family& family = families_[position_.at(symbol.family)];
       if (family.carried) {
         const bool here = symbol.index == link && sweep.has(position_.at(symbol.family));
-        return symbol.family + (here ? "" : "_last");
+        return {symbol.family + (here ? "" : "_last"), {}};
       }
-      return family.local ? symbol.family : symbol.family + "[" + at + "]";
+      if (family.local) return {symbol.family, {}};
+      return {symbol.family, place};
     };
-    std::string statements;
+    Statements statements;
     for (const size_t k : sweep.families) {
       const auto item = families_[k].items.find(link);
-      if (item == families_[k].items.end()) continue;
-      statements += statement(item->second, index, text, false) + "\n";
+      if (item != families_[k].items.end()) statements.push_back(statement(item->second, read));
     }
     for (const size_t k : sweep.families) {
       const Family& family = families_[k];
       if (family.carried && family.items.count(link))
-        statements += family.name + "_last = " + family.name + ";\n";
+        statements.push_back(Assignment{
+            {"", family.name + "_last", {}}, {}, {{false, {{Read{family.name, {}}}}, {}}}});
     }
     return statements;
   }
 
-  void indented(const std::string& statements, int depth) {
-    size_t begin = 0;
-    while (begin < statements.size()) {
-      const size_t end = statements.find('\n', begin);
-      line(statements.substr(begin, end - begin), depth);
-      ++result_.statements;
-      begin = end + 1;
-    }
-  }
-
   void write_sweep(const Sweep& sweep) {
     if (sweep.direction == 0) {
-      indented(link_text(sweep, kNoIndex, ""), 1);
+      for (Statement& one : of_link(sweep, kNoIndex)) body_.push_back(std::move(one));
       return;
     }
     int first = 1'000'000, last = -1;
-    for (const size_t k : sweep.families) {
-      const Family& family = families_[k];
-      first = std::min(first, family.items.begin()->first);
-      last = std::max(last, family.items.rbegin()->first);
-      if (family.carried) {
-        line(type_of(family) + " " + family.name + "_last;", 1);
-      } else if (!family.is_output && !family.local) {
-        line(type_of(family) + " " + family.name + "[" +
-                 std::to_string(family.items.rbegin()->first + 1) + "];",
-             1);
-      }
-    }
     bool any_local = false;
     for (const size_t k : sweep.families) {
-      any_local =
-          any_local || families_[k].carried || (!families_[k].is_output && families_[k].local);
+      const Family& family = families_[k];
+      const int largest = family.items.rbegin()->first;
+      first = std::min(first, family.items.begin()->first);
+      last = std::max(last, largest);
+      if (family.carried) {
+        body_.push_back(Variable{type_of(family), family.name + "_last", {}});
+      } else if (!family.is_output && !family.local) {
+        body_.push_back(Variable{type_of(family), family.name, largest + 1});
+      }
+      any_local = any_local || family.carried || (!family.is_output && family.local);
     }
     const int step = sweep.direction;
-    for (int link = step > 0 ? first : last; link >= first && link <= last;) {
-      const std::string text = counted(sweep, link, "i");
+    const int begin = step > 0 ? first : last, behind = step > 0 ? last + 1 : first - 1;
+    Statements here = of_link(sweep, begin), next;
+    for (int link = begin; link != behind; here = std::move(next)) {
       int end = link + step;
-      while (end >= first && end <= last && uncounted(sweep, end, "i") == text) end += step;
-      const int run = std::abs(end - link);
-      if (run >= 3) {
-        const std::string start = std::to_string(link), stop = std::to_string(end - step);
-        line(step > 0 ? "for (int i = " + start + "; i <= " + stop + "; ++i) {"
-                      : "for (int i = " + start + "; i >= " + stop + "; --i) {",
-             1);
-        indented(text, 2);
-        line("}", 1);
-        result_.operations += times(last_count_, run - 1);
-      } else {
+      for (; end != behind; end += step) {
+        next = of_link(sweep, end);
+        if (next != here) break;
+      }
+      if (std::abs(end - link) >= 3) {
+        body_.push_back(Loop{link, end - step, step, std::move(here)});
+      } else if (!here.empty()) {
         for (int k = link; k != end; k += step) {
-          const std::string one = k == link ? uncounted(sweep, k, std::to_string(k))
-                                            : counted(sweep, k, std::to_string(k));
-          if (one.empty()) continue;
-          if (any_local) line("{", 1);
-          indented(one, any_local ? 2 : 1);
-          if (any_local) line("}", 1);
+          Statements one = at_step(here, k);
+          if (any_local) {
+            body_.push_back(Block{std::move(one)});
+          } else {
+            for (Statement& statement : one) body_.push_back(std::move(statement));
+          }
         }
       }
       link = end;
     }
   }
 
-  std::string counted(const Sweep& sweep, int link, const std::string& index) {
-    const OperationCount before = result_.operations;
-    std::string text = link_text(sweep, link, index);
-    last_count_ = result_.operations;
-    last_count_ += times(before, -1);
-    return text;
-  }
-
-  std::string uncounted(const Sweep& sweep, int link, const std::string& index) {
-    const OperationCount before = result_.operations;
-    std::string text = link_text(sweep, link, index);
-    result_.operations = before;
-    return text;
-  }
-
-  static OperationCount times(OperationCount count, long factor) {
-    return {count.additions * factor, count.multiplications * factor, count.divisions * factor,
-            count.functions * factor};
-  }
-
   static constexpr int kUnrelated = 1'000'000;
 
   const Definitions& definitions_;
   const std::vector<Output>& outputs_;
-  const InputDeclarations& inputs_;
+  const Inputs& inputs_;
   Layout layout_;
-  Language language_;
-  std::string scalar_, differential_;  // types
+  bool has_differentials_ = false;
   std::vector<Family> families_;
   std::map<std::string, size_t> position_;
   std::set<std::pair<int, std::string>> used_inputs_;
   std::set<int> along_;  // symbols that depend on a differential
   std::vector<Sweep> sweeps_;
-  FunctionBody result_;
-  OperationCount last_count_;
+  Statements body_;
 };
 
 }  // namespace
 
-std::string page_text(const std::string& statements) {
-  constexpr size_t kWidth = 100;
-  std::string page;
-  for (size_t begin = 0; begin < statements.size();) {
-    const size_t end = statements.find('\n', begin);
-    std::string rest = statements.substr(begin, end - begin);
-    const std::string indent(rest.find_first_not_of(' ') + 4, ' ');
-    while (rest.size() > kWidth) {
-      const size_t at = break_of(rest, indent.size(), kWidth);
-      if (at == std::string::npos) break;
-      page += rest.substr(0, at) + "\n";
-      rest = indent + rest.substr(at + 1);
-    }
-    page += rest + "\n";
-    begin = end + 1;
-  }
-  return page;
-}
-
 FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                           const InputDeclarations& inputs, Layout layout, Language language) {
-  Body body(definitions, outputs, inputs, layout, language);
-  return layout == Layout::kStraight ? body.straight() : body.loops();
+                           const Inputs& inputs, Layout layout) {
+  Body body(definitions, outputs, inputs, layout);
+  Statements statements = layout == Layout::kStraight ? body.straight() : body.loops();
+  return {std::move(statements), body.has_differentials()};
 }
 
 }  // namespace catena

@@ -22,11 +22,10 @@ FunctionBuilder::FunctionBuilder(const Description& description, int links, Layo
       chain_(description, links),
       definitions_(chain_.definitions()),
       tangent_(definitions_, differential_family),
-      at_(input_declarations(description, links, in_c() ? "at->" : "at.", "", language)),
+      at_(inputs_of(description, links, "at", false, Type::kScalar)),
       at_and_along_(at_) {
-  at_and_along_.merge(
-      input_declarations(description, links, in_c() ? "along->" : "along.", "d_", language, true));
-  for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = {};
+  at_and_along_.merge(inputs_of(description, links, "along", true, Type::kDifferential));
+  for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = std::nullopt;
 }
 
 ModelFunctions FunctionBuilder::build() {
@@ -60,9 +59,8 @@ ModelFunctions FunctionBuilder::build() {
                       });
   result_.energies = chain_.energies();
   for (const EmittedFunction& function : result_.functions) {
-    if (function.body.statements > 0) {
-      s.functions.push_back({function.name, function.body.operations, function.body.statements});
-    }
+    if (!function.body.statements.empty())
+      s.functions.push_back({function.name, operations_of(function.body.statements)});
   }
   return std::move(result_);
 }
@@ -87,7 +85,7 @@ void FunctionBuilder::seed_tangent() {
 // The derivatives of outputs, each under its name with a "d" before it.
 std::vector<Output> FunctionBuilder::tangents_of(std::vector<Output> outputs) {
   for (Output& output : outputs) {
-    output.before = "d" + output.before;
+    output.array.name = "d" + output.array.name;
     output.value = tangent_.of(output.value);
   }
   return outputs;

@@ -45,19 +45,15 @@ class FunctionBuilder {
   void seed_tangent();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
-  FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs) {
-    return body(outputs, inputs, layout_);
-  }
-  FunctionBody body(const std::vector<Output>& outputs, const InputDeclarations& inputs,
-                    Layout layout) {
-    return function_body(definitions_, outputs, inputs, layout, language_);
+  FunctionBody body(const std::vector<Output>& outputs, const Inputs& inputs) {
+    return function_body(definitions_, outputs, inputs, layout_);
   }
 
   void add(const std::string& name, const std::string& comment, const std::string& signature,
-           FunctionBody text, const std::string& wrapper, const std::string& before = "",
+           FunctionBody body, const std::string& wrapper, const std::string& before = "",
            const std::string& after = "") {
     result_.functions.push_back(
-        {name, comment, signature, before, std::move(text), after, wrapper});
+        {name, comment, signature, before, std::move(body), after, wrapper});
   }
 
   std::vector<GiNaC::ex> each(const std::vector<GiNaC::ex>& values, const auto& act) {
@@ -70,7 +66,8 @@ class FunctionBuilder {
                                       const std::vector<GiNaC::ex>& values) {
     std::vector<Output> outputs;
     for (size_t i = 0; i < values.size(); ++i) {
-      outputs.push_back({array + "[", static_cast<int>(i) + 1, -1, "]", values[i]});
+      outputs.push_back(
+          {{"", array, {}}, static_cast<int>(i) + 1, ArrayPlace{{}, true, -1}, values[i]});
     }
     return outputs;
   }
@@ -82,7 +79,7 @@ class FunctionBuilder {
   Chain chain_;
   Definitions& definitions_;
   Differential tangent_;
-  InputDeclarations at_, at_and_along_;
+  Inputs at_, at_and_along_;
   ModelFunctions result_;
 };
 

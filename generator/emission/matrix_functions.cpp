@@ -13,8 +13,10 @@ void add_entries(std::vector<Output>& outputs, const std::string& array,
                  const std::vector<std::vector<ex>>& rows) {
   for (size_t i = 1; i + 1 < rows.size(); ++i) {
     for (size_t r = 0; r < rows[i].size(); ++r) {
-      outputs.push_back({"matrix." + array + "[" + std::to_string(r) + "][", static_cast<int>(i),
-                         -1, "]", rows[i][r]});
+      outputs.push_back({{"matrix", array, static_cast<int>(r)},
+                         static_cast<int>(i),
+                         ArrayPlace{{}, true, -1},
+                         rows[i][r]});
     }
   }
 }
@@ -22,7 +24,8 @@ void add_entries(std::vector<Output>& outputs, const std::string& array,
 void add_entries(std::vector<Output>& outputs, const std::string& array,
                  const std::vector<ex>& entries) {
   for (size_t i = 1; i + 1 < entries.size(); ++i) {
-    outputs.push_back({"matrix." + array + "[", static_cast<int>(i), -1, "]", entries[i]});
+    outputs.push_back(
+        {{"matrix", array, {}}, static_cast<int>(i), ArrayPlace{{}, true, -1}, entries[i]});
   }
 }
 
@@ -121,19 +124,19 @@ void FunctionBuilder::mass_and_acceleration() {
       symmetric ? "SymmetricSemiseparable<T, kLinks, " + std::to_string(mass.lower_rank) + ">"
                 : quasiseparable_type(mass);
   if (in_c() && !symmetric) throw std::logic_error("C: a mass matrix that is not symmetric");
-  const std::string matrix = !in_c() ? "  MassMatrix<T> matrix;\n"
-                             : mass.lower_rank == 0
-                                 ? "  MassMatrix matrix = {{{0.0}}, {{0.0}}, {0.0}};\n"
-                                 : "  MassMatrix matrix;\n";
+  const std::string matrix =
+      !in_c()                ? "  MassMatrix<T> matrix;\n"
+      : mass.lower_rank == 0 ? "  MassMatrix in = {{{0.0}}, {{0.0}}, {0.0}}, *const matrix = &in;\n"
+                             : "  MassMatrix in, *const matrix = &in;\n";
   const std::vector<Output> entries = all_entries(mass, symmetric);
   add("mass_matrix", "M, row by row.", "void mass_matrix(const Point<T>& at, T* M)",
       body(entries, at_), mass_wrapper, matrix,
-      in_c() ? "  to_dense(&matrix, M);\n" : "  matrix.to_dense(M);\n");
+      in_c() ? "  to_dense(matrix, M);\n" : "  matrix.to_dense(M);\n");
   std::vector<Output> all = entries;
   for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
     all.push_back(output);
   }
-  const std::string solve = in_c()      ? "  return solve_in_place(&matrix, a);\n"
+  const std::string solve = in_c()      ? "  return solve_in_place(matrix, a);\n"
                             : symmetric ? "  return matrix.solve(a);\n"
                                         : "  const int failed = matrix.factor();\n"
                                           "  if (failed == 0) matrix.solve(a);\n"
@@ -143,8 +146,8 @@ void FunctionBuilder::mass_and_acceleration() {
   if (in_c() || layout_ != Layout::kLoops) return;
   result_.accelerations = "accelerations";
   add("accelerations", "The same, bit for bit, in the order that suits a T of several numbers.",
-      "int accelerations(const Point<T>& at, T* a)", body(all, at_, Layout::kWholeSweeps), "",
-      matrix, solve);
+      "int accelerations(const Point<T>& at, T* a)",
+      function_body(definitions_, all, at_, Layout::kWholeSweeps), "", matrix, solve);
 }
 
 void FunctionBuilder::newton() {

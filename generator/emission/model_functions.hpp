@@ -10,6 +10,7 @@
 #include "generator/derivation/chain.hpp"
 #include "generator/emission/function_body.hpp"
 #include "generator/emission/model_writer.hpp"
+#include "generator/emission/statement_text.hpp"
 
 namespace catena {
 

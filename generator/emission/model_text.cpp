@@ -7,8 +7,9 @@ namespace catena {
 
 std::string operations_text(const OperationCount& count) {
   std::ostringstream out;
-  out << count.additions << " additions, " << count.multiplications << " multiplications, "
-      << count.divisions << " divisions, " << count.functions << " functions";
+  out << affine_text(count.additions) << " additions, " << affine_text(count.multiplications)
+      << " multiplications, " << affine_text(count.divisions) << " divisions, "
+      << affine_text(count.functions) << " functions";
   return out.str();
 }
 

@@ -51,10 +51,12 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   }
   for (const EmittedFunction& function : functions.functions) {
     out << "\n/// " << function.comment;
-    if (function.body.statements > 0) out << "\n/// " << operations_text(function.body.operations);
+    if (!function.body.statements.empty())
+      out << "\n/// " << operations_text(operations_of(function.body.statements));
     out << (function.body.along ? "\ntemplate <class T, class D>\n" : "\ntemplate <class T>\n")
         << function.signature << " {\n"
-        << function.before << page_text(function.body.text) << function.after << "}\n";
+        << function.before << statements_text(function.body.statements, Language::kCpp, 1)
+        << function.after << "}\n";
   }
   out << "\n}  // namespace catena::" << s.name << "\n";
   return out.str();

@@ -15,7 +15,6 @@ namespace catena {
 struct FunctionSummary {
   std::string name;
   OperationCount operations;
-  int statements = 0;
 };
 
 /// What was derived and found, for people and for the certificate.

@@ -11,8 +11,9 @@ std::vector<Output> point_outputs(const Chain& chain, const std::string& side,
                                   const std::string& down, const auto& act) {
   std::vector<Output> outputs;
   for (size_t k = 0; k < chain.side().size(); ++k) {
-    outputs.push_back({side + "[", static_cast<int>(k), 0, "]", act(chain.side()[k])});
-    outputs.push_back({down + "[", static_cast<int>(k), 0, "]", act(chain.down()[k])});
+    const ArrayPlace here{{}, true, 0};
+    outputs.push_back({{"", side, {}}, static_cast<int>(k), here, act(chain.side()[k])});
+    outputs.push_back({{"", down, {}}, static_cast<int>(k), here, act(chain.down()[k])});
   }
   return outputs;
 }
@@ -32,7 +33,7 @@ void FunctionBuilder::energy() {
       sum = definitions_.define(family + "_sum", k,
                                 sum + definitions_.named(part, family + "_part", k));
     }
-    outputs.push_back({"e[" + std::to_string(item_index++), kNoIndex, 0, "]", sum});
+    outputs.push_back({{"", "e", {}}, kNoIndex, ArrayPlace{{}, false, item_index++}, sum});
   }
   add("energy", "Energies (J) and powers (W), in the order of the table.",
       "void energy(const Point<T>& at, T* e)", body(outputs, at_),
@@ -94,16 +95,15 @@ void FunctionBuilder::internal_forces() {
 void FunctionBuilder::sensor() {
   result_.observes = true;
   const Chain::Sensor& sensor = chain_.sensor();
-  InputDeclarations inputs = input_declarations(description_, links_, "", "", language_);
-  inputs.merge(input_declarations(description_, links_, "d", "d_", language_));
-  const std::string type = in_c() ? "const double " : "const T ";
-  inputs["time"] = {type + "time = t;"};
-  inputs["d_time"] = {type + "d_time = " + (in_c() ? "0.0;" : "T(0);")};
-  const char* const names[] = {"side", "down", "angle"};
+  Inputs inputs = inputs_of(description_, links_, "", false, Type::kScalar);
+  inputs.merge(inputs_of(description_, links_, "", true, Type::kScalar));
+  inputs["d_time"] = Input{InputKind::kZero, Type::kScalar, "d_time", {}, {}};
+  const std::string names[] = {"side", "down", "angle"};
   for (int k = 0; k < 3; ++k) {
-    const std::string at = std::to_string(k);
-    inputs[names[k]] = {type + names[k] + " = in[" + at + "];"};
-    inputs[std::string("d_") + names[k]] = {type + "d_" + names[k] + " = din[" + at + "];"};
+    const std::string name = names[k], differential = "d_" + name;
+    inputs[name] = Input{InputKind::kEntry, Type::kScalar, name, {"", "in", {}}, k};
+    inputs[differential] =
+        Input{InputKind::kEntry, Type::kScalar, differential, {"", "din", {}}, k};
   }
   const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
   add("observe", "What the sensor reports of side, down (m) and angle (rad).",
@@ -124,12 +124,12 @@ void FunctionBuilder::sensor() {
   const std::string after = "  return out;\n";
   add("clock", "Model time at which what was recorded at t happened, s.",
       "T clock(const T& t, [[maybe_unused]] const T* p)",
-      body({{"out", kNoIndex, 0, "", sensor.clock}}, inputs),
+      body({{{"", "out", {}}, kNoIndex, {}, sensor.clock}}, inputs),
       "double c_clock(double t, const double* p) { return clock(t, p); }\n", before, after);
   add("clock_tangent", "Its derivative along dp.",
       "T clock_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
       "                [[maybe_unused]] const T* dp)",
-      body({{"out", kNoIndex, 0, "", tangent_.of(sensor.clock)}}, inputs),
+      body({{{"", "out", {}}, kNoIndex, {}, tangent_.of(sensor.clock)}}, inputs),
       "double c_clock_tangent(double t, const double* p, const double* dp) {\n"
       "  return clock_tangent(t, p, dp);\n}\n",
       before, after);

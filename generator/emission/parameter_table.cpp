@@ -117,35 +117,25 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
   return places;
 }
 
-InputDeclarations input_declarations(const Description& description, int links,
-                                     const std::string& point, const std::string& family_prefix,
-                                     Language language, bool along) {
-  InputDeclarations declarations;
-  const bool c = language == Language::kC;
-  const std::string scalar_type = c ? "double" : along ? "D" : "T";
+Inputs inputs_of(const Description& description, int links, const std::string& point,
+                 bool differentials, Type type) {
+  Inputs inputs;
+  const std::string prefix = differentials ? "d_" : "";
+  const auto argument = [&](char member) {
+    return Array{point, (differentials && point.empty() ? "d" : "") + std::string(1, member), {}};
+  };
   for (const InputPlace& place : input_places(description, links)) {
-    const std::string name = family_prefix + place.family, member = point + place.member;
-    const std::string shift = place.offset == 0 ? "" : " + " + std::to_string(place.offset);
-    const std::string text =
-        !place.indexed ? "const " + scalar_type + " " + name + " = " + member + "[" +
-                             std::to_string(place.offset) + "];"
-        : c ? "const double* const " + name + " = " + member + shift + ";"
-            : "const FromOne<" + scalar_type + "> " + name + "(" + member + shift + ");";
-    declarations[name] = {text, along};
+    const std::string name = prefix + place.family;
+    inputs[name] = Input{place.indexed ? InputKind::kArray : InputKind::kEntry, type, name,
+                         argument(place.member), place.offset};
   }
-  declarations[family_prefix + "time"] = {
-      "const " + scalar_type + " " + family_prefix + "time = " + point + "t;", along};
-  if (family_prefix.empty()) {
-    const std::string arrays = scalar_type + " sine[" + std::to_string(links + 1) + "], cosine[" +
-                               std::to_string(links + 1) + "];\n";
-    const std::string arguments = point + "q, sine + 1, cosine + 1);";
-    declarations["sine"] = declarations["cosine"] = {
-        arrays + (c ? "sines_and_cosines(" + arguments
-                    : "sines_and_cosines<" + std::to_string(links) + ">(" + arguments)};
+  inputs[prefix + "time"] = Input{InputKind::kNumber, type, prefix + "time", argument('t'), {}};
+  if (!differentials) {
+    inputs["sine"] = inputs["cosine"] =
+        Input{InputKind::kSinesAndCosines, type, "sine", argument('q'), links};
   }
-  declarations["pi"] = {c ? "const double pi = 3.14159265358979323846;"
-                          : "const T pi = T(3.14159265358979323846);"};
-  return declarations;
+  inputs["pi"] = Input{InputKind::kPi, Type::kScalar, "pi", {}, {}};
+  return inputs;
 }
 
 }  // namespace catena

@@ -38,11 +38,11 @@ struct InputPlace {
 };
 std::vector<InputPlace> input_places(const Description& description, int links);
 
-/// Declarations that bring the derivation's inputs into an emitted function. `point` is how
-/// the point is reached ("at.", or "" for functions that are given t and p alone); `family_prefix`
-/// is "d_" for differentials; `along`: they are of type D.
-InputDeclarations input_declarations(const Description& description, int links,
-                                     const std::string& point, const std::string& family_prefix,
-                                     Language language, bool along = false);
+/// What brings the derivation's inputs into an emitted function.
+/// `point`: the argument that has q, v, a, z, u, p and t; empty: they are arguments themselves.
+/// `differentials`: of the inputs, "d_<family>"; where `point` is empty, their arguments are "dq" ...
+/// `type`: of the inputs.
+Inputs inputs_of(const Description& description, int links, const std::string& point,
+                 bool differentials, Type type);
 
 }  // namespace catena

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "description/description.hpp"
-#include "generator/emission/polynomial_text.hpp"
+#include "generator/emission/statement_text.hpp"
 
 namespace catena {
 
