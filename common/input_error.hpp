@@ -6,9 +6,9 @@
 
 namespace catena {
 
-/// What a user gave cannot be used. The message names the file, the line or key, the value, the
-/// rule it broke and what to do. Programs print it and exit with status 2; nothing has been
-/// written.
+/// Input of a user that cannot be used. The message names the file, the line or key, the value, the
+/// rule it broke and what to do. Programs print it and exit with status 2; they have written
+/// nothing.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -5,12 +5,12 @@
 
 namespace catena {
 
-/// Adds the hidden command `manual --output FOLDER`. It writes what --help says of the program and
-/// its commands as a manual page, FOLDER/NAME.1, and as completions for bash and zsh, FOLDER/NAME
-/// and FOLDER/_NAME, where NAME is the program's. Call it last: the commands are read when it runs.
+/// Adds the hidden command `manual --output FOLDER` to `program`. It writes the texts of --help as
+/// a manual page, FOLDER/NAME.1, and as completions for bash and zsh, FOLDER/NAME and FOLDER/_NAME,
+/// where NAME is the name of the program.
 ///
-/// A command without options of its own is one that the program hands over to catena-derive: its
-/// completion is that program's.
+/// A command without options of its own is one that catena-derive carries out: its completion is
+/// that of catena-derive.
 void add_manual_command(CLI::App& program);
 
 }  // namespace catena

@@ -7,8 +7,8 @@
 
 namespace catena {
 
-/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours) from `word`,
-/// the first of equals; empty if none is near enough to be what was meant.
+/// The candidate with the fewest edits (insert, delete, replace, swap of neighbours) from `word`;
+/// the first of several. Empty if all take more edits than two fifths of the word's length.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "; did you mean \"damping\"?", or "; known are a, b and c" if nothing is near.

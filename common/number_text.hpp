@@ -5,13 +5,13 @@
 
 namespace catena {
 
-/// For messages: six significant digits, "1.23", "4.5e-07".
+/// Six significant digits, for messages: "1.23", "4.5e-07".
 std::string number_text(double value);
 
-/// For files that are read again: 17 significant digits, which give back the same double.
+/// 17 significant digits, for files that are read again: reading gives the same double.
 std::string exact_number_text(double value);
 
-/// A number as short as it can be written and still read back to the same double.
+/// The shortest text that is read back to the same double.
 std::string shortest_number(double value);
 
 }  // namespace catena

@@ -9,8 +9,9 @@
 
 namespace catena {
 
-/// Calls work(0) .. work(count - 1), each once, on up to `threads` threads. Each must write only
-/// what is its own. The first exception is thrown again when all have ended.
+/// Calls work(0) .. work(count - 1), each once, on up to `threads` threads, the caller's among
+/// them. No two calls may write the same data. After an exception no further call begins; the first
+/// one is thrown again when all threads have ended.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;

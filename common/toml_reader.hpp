@@ -11,16 +11,16 @@
 
 namespace catena {
 
-/// Reads one table of a TOML file and says exactly what is wrong with it. Every failure is an
-/// InputError "file:line: key: value; rule and what to do".
+/// One table of a TOML file, read key by key. Every failure throws InputError
+/// "file:line: key: value; rule and what to do".
 ///
-///     TomlTable file = TomlTable::read(path, "case");   // checks format = 1 and kind = "case"
-///     std::string title = file.text("title");           // required: an error if it is not there
-///     double length = file.table("cable").number("length");
-///     file.finish();                                    // unknown keys anywhere are errors
+///     const TomlTable file = TomlTable::read("my.toml", "case");  // format = 1, kind = "case"
+///     const std::string title = file.text("title");               // an error if it is missing
+///     const double length = file.table("cable").number("length");
+///     file.finish();                                              // unknown keys are errors
 ///
-/// A key is known once it has been asked for, under whatever name, whether it was there or not.
-/// Copies look at the same document.
+/// A key is known once it has been asked for, whether the file has it or not. Copies share one
+/// document.
 class TomlTable {
  public:
   /// Parses a file. Fails on a missing file, on bad TOML, on another `format` or `kind`.
@@ -30,7 +30,8 @@ class TomlTable {
 
   bool has(std::string_view key) const;
 
-  /// The value of a key. The first of each pair fails when the key is missing.
+  /// The value of a key. A missing key is a failure of the first of each pair; the second returns
+  /// nothing.
   std::string text(std::string_view key) const;
   std::optional<std::string> optional_text(std::string_view key) const;
   double number(std::string_view key) const;  ///< whole numbers too; inf allowed, nan never
@@ -53,18 +54,18 @@ class TomlTable {
   /// [key.NAME]: name and table, in the order of the file; empty if missing.
   std::vector<std::pair<std::string, TomlTable>> named_tables(std::string_view key) const;
 
-  /// One of the words, as its index; the first if the key is missing and `required` is false.
+  /// The index of the value in `words`. 0 if the key is missing and `required` is false.
   std::size_t choice(std::string_view key, const std::vector<std::string>& words,
                      bool required = true) const;
 
-  /// Throws "file:line: key: problem". The problem names the value, the rule and what to do. An
-  /// empty key is the table itself.
+  /// Throws InputError "file:line: key: problem". `problem` names the value, the rule and what to
+  /// do. An empty key stands for the table itself.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
   /// The same at the table itself.
   [[noreturn]] void fail(const std::string& problem) const;
 
-  /// Fails on the first key, in this table or below, that was never asked for, naming the nearest
-  /// known one. Call it on the outermost table once all is read.
+  /// Fails on the first key, in this table or below, that was never asked for, and names the
+  /// nearest known one. Call it on the outermost table when everything is read.
   void finish() const;
 
   const std::string& file() const;

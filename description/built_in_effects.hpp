@@ -12,7 +12,7 @@ struct BuiltInEffect {
   std::string_view text;
 };
 
-/// All of them, by id. Defined in a source that CMake writes from the files (CMakeLists.txt).
+/// All built-in effects, sorted by id. CMake writes the source of this function from the files.
 std::span<const BuiltInEffect> built_in_effects();
 
 }  // namespace catena

@@ -10,11 +10,16 @@
 
 namespace catena {
 
-/// Which model: the plain chain with the effects listed, in their order.
-/// Read from a TOML file of kind "model".
+/// Describes a model: the plain chain and its effects, in their order. The file is TOML of kind
+/// "model".
+///
+///     Description description = plain_chain();
+///     description.id = "falling";
+///     description.effects.push_back(built_in_effect("air_drag_quadratic"));
+///     write_description(description, "falling.toml");
 struct Description {
   std::string id;
-  std::vector<int> links;  ///< the link counts to derive when none is asked for; may be empty
+  std::vector<int> links;  ///< numbers of links to derive if the caller names none; may be empty
   std::vector<Effect> effects;
   std::string source_file;
 };
@@ -26,17 +31,18 @@ Description plain_chain();
 /// .toml) relative to the description. Throws InputError naming file, line, key, value and rule.
 Description read_description(const std::filesystem::path& path);
 
-/// Why effects cannot stand in one description (an id twice, or two that add a coordinate, state or
-/// signal of one name), and what to do; empty if they can.
+/// Why `effects` cannot be in one description, and what to do: an id is there twice, or two effects
+/// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
 
-/// Writes a description that read_description reads back to the same canonical text. Effects read
-/// from files are named by their path relative to where the description is written.
-/// The file is written whole or not at all.
+/// Writes a description; read_description gives the same canonical text. Effects that were read
+/// from files are named by their path relative to the folder of `path`. The file is written whole
+/// or not at all. Throws InputError that names the path if it cannot be written.
 void write_description(const Description& description, const std::filesystem::path& path);
 
-/// What decides the equations, and nothing else: not spaces, comments, titles, paths, the id of the
-/// description, its link counts, or the order of keys. For hashing and comparing.
+/// A text for hashing and comparing, which contains what the equations depend on and nothing else:
+/// no spaces, comments, titles, paths, numbers of links or order of keys, nor the description's own
+/// id.
 std::string canonical_text(const Description& description);
 
 }  // namespace catena

@@ -9,8 +9,8 @@
 
 namespace catena {
 
-/// A piece of physics as the user wrote it, with the place it was written at so that errors can
-/// point there. Not parsed here: that takes GiNaC (generator/derivation/effect_expression.hpp).
+/// An expression as the user wrote it, and the place where it was written, for messages. Values and
+/// units are checked by the generator (generator/derivation/effect_expression.hpp).
 struct Expression {
   std::string text;  ///< empty: not given
   std::string file;
@@ -38,11 +38,12 @@ struct EffectParameter {
   std::string unit;
   std::string description;
   double default_value =
-      std::numeric_limits<double>::quiet_NaN();  ///< the neutral one if not stated
+      std::numeric_limits<double>::quiet_NaN();  ///< if not stated, the neutral value
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// The value at which the effect vanishes; NaN: none (a shape parameter, such as a frequency);
-  /// infinite: it vanishes only in the limit, and only convergence can be shown.
+  /// The value at which the effect vanishes. NaN: there is none (a frequency, for example).
+  /// Infinite: the effect vanishes in the limit only; then convergence to the plain chain can be
+  /// shown, but not equality.
   double neutral = std::numeric_limits<double>::quiet_NaN();
   Scope scope = Scope::kModel;
 };
@@ -62,9 +63,9 @@ struct Definition {
   Expression value;
 };
 
-/// A force on a point of the chain, N, or N/m if `per_length` (then it acts on the whole length of
-/// the link, taken at its centre). Either side and down are given, or normal and tangential; of a
-/// pair at least one; what is not given is zero.
+/// A force on a point of the chain, N; or N/m if `per_length`: then it acts on the whole length of
+/// the link and is evaluated at its centre. Given are side, down or both, or normal, tangential or
+/// both. Components that are not given are zero.
 struct ForceTerm {
   Place at = Place::kLinkCentre;  ///< kLinkCentre, kJoint, kLoad
   bool per_length = false;        ///< kLinkCentre only
@@ -87,12 +88,12 @@ struct ScalarTerm {
   Expression value;
 };
 
-/// Prescribed motion of the support, m, from time, parameters, constants and signals.
+/// Prescribed motion of the support, m. It depends on time, parameters, constants and signals only.
 struct Support {
   Expression side, down;
 };
 
-/// Changes of the kinematics. All are additive: several effects may give the same one.
+/// Changes of the kinematics. Changes by several effects are added.
 struct Kinematics {
   Expression centre_offset;     ///< m, mass centre of link i past its middle, away from the support
   Expression load_offset;       ///< m, load past the end of link n, along link n
@@ -127,15 +128,19 @@ struct SignalChannel {
   std::string description;
 };
 
-/// What the sensor reports of a point's true (side, down, angle): m, m, rad, and the model time in
-/// s at which what it recorded at `time` happened. What is not given is reported as it is.
+/// What the sensor reports of a point: side, down (m) and angle (rad) as functions of the true
+/// ones; and `clock`, the model time (s) of what was recorded at `time`. What is not given is
+/// reported without change.
 struct Sensor {
   Expression side, down, angle, clock;
 
   bool given() const { return side.given() || down.given() || angle.given() || clock.given(); }
 };
 
-/// One piece of physics that may be added to the chain; read from a TOML file of kind "effect".
+/// One piece of physics that may be added to the chain. The file is TOML of kind "effect".
+///
+///     const Effect drag = built_in_effect("air_drag_quadratic");
+///     const std::string first = drag.parameters.front().name;  // "normal", in kg/m^2
 struct Effect {
   std::string id;
   std::string title;
@@ -155,15 +160,15 @@ struct Effect {
   Sensor sensor;
 };
 
-/// Reads and checks one effect file. Throws InputError naming file, line, key, value and rule.
-/// Expressions are not parsed: units and symbols are checked by the generator.
+/// Reads and checks an effect file. Throws InputError that names file, line, key, value and rule.
+/// Units and symbols in expressions are not checked here, but by the generator.
 Effect read_effect(const std::filesystem::path& path);
 
-/// The effects that come with catena, compiled in. Throws InputError naming the nearest id.
+/// One of the effects that are compiled in. Throws InputError that names the nearest id.
 Effect built_in_effect(std::string_view id);
 std::vector<std::string> built_in_effect_ids();
 
-/// The text of a built-in effect's file, a template for one's own.
+/// The text of the file of a built-in effect, as a template for others. Throws as built_in_effect.
 std::string_view built_in_effect_text(std::string_view id);
 
 }  // namespace catena

@@ -59,8 +59,8 @@ class Checks {
     }
   }
 
-  // A potential is a function of the shape alone, a kinetic energy one of shape and rates: what
-  // else changed them would do work that nobody counts.
+  // A potential depends on the shape only, a kinetic energy on shape and rates. If they depended on
+  // anything else, the energy balance would lack its work.
   void check_energies() const {
     std::set<std::string> times = {"time"}, rates = {"rate", "joint_rate"}, states;
     for (const SignalChannel& signal : effect_.signals) {

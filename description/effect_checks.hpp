@@ -5,9 +5,9 @@
 
 namespace catena {
 
-/// What can be said against an effect as a whole, before its expressions are parsed: it does
-/// nothing; a name stands in no expression; an energy depends on what would make it change
-/// uncounted (time, or states; rates in a potential). Throws InputError.
+/// Checks an effect as a whole. Throws InputError if the effect does nothing, if a name is in no
+/// expression, or if an energy depends on time or states, or a potential on rates: their work would
+/// be missing in the energy balance.
 void check_consistency(const Effect& effect);
 
 }  // namespace catena

@@ -6,7 +6,7 @@
 
 namespace catena {
 
-/// read_effect for a file that is parsed already.
+/// read_effect (effect.hpp) for a TOML table that is parsed already.
 Effect read_effect(const TomlTable& file);
 
 }  // namespace catena

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The grammar of expressions in effect files, whole:
+// The whole grammar of expressions in effect files:
 //
 //     sum      = product { ("+" | "-") product }
 //     product  = factor { ("*" | "/") factor }
 //     factor   = ("-" | "+") factor | power
-//     power    = primary [ "^" factor ]            right-associative, before the sign: -x^2 =
-//     -(x^2) primary  = number | name | function "(" sum ")" | "(" sum ")" number   = 12, 0.5, 1e-6
+//     power    = primary [ "^" factor ]            right-associative; -x^2 = -(x^2)
+//     primary  = number | name | function "(" sum ")" | "(" sum ")"
+//     number   = 12, 0.5, 1e-6
 //     function = sin cos tan exp log sqrt tanh sinh cosh atan asinh
 //
-// Here text becomes a tree; values and units are given to it in
-// generator/derivation/effect_expression.hpp, its looks in formula.hpp.
+// The text becomes a tree here. generator/derivation/effect_expression.hpp gives it values and
+// units, formula.hpp prints it.
 #pragma once
 
 #include <set>
@@ -29,10 +30,10 @@ struct SyntaxNode {
   std::vector<SyntaxNode> operands;
 };
 
-/// Throws InputError "file:line: key: in "text": problem".
+/// The tree of an expression. Throws InputError "file:line: key: in "text": problem".
 SyntaxNode parse_syntax(const Expression& expression);
 
-/// The symbols that stand in an expression, functions aside; empty if it is not given.
+/// The names in an expression, without those of functions. Empty if the expression is not given.
 std::set<std::string> names_in(const Expression& expression);
 
 /// The functions of the grammar.

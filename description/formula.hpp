@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The physics of an effect as formulas for eyes: LaTeX (math mode, amsmath) and MathML.
+// The physics of an effect as formulas for readers, in LaTeX (math mode, amsmath) and MathML.
 //
 // v_n, v_t, v_s, v_d: velocity along normal, tangent, side, down; r_s, r_d, r_g: position along
 // side, down, gravity; theta: angle of the link; phi: angle of the joint, from its rest; l, m, I:
@@ -15,13 +15,15 @@
 
 namespace catena {
 
+///     const std::vector<Formula> of_drag = formulas(built_in_effect("air_drag_quadratic"));
+///     const std::string latex = of_drag.front().latex;
 struct Formula {
   std::string what;    ///< "Dissipation per length, at the middle of every link"
   std::string latex;   ///< without delimiters
   std::string mathml;  ///< a whole <math> element, inline
 };
 
-/// All that the effect declares, in reading order: definitions first. Throws InputError where an
+/// The formulas of everything that the effect declares, definitions first. Throws InputError if an
 /// expression does not follow the grammar.
 std::vector<Formula> formulas(const Effect& effect);
 

@@ -44,7 +44,7 @@ AdjointSolver::AdjointSolver(Integrator& forward, const Model& model,
 }
 
 void AdjointSolver::begin(double t, const Trajectory& slope) {
-  // Where lambda is small beside the slopes it need not be exact.
+  // lambda needs no relative accuracy where it is small compared with the slopes.
   const double largest = std::max({slope.q.size() > 0 ? slope.q.cwiseAbs().maxCoeff() : 0.0,
                                    slope.v.cwiseAbs().maxCoeff(),
                                    slope.z.size() > 0 ? slope.z.cwiseAbs().maxCoeff() : 0.0});

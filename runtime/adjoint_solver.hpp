@@ -9,15 +9,15 @@
 
 namespace catena {
 
-/// The adjoint equations (adjoint.hpp) back from the last time to the first, after an Integrator
-/// that keeps check points has run. They are linear: each step is solved at once, with the
-/// transpose of the Newton matrix at the motion.
+/// Integrates the adjoint equations (adjoint.hpp) from the last time back to the first, after an
+/// Integrator that keeps check points has run. The equations are linear, so each step takes one
+/// solution with the transpose of the Newton matrix.
 class AdjointSolver {
  public:
   AdjointSolver(Integrator& forward, const Model& model, const Eigen::VectorXd& parameters,
                 const SimulationOptions& options, const Signals& signals);
 
-  /// Fills result.gradient, or status and message if it cannot.
+  /// Writes result.gradient, or status and message if it fails.
   void run(const std::vector<double>& times, const Trajectory& slope, AdjointSimulation& result);
 
  private:

@@ -11,8 +11,8 @@
 
 namespace catena {
 
-/// A model with the parameters and signals of one simulation: what is needed to evaluate its
-/// equations at a time and state. Allocates when made, not when used.
+/// A model with the parameters and signals of one simulation, which are needed to evaluate its
+/// equations at a time and state. Only the constructor allocates.
 class Dynamics {
  public:
   Dynamics(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals)
@@ -29,10 +29,11 @@ class Dynamics {
   int states() const { return model_.states(); }
   /// Length of y = (q, v, z).
   int size() const { return 2 * coordinates() + states(); }
-  /// As many zeros as any array of a point is long.
+  /// Zeros, as many as the longest array of a point has entries.
   const double* zero() const { return zero_.data(); }
 
-  /// The point (t, q, v, a, z) with the parameters and the signals at t; valid until the next call.
+  /// The point (t, q, v, a, z) with the parameters and with the signals at t. It refers to the
+  /// given arrays and is valid until the next call.
   catena_point at(double t, const double* q, const double* v, const double* a, const double* z) {
     if (!signal_values_.empty() && t != signal_time_) {
       signals_.evaluate(t, signal_values_.data());

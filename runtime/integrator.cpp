@@ -16,8 +16,8 @@ namespace {
 
 constexpr long kStepsPerCheckPoint = 500;
 
-// s: at rest, the first step is chosen from how far there is to go. No farther than this, so that a
-// distant end does not let it leap over what the signals do.
+// s. At rest CVODES chooses its first step from the distance to the last time. The distance is
+// limited so that the first step does not skip changes of the signals.
 constexpr double kFirstSight = 100.0;
 
 double cpu_seconds() {
@@ -107,8 +107,8 @@ void Integrator::start_sensitivities() {
   N_Vector initial[] = {sensitivities_.get()};
   require(CVodeSensInit1(cvodes_.get(), 1, CV_STAGGERED1, &Integrator::sensitivity_rates, initial),
           "CVodeSensInit1");
-  // CVODES wants weights although the sensitivities do not take part in the error test; its own are
-  // made in vectors of the length of y.
+  // CVODES needs weights although the sensitivities are not in the error test. Its default weights
+  // are computed in vectors of the length of y.
   require(CVodeSensEEtolerances(cvodes_.get()), "CVodeSensEEtolerances");
   require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");
   require(CVodeSetNonlinearSolverSensStg1(cvodes_.get(), sensitivity_solver_->handle()),
@@ -124,7 +124,7 @@ int Integrator::rates(double t, N_Vector y, N_Vector ydot, void* user) {
   double* a = out + n;
   double* zdot = a + n;
 
-  // After each step CVODES asks for the rates at the solution, which the step has just found.
+  // After each step CVODES asks for the rates at the solution. The step has just computed them.
   N_Vector prediction, state, rate, history;
   double now, gamma, rl1;
   void* same_user;
@@ -196,8 +196,8 @@ void Integrator::keep_check_points() {
 
 int Integrator::step(long number, double last, double& t) {
   if (!keeps_check_points_) return CVode(cvodes_.get(), last, y_.get(), &t, CV_ONE_STEP);
-  // What is repeated from a check point has no factors from before it: nor has the first run, so
-  // that both take the same steps.
+  // A run that is repeated from a check point has no factors from before it. The first run forgets
+  // its factors there, so that both take the same steps.
   if (number % kStepsPerCheckPoint == 0) step_solver_->forget_factors();
   int check_points = 0;
   return CVodeF(cvodes_.get(), last, y_.get(), &t, CV_ONE_STEP, &check_points);
@@ -224,7 +224,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
   std::size_t next = 1;
   if (next < times.size()) {
     CVodeSetStopTime(cvodes_.get(), times.back());
-    // Below this a step is lost in the rounding of t: at a wall, give up rather than creep.
+    // A smaller step is lost in the rounding of t. If the error test asks for one, the run fails.
     const double longest = std::max(std::abs(times.front()), std::abs(times.back()));
     CVodeSetMinStep(cvodes_.get(), 64.0 * std::numeric_limits<double>::epsilon() * longest);
   }

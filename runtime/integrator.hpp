@@ -30,18 +30,17 @@ using SunContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, SunC
 using NVectorHandle = std::unique_ptr<_generic_N_Vector, NVectorDeleter>;
 using CvodesHandle = std::unique_ptr<void, CvodesDeleter>;
 
-/// CVODES at work on one model: from the initial state through all output times. One object serves
-/// one run.
+/// One run of CVODES on one model, from the initial state through all output times.
 class Integrator {
  public:
   Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
              double start, const SimulationOptions& options, const Signals& signals,
              const std::vector<Seed>& seeds);
 
-  /// Fills `result`, whose sensitivity has one entry per seed.
+  /// Writes `result`, whose sensitivity has one entry per seed.
   void run(const std::vector<double>& times, SensitiveSimulation& result);
 
-  /// Before run: keeps check points from which the motion can be had again, for AdjointSolver.
+  /// Call it before run: then check points are kept, from which AdjointSolver repeats the motion.
   void keep_check_points();
   void* cvodes() const { return cvodes_.get(); }
   SUNContext context() const { return context_.get(); }

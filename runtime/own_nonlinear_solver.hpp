@@ -17,8 +17,8 @@ using SunNonlinearSolverHandle =
 using SolveFunction = int (*)(SUNNonlinearSolver, N_Vector predicted, N_Vector correction,
                               N_Vector weight, double tolerance, booleantype, void* cvode);
 
-/// What CVODES calls in place of a solver of its own; `owner` is its content. Throws
-/// std::bad_alloc.
+/// A nonlinear solver for CVODES that calls `solve` instead of one of SUNDIALS; `owner` becomes its
+/// content. Throws std::bad_alloc.
 inline SunNonlinearSolverHandle own_nonlinear_solver(SUNContext context, void* owner,
                                                      SolveFunction solve) {
   SunNonlinearSolverHandle handle(SUNNonlinSolNewEmpty(context));

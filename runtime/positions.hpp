@@ -8,8 +8,15 @@
 
 namespace catena {
 
-/// Where the chain is at one time (m): entry 0 the support, i the far end of link i, links + 1 the
-/// load.
+/// Positions of the chain at one time, m, or their derivatives. Entry 0: the support; entry i: the
+/// far end of link i; entry links + 1: the load.
+///
+///     const Model model = Model::built_in(4);
+///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.1);
+///     const Eigen::VectorXd angles = Eigen::VectorXd::Constant(4, 0.6);  // rad
+///     const Positions at = positions(model, parameters, 0.0, angles);
+///     const double load_side = at.side[5], load_down = at.down[5];  // m
+///     const CablePoint marker = position_of(at, point_at_arc_length(model, parameters, 0.25));
 struct Positions {
   Eigen::VectorXd side;  ///< horizontal
   Eigen::VectorXd down;  ///< along gravity
@@ -21,11 +28,15 @@ struct CablePoint {
   double down = 0.0;
 };
 
-/// (2.24), (2.25) and what effects change of them.
+/// Positions by (2.24), (2.25), with the changes that effects make.
+///
+/// Here and below: `parameters` and `parameters_direction` have one entry per parameter of the
+/// model; `q`, `q_direction` and `v` one per coordinate (rad, rad/s for angles); t is in s;
+/// `signals` has the channels that the model asks for. Sizes are not checked.
 Positions positions(const Model& model, const Eigen::VectorXd& parameters, double t,
                     const Eigen::VectorXd& q, const Signals& signals = {});
 
-/// Derivative of positions along the direction (parameters: dp, coordinates: dq).
+/// Derivative of the positions along (parameters_direction, q_direction).
 Positions positions_tangent(const Model& model, const Eigen::VectorXd& parameters, double t,
                             const Eigen::VectorXd& q, const Eigen::VectorXd& parameters_direction,
                             const Eigen::VectorXd& q_direction, const Signals& signals = {});
@@ -35,27 +46,27 @@ Positions velocities(const Model& model, const Eigen::VectorXd& parameters, doub
                      const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                      const Signals& signals = {});
 
-/// A point of the cable that is fixed to it: on link `link` (counted from 0), the fraction
-/// `fraction` of the link from its upper end.
+/// A point that moves with the cable: on link `link` (counted from 0), at `fraction` of its length
+/// from its upper end (0 to 1).
 struct MaterialPoint {
   int link = 0;
   double fraction = 0.0;
 };
 
-/// The point at arc length s (m) from the support along the cable at its nominal lengths,
-/// parameters length_1 ..; a joint belongs to the link above it. Throws std::invalid_argument
-/// unless 0 <= s <= cable length (a relative 1e-9 beyond is taken as the end).
+/// The point at arc length s (m) from the support. Lengths are the nominal ones, length_1 .. of
+/// `parameters`. A joint belongs to the link above it. Throws std::invalid_argument unless
+/// 0 <= s <= cable length; up to a relative 1e-9 beyond is taken as the end.
 MaterialPoint point_at_arc_length(const Model& model, const Eigen::VectorXd& parameters, double s);
 
-/// Derivative of the fraction when the lengths change along `parameters_direction` and the arc
-/// length stays; the link is kept.
+/// Derivative of point.fraction when the lengths change along `parameters_direction` and the arc
+/// length stays. The link stays too.
 double fraction_tangent(const Model& model, const Eigen::VectorXd& parameters,
                         const Eigen::VectorXd& parameters_direction, const MaterialPoint& point);
 
-/// Where the point is, between the ends of its link.
+/// Position of the point (m), between the ends of its link.
 CablePoint position_of(const Positions& positions, const MaterialPoint& point);
 
-/// Its derivative, given that of the positions and of the fraction.
+/// Derivative of position_of, from those of the positions and of the fraction.
 CablePoint position_tangent_of(const Positions& positions, const Positions& positions_tangent,
                                const MaterialPoint& point, double fraction_tangent);
 

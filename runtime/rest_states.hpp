@@ -11,42 +11,52 @@
 
 namespace catena {
 
-/// At rest, every link at `angle` (rad) from the downward vertical.
+/// States at rest from which a simulation can start. Rates are zero, and so are extra states and
+/// the coordinates that effects add.
+///
+///     const Model model = Model::built_in(12);
+///     const State askew = straight(model, 0.6);                      // every link at 0.6 rad
+///     Eigen::VectorXd parameters = model.default_parameters();       // NaN where there is none
+///     parameters.head(12).setConstant(0.2);                          // m, length_1 .. length_12
+///     const State held = catenary(model, parameters, {1.2, 1.8});    // side, down of the end, m
+
+/// Every link at `angle` (rad) from the downward vertical.
 State straight(const Model& model, double angle);
 
-/// At rest, link i at angles[i] (rad). Throws std::invalid_argument unless there is one per link,
-/// all finite.
+/// Link i at angles[i] (rad; one entry per link). Throws std::invalid_argument on another number of
+/// angles and on an angle that is not finite.
 State from_angles(const Model& model, const Eigen::VectorXd& angles);
 
 /// How a chain of rigid links is laid along a curve.
 enum class CatenaryFit {
-  /// Link i has the direction of the chord between the points of the curve at the arc lengths of
-  /// its
-  /// ends. A chord is a little shorter than its arc, so the free end comes to lie a little beyond
-  /// the
-  /// held point.
+  /// The ends of each link lie, by arc length, on the curve; the link has the direction of the
+  /// chord between them. A chord is a little shorter than its arc, so the free end lies a little
+  /// beyond the held point.
   kChords,
-  /// The same chords of a neighbouring catenary, chosen so that the free end lies on the held
-  /// point.
+  /// The same with a neighbouring catenary, chosen so that the free end lies on the held point.
   kEndHeld,
 };
 
-/// At rest on the static catenary (2.53) of the cable's length between the support at the origin
-/// and `held` (m), where its free end is held. Link lengths are exact. (2.53) is a uniform cable
-/// without stiffness; masses are not looked at. Right below the support the catenary is folded:
-/// straight down and up again. Throws std::invalid_argument if the held point is farther away than
-/// the cable is long, or not finite.
+/// The static catenary (2.53) of the cable's length between the support, which is the origin, and
+/// `held` (m), where the free end is held. Link lengths are those of `parameters` (one entry per
+/// parameter of the model); other parameters are not used, as (2.53) is a uniform cable without
+/// stiffness. If the held point is below the support, the cable goes straight down and up again.
+/// Throws std::invalid_argument if the held point is farther away than the cable is long or is not
+/// finite, and if kEndHeld finds no neighbouring catenary (few links).
 State catenary(const Model& model, const Eigen::VectorXd& parameters, const CablePoint& held,
                CatenaryFit fit = CatenaryFit::kEndHeld);
 
 struct Equilibrium {
-  Status status = Status::kNotRun;
-  std::string message;  ///< empty on success
-  State state;          ///< at rest
+  Status status = Status::kNotRun;  ///< kSuccess, kNoConvergence, kNotFinite or kSingular
+  std::string message;              ///< empty on success
+  State state;                      ///< at rest
 };
 
-/// Where the chain hangs still at time t: r = 0 with v = a = 0, extra states zero, found by
-/// Newton's method from hanging straight down. Stable or not is not examined.
+/// The equilibrium at time t (s): r = 0 with v = a = 0 and extra states zero, by Newton's method
+/// from the chain that hangs straight down. `parameters`: one entry per parameter of the model;
+/// `signals`: the channels that the model asks for. Whether the equilibrium is stable is not
+/// examined. Throws std::invalid_argument on parameters that the model refuses
+/// (Model::check_parameters).
 Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& parameters,
                                 double t = 0.0, const Signals& signals = {});
 

@@ -14,7 +14,7 @@ namespace {
 /// Second derivatives at the samples of the cubic spline with not-a-knot ends: with h_i = t_{i+1} -
 /// t_i, d_i = (y_{i+1} - y_i) / h_i,
 ///   h_{i-1} s_{i-1} + 2 (h_{i-1} + h_i) s_i + h_i s_{i+1} = 6 (d_i - d_{i-1}),  0 < i < n - 1,
-/// and the third derivative does not jump at the second and the last but one sample. Two samples
+/// and the third derivative is continuous at the second and at the last but one sample. Two samples
 /// give a straight line, three a parabola.
 std::vector<double> spline_second_derivatives(const std::vector<double>& t,
                                               const std::vector<double>& y) {

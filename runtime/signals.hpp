@@ -7,22 +7,31 @@
 
 namespace catena {
 
-/// Functions of time given by samples, interpolated twice continuously differentiable: cubic
-/// splines with not-a-knot ends (so that samples of a cubic are met exactly, derivatives included).
+/// Functions of time given by samples. Between the samples they are cubic splines with not-a-knot
+/// ends, twice continuously differentiable; a cubic polynomial and its derivatives are reproduced.
+///
+///     Signals signals;
+///     const std::vector<double> time = {0.0, 0.5, 1.0}, side = {0.0, 0.1, 0.0};  // s, m
+///     signals.add("support_side", time, side);
+///     double u[3];
+///     signals.evaluate(0.25, u);  // value, first and second time derivative
 class Signals {
  public:
-  /// Adds a channel: at least two samples, finite, times strictly increasing (s). Throws
-  /// std::invalid_argument naming the channel, the sample (counted from 1) and the rule.
+  /// Adds a channel. `time` (s, strictly increasing) and `value` (unit of the channel) have equal
+  /// lengths, at least two, and are finite. Throws std::invalid_argument that names the channel,
+  /// the sample (counted from 1) and the rule.
   void add(std::string name, std::span<const double> time, std::span<const double> value);
 
   int count() const { return static_cast<int>(channels_.size()); }
+  /// Name of a channel, counted from 0.
   const std::string& name(int channel) const;
-  /// The times between which every channel is given; infinite if there is none.
+  /// The times (s) between which every channel has samples; infinite if there is no channel.
   double first_time() const;
   double last_time() const;
 
-  /// u[3k], u[3k + 1], u[3k + 2]: value, first and second time derivative of channel k. Outside the
-  /// samples the outermost cubic goes on.
+  /// Writes value, first and second time derivative of channel k at t (s) into u[3k], u[3k + 1],
+  /// u[3k + 2]; u has room for 3 count() numbers. Outside the samples the outermost cubic
+  /// continues.
   void evaluate(double t, double* u) const;
 
  private:

@@ -106,8 +106,8 @@ std::vector<Simulation> simulate_sets(const Model& model,
                                       const std::vector<double>& times, int threads,
                                       const SimulationOptions& options, const Signals& signals) {
   if (parameters.size() != initial.size())
-    refuse(std::to_string(parameters.size()) + " sets of parameters, but " +
-           std::to_string(initial.size()) + " starts; give as many of both");
+    refuse(std::to_string(parameters.size()) + " parameter sets, but " +
+           std::to_string(initial.size()) + " initial states; give as many of both");
   for (std::size_t i = 0; i < parameters.size(); ++i) try {
       check_run(model, parameters[i], initial[i], times, options, signals);
     } catch (const std::invalid_argument& error) {

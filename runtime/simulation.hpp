@@ -21,19 +21,19 @@ enum class LinearSolver {
 };
 
 enum class Method {
-  kBdf,    ///< implicit, order 1 to 5: the chain is stiff
+  kBdf,    ///< implicit, order 1 to 5: for stiff chains
   kAdams,  ///< implicit, order 1 to 12: for soft chains
 };
 
 struct SimulationOptions {
   double relative_tolerance = 1e-8;
-  double absolute_tolerance_position = 1e-10;  ///< rad, and the units of further coordinates
-  double absolute_tolerance_velocity = 1e-9;   ///< rad/s; also taken for extra states
+  double absolute_tolerance_position = 1e-10;  ///< rad; units of the coordinates that effects add
+  double absolute_tolerance_velocity = 1e-9;   ///< rad/s; also for extra states, in their units
   long max_steps = 1'000'000;
   LinearSolver linear_solver = LinearSolver::kAutomatic;
   Method method = Method::kBdf;
-  bool energy = true;  ///< fill Trajectory::energy and energy_imbalance
-  /// Asked after each step with the time reached (s); false stops with kInterrupted.
+  bool energy = true;  ///< compute Trajectory::energy and Simulation::energy_imbalance
+  /// Called after each step with the time reached (s); false stops with kInterrupted.
   std::function<bool(double t)> keep_going;
 };
 
@@ -44,36 +44,53 @@ struct Statistics {
   long newton_iterations = 0;
   long error_test_failures = 0;
   long newton_failures = 0;
-  LinearSolver used = LinearSolver::kAutomatic;  ///< which of the two was used
+  LinearSolver used = LinearSolver::kAutomatic;  ///< kStructured or kDense, once run
   double cpu_seconds = 0.0;
 };
 
 struct Simulation {
   Status status = Status::kNotRun;
-  /// Empty on success; else what failed, which state and when: "the error test fails with ever
-  /// smaller steps for theta_7 at t = 1.23 s".
+  /// Empty on success; else what failed, in which state and when: "the error test fails however
+  /// small the step: theta_7 at t = 1.23 s".
   std::string message;
-  Trajectory trajectory;
+  Trajectory trajectory;  ///< the output times; those before the failure if there was one
   Statistics statistics;
-  /// Largest |stored + dissipated - supplied - initial| over the output times, J. NaN if energies
-  /// were not asked for.
+  /// Largest |stored + dissipated - supplied - initial| over the output times, J. NaN if
+  /// options.energy is false.
   double energy_imbalance = 0.0;
 };
 
-/// Solves the equations of motion (3.4) from `initial` at times[0] with CVODES and reports the
-/// state at every time (s, strictly increasing, at least one). The tolerances bound the error of
-/// each step in the root-mean-square over the states of error / (relative * |state| + absolute).
-/// Throws std::invalid_argument naming what is wrong with the arguments: sizes, values that are not
-/// finite, parameters out of their bounds, tolerances not positive, signals missing or too short.
-/// A failure on the way is a status, and the trajectory ends before it.
+/// Solves the equations of motion (3.4) with CVODES.
+///
+///     const Model model = Model::built_in(4);
+///     Eigen::VectorXd parameters(model.parameters());
+///     parameters << Eigen::VectorXd::Constant(4, 0.25),    // length_1 .. length_4, m
+///         Eigen::VectorXd::Constant(4, 0.03),              // mass_1 .., kg
+///         Eigen::VectorXd::Constant(4, 1.6e-4),            // inertia_1 .., kg m^2
+///         Eigen::VectorXd::Constant(4, 0.1),               // stiffness_1 .., N m/rad
+///         Eigen::VectorXd::Constant(4, 1e-3),              // damping_1 .., N m s/rad
+///         Eigen::VectorXd::Zero(4),                        // torque_1 .., N m
+///         0.2, 9.81;                                       // load_mass, kg; gravity, m/s^2
+///     const Simulation run = simulate(model, parameters, State::zero(model), {0.0, 0.5, 1.0});
+///     if (run.status != Status::kSuccess) throw std::runtime_error(run.message);
+///     const Eigen::VectorXd angles = run.trajectory.q.col(2);  // rad, at 1 s
+///
+/// `parameters`: one entry per parameter of the model, in the order of its table. `initial`: the
+/// state at times[0]. `times`: s, strictly increasing, at least one; the state is reported at each.
+/// `signals`: the channels that the model asks for, in its order, over all of `times`. The
+/// tolerances bound the error of each step: the root mean square over the states of
+/// error / (relative * |state| + absolute).
+/// Throws std::invalid_argument that names the argument, its value and the rule: sizes, values that
+/// are not finite, parameters out of their bounds, tolerances not positive, signals missing or too
+/// short. A failure of the integration is not thrown but is the status of the result.
 Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                     const std::vector<double>& times, const SimulationOptions& options = {},
                     const Signals& signals = {});
 
-/// simulate for many sets of parameters and starts, as many of each, on up to `threads` threads.
-/// Result i is that of set i simulated alone, bit for bit (but for cpu_seconds). options.keep_going
-/// is called from several threads. All sets are checked before the first is simulated; what is
-/// thrown names the set.
+/// simulate for parameters[i] and initial[i], i = 0, 1, ..., on up to `threads` threads. Returns
+/// one result for each i: that of simulate, bit for bit, but for Statistics::cpu_seconds. Throws as
+/// simulate does, before the first simulation, with a message that names i + 1, and if the numbers
+/// of `parameters` and `initial` differ. options.keep_going is called from several threads.
 std::vector<Simulation> simulate_sets(const Model& model,
                                       const std::vector<Eigen::VectorXd>& parameters,
                                       const std::vector<State>& initial,

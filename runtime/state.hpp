@@ -7,13 +7,15 @@
 
 namespace catena {
 
-/// A state of a model at one time.
+/// The state of a model at one time.
 struct State {
-  Eigen::VectorXd q;  ///< coordinates: link angles from the downward vertical (rad), then effects'
-  Eigen::VectorXd v;  ///< dq/dt
-  Eigen::VectorXd z;  ///< extra states of effects
+  /// Model::coordinates() entries: the angles of the links from the downward vertical (rad), then
+  /// the coordinates that effects add.
+  Eigen::VectorXd q;
+  Eigen::VectorXd v;  ///< dq/dt, as many
+  Eigen::VectorXd z;  ///< Model::states() extra states of effects
 
-  /// All zero, with the sizes of the model: the chain hangs straight down at rest.
+  /// All zero: the chain hangs straight down, at rest.
   static State zero(const Model& model) {
     return {Eigen::VectorXd::Zero(model.coordinates()), Eigen::VectorXd::Zero(model.coordinates()),
             Eigen::VectorXd::Zero(model.states())};

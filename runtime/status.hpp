@@ -7,12 +7,12 @@ namespace catena {
 enum class Status {
   kNotRun,
   kSuccess,
-  kStepFailure,    ///< the error test kept failing: the step became too small
+  kStepFailure,    ///< the error test kept failing until the step was too small
   kNoConvergence,  ///< the nonlinear equations of a step could not be solved
   kTooManySteps,
   kNotFinite,    ///< the equations gave a value that is not finite
-  kSingular,     ///< the mass matrix or the Newton matrix lost a pivot
-  kInterrupted,  ///< the caller's keep_going said no
+  kSingular,     ///< a pivot of the mass matrix or of the Newton matrix vanished
+  kInterrupted,  ///< keep_going returned false
 };
 
 /// "success", "step failure", ...

@@ -9,20 +9,21 @@
 
 namespace catena {
 
-/// A motion at given times, one column per time. Of a simulation that failed, only the times before
-/// the failure are there.
+/// A motion at given times, one column per time. If the simulation failed, only the times before
+/// the failure.
 struct Trajectory {
   std::vector<double> time;  ///< s
-  Eigen::MatrixXd q;         ///< coordinates x times, rad
-  Eigen::MatrixXd v;         ///< coordinates x times, rad/s
-  Eigen::MatrixXd z;         ///< states x times
-  /// energies x times (J), in the order of the table's energy_item: stored energies as they are,
+  Eigen::MatrixXd q;         ///< coordinates x times, rad for angles
+  Eigen::MatrixXd v;         ///< coordinates x times, rad/s for angles
+  Eigen::MatrixXd z;         ///< extra states x times
+  /// Energies x times (J), in the order of energy_item in the model's table: stored energies, and
   /// dissipated and supplied powers integrated since the first time. Empty if not asked for.
   Eigen::MatrixXd energy;
 };
 
-/// Columns time, the coordinates, their rates (name_rate), the states; 17 significant digits;
-/// written whole or not at all. Throws InputError naming the file if it cannot be written.
+/// Writes `trajectory` of `model` as CSV, 17 significant digits. Columns: time, the coordinates,
+/// their rates (name_rate), the extra states. The file is written whole or not at all. Throws
+/// InputError that names the file if it cannot be written.
 void write_trajectory_csv(const std::filesystem::path& file, const Model& model,
                           const Trajectory& trajectory);
 

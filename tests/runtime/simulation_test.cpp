@@ -75,7 +75,7 @@ TEST_CASE("many sets on several threads give the bits of one at a time") {
   }
   CHECK(catena::simulate_sets(model, {}, {}, times(0.2, 5), 3).empty());
   CHECK_THROWS_WITH_AS(catena::simulate_sets(model, parameters, {}, times(0.2, 5), 3),
-                       "7 sets of parameters, but 0 starts; give as many of both",
+                       "7 parameter sets, but 0 initial states; give as many of both",
                        std::invalid_argument);
   parameters[4][0] = std::nan("");
   std::string message;
