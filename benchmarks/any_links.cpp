@@ -29,32 +29,32 @@ constexpr const char* kFunctions[] = {"residual", "forward dynamics", "Newton fa
 /// Calls of one model's functions; each writes `result`.
 struct Calls {
   explicit Calls(const Model& model)
-      : table(model.table()),
+      : model(model),
         q(Cable(model.links()).start()),
         v(0.5 * q),
         a(q),
         p(Cable(model.links()).parameters(model, 0.6)),
         result(q),
-        work(VectorXd::Zero(table.newton_work)) {}
+        work(VectorXd::Zero(model.table().newton_work)) {}
 
   void call(std::size_t function) {
     const catena_point at{0.0, q.data(), v.data(), a.data(), nullptr, nullptr, p.data()};
     switch (function) {
       case 0:
-        return table.residual(&at, result.data());
+        return model.residual(at, result.data());
       case 1:
-        if (table.acceleration(&at, result.data()) != 0) std::abort();
+        if (model.acceleration(at, result.data()) != 0) std::abort();
         return;
       case 2:
-        if (table.newton_factor(&at, 1.0, 1e-3, 1e-6, work.data()) != 0) std::abort();
+        if (model.newton_factor(at, 1.0, 1e-3, 1e-6, work.data()) != 0) std::abort();
         return;
       case 3:
         result = a;
-        return table.newton_solve(work.data(), result.data());
+        return model.newton_solve(work.data(), result.data());
     }
   }
 
-  const catena_model& table;
+  Model model;
   VectorXd q, v, a, p, result, work;
 };
 

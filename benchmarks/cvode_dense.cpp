@@ -25,8 +25,8 @@ int rates(double t, N_Vector y, N_Vector ydot, void* user) {
   const int n = equations.model.links();
   const double *q = NV_DATA_S(y), *v = q + n;
   const catena_point at{t, q, v, nullptr, nullptr, nullptr, equations.p.data()};
-  equations.model.table().mass_matrix(&at, equations.mass.data());
-  equations.model.table().bias(&at, equations.bias.data());
+  equations.model.table().mass_matrix(equations.model.table().context, &at, equations.mass.data());
+  equations.model.table().bias(equations.model.table().context, &at, equations.bias.data());
   equations.factors.compute(equations.mass);
   Eigen::Map<Eigen::VectorXd> out(NV_DATA_S(ydot), 2 * n);
   out.head(n) = Eigen::Map<const Eigen::VectorXd>(v, n);

@@ -44,7 +44,7 @@ struct States {
 void accelerations(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
                    VectorXd& a) {
   const catena_point at{0.0, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()};
-  if (model.table().acceleration(&at, a.data()) != 0) std::abort();
+  if (model.acceleration(at, a.data()) != 0) std::abort();
 }
 
 void time_catena(::benchmark::State& timer, const Model& model, bool relative) {

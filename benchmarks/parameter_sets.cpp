@@ -102,7 +102,7 @@ int main() {
     const auto one = [&](std::size_t k) {
       const catena_point at{0.0,     states[k].q.data(),  states[k].v.data(), nullptr, nullptr,
                             nullptr, parameters[k].data()};
-      if (model.table().acceleration(&at, a.data()) != 0) std::abort();
+      if (model.acceleration(at, a.data()) != 0) std::abort();
     };
     const auto same = [&](int i, double together) {
       return std::memcmp(&a[i], &together, sizeof together) == 0;
@@ -141,7 +141,7 @@ int main() {
     };
     std::vector<std::vector<Block>> arrays;  // kept while they are measured
     for (const auto& [sets, function] : processors) {
-      if (sets > catena::Model::built_in(2).table().sets) continue;
+      if (sets > catena::Model::built_in(2).table().batch) continue;
       const auto place = [sets = sets](int k, int i, int entries) {
         return k / sets * sets * entries + i * sets + k % sets;
       };

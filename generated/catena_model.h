@@ -24,8 +24,8 @@
  * A tangent (directional derivative) takes a second point, `along`, that holds the differentials
  * (dt, dq, dv, da, dz, du, dp); every array is to be given, zero where nothing varies.
  *
- * Versions: `abi` rises when a member changes meaning; members are only ever added at the end and
- * `size` tells how many bytes of the table are there.
+ * Versions: `abi` rises when a member changes meaning, moves or goes; else members are only added at
+ * the end, and `size` tells how many bytes of the table are there.
  */
 #ifndef CATENA_MODEL_H
 #define CATENA_MODEL_H
@@ -36,7 +36,7 @@
 extern "C" {
 #endif
 
-#define CATENA_MODEL_ABI 1
+#define CATENA_MODEL_ABI 2
 #define CATENA_DIRECTIONS 4
 
 typedef struct catena_parameter {
@@ -74,6 +74,10 @@ typedef struct catena_model {
   uint32_t size; /* sizeof(catena_model) where the model was compiled */
   const char* id;
   const char* description_hash; /* SHA-256 of the canonical model description, hexadecimal */
+  /* What the functions need to know of this one model: each takes it as its first argument and
+     nobody else looks into it. Null where the functions know all themselves. Where it is not, it
+     lives as long as the table. */
+  const void* context;
 
   int32_t links;
   int32_t coordinates; /* length of q, v, a, r */
@@ -86,6 +90,8 @@ typedef struct catena_model {
   int32_t observes;    /* 1 if a sensor effect changes what is observed */
   int32_t structured;  /* 1: the Newton matrix is factored in O(links); 0: newton_* are null */
   int32_t newton_work; /* doubles of work space for newton_factor and newton_solve */
+  int32_t batch;       /* points that one call of accelerations takes: 1, 2, 4 or 8, which the
+                          processor decides */
 
   const catena_quantity* coordinate;
   const catena_quantity* state;
@@ -95,74 +101,78 @@ typedef struct catena_model {
   const catena_quantity* term;
   const catena_energy* energy_item;
 
-  /* r[coordinates] and its directional derivative */
-  void (*residual)(const catena_point* at, double* r);
-  void (*residual_tangent)(const catena_point* at, const catena_point* along, double* dr);
+  /* Functions. The first argument of each is `context` of this table. */
+
+  /* r[coordinates] and its derivative along `along` */
+  void (*residual)(const void* context, const catena_point* at, double* r);
+  void (*residual_tangent)(const void* context, const catena_point* at, const catena_point* along,
+                           double* dr);
+  /* residual_tangent for CATENA_DIRECTIONS directions at once: every array of `along` and dr hold
+     that many numbers for each entry, one a direction, and are aligned to as many doubles; along->t
+     is that of all. The bits are those of one direction at a time. Null in models emitted as C. */
+  void (*residual_tangents)(const void* context, const catena_point* at, const catena_point* along,
+                            double* dr);
+  /* Gradient of weight . r + rate_weight . zdot with respect to q, v, z and p, at->a held fixed:
+     dq[coordinates], dv[coordinates], dz[states], dp[parameters]. weight[coordinates],
+     rate_weight[states]. */
+  void (*residual_adjoint)(const void* context, const catena_point* at, const double* weight,
+                           const double* rate_weight, double* dq, double* dv, double* dz,
+                           double* dp);
   /* one term of r alone */
-  void (*residual_term)(const catena_point* at, int32_t term, double* r);
-  /* zdot[states] and its directional derivative; null if states is 0 */
-  void (*state_rate)(const catena_point* at, double* zdot);
-  void (*state_rate_tangent)(const catena_point* at, const catena_point* along, double* dzdot);
+  void (*residual_term)(const void* context, const catena_point* at, int32_t term, double* r);
+  /* zdot[states], its derivative along `along`, and that along CATENA_DIRECTIONS directions at once,
+     as residual_tangents; all null if states is 0 */
+  void (*state_rate)(const void* context, const catena_point* at, double* zdot);
+  void (*state_rate_tangent)(const void* context, const catena_point* at, const catena_point* along,
+                             double* dzdot);
+  void (*state_rate_tangents)(const void* context, const catena_point* at,
+                              const catena_point* along, double* dzdot);
   /* M, coordinates x coordinates, row by row; at->v, at->a are not read */
-  void (*mass_matrix)(const catena_point* at, double* mass);
+  void (*mass_matrix)(const void* context, const catena_point* at, double* mass);
   /* r with a = 0; at->a is not read */
-  void (*bias)(const catena_point* at, double* h);
+  void (*bias)(const void* context, const catena_point* at, double* h);
   /* a such that r = 0; at->a is not read. Returns 0, or the 1-based index of the coordinate whose
      pivot is not positive (M not positive definite): then a is not to be used. */
-  int32_t (*acceleration)(const catena_point* at, double* a);
+  int32_t (*acceleration)(const void* context, const catena_point* at, double* a);
+  /* acceleration for `batch` points at once, with the bits of one at a time: entry i of point k is
+     [i * batch + k] in q, v, z, u, p and a, each aligned to 8 * batch bytes; t is the same for all. */
+  int32_t (*accelerations)(const void* context, const catena_point* at, double* a);
   /* N = ca dr/da + cv dr/dv + cq dr/dq at the point (at->a is read). Factors N into work; returns
      0, or the 1-based index of the coordinate whose pivot vanished. newton_solve overwrites x, the
-     right-hand side, with the solution. Null unless structured. With extra states ca must be 1 and
-     N has cv dr/dz (1 - cv dzdot/dz)^-1 (cv dzdot/dv + cq dzdot/dq) besides: z is eliminated. */
-  int32_t (*newton_factor)(const catena_point* at, double ca, double cv, double cq, double* work);
-  void (*newton_solve)(const double* work, double* x);
+     right-hand side, with the solution; newton_solves does so for CATENA_DIRECTIONS right-hand
+     sides, x as dr in residual_tangents; newton_solve_transposed solves with the transpose of N.
+     Null unless structured. With extra states ca must be 1 and N has
+     cv dr/dz (1 - cv dzdot/dz)^-1 (cv dzdot/dv + cq dzdot/dq) besides: z is eliminated. */
+  int32_t (*newton_factor)(const void* context, const catena_point* at, double ca, double cv,
+                           double cq, double* work);
+  void (*newton_solve)(const void* context, const double* work, double* x);
+  void (*newton_solves)(const void* context, const double* work, double* x);
+  void (*newton_solve_transposed)(const void* context, const double* work, double* x);
   /* energies and powers, energies entries in the order of energy_item */
-  void (*energy)(const catena_point* at, double* e);
+  void (*energy)(const void* context, const catena_point* at, double* e);
   /* side[links + 2], down[links + 2]: the support, the far ends of links 1 to n, the load */
-  void (*positions)(const catena_point* at, double* side, double* down);
-  void (*positions_tangent)(const catena_point* at, const catena_point* along, double* dside,
-                            double* ddown);
+  void (*positions)(const void* context, const catena_point* at, double* side, double* down);
+  void (*positions_tangent)(const void* context, const catena_point* at, const catena_point* along,
+                            double* dside, double* ddown);
   /* velocities of the same points */
-  void (*velocities)(const catena_point* at, double* side_rate, double* down_rate);
+  void (*velocities)(const void* context, const catena_point* at, double* side_rate,
+                     double* down_rate);
   /* per joint: moment[links] (N m, acting on link i from link i-1's side, positive towards +theta),
      per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at
      joint i: its change of angle over the distance between the middles of its links; at joint 1,
      the clamp, over half of link 1 */
-  void (*internal_forces)(const catena_point* at, double* moment, double* tension,
-                          double* curvature);
+  void (*internal_forces)(const void* context, const catena_point* at, double* moment,
+                          double* tension, double* curvature);
   /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)
      with in[0] = side, in[1] = down, in[2] = angle. Null unless observes: then nothing changes. */
-  void (*observe)(double t, const double* p, const double in[3], double out[3]);
-  void (*observe_tangent)(double t, const double* p, const double* dp, const double in[3],
-                          const double din[3], double dout[3]);
-  /* model time at which what was recorded at time t happened, and its derivative along dp */
-  double (*clock)(double t, const double* p);
-  double (*clock_tangent)(double t, const double* p, const double* dp);
-  /* directional derivatives of velocities, energy and internal_forces */
-  void (*velocities_tangent)(const catena_point* at, const catena_point* along, double* dside_rate,
-                             double* ddown_rate);
-  void (*energy_tangent)(const catena_point* at, const catena_point* along, double* de);
-  void (*internal_forces_tangent)(const catena_point* at, const catena_point* along,
-                                  double* dmoment, double* dtension, double* dcurvature);
-  /* Gradient of weight . r + rate_weight . zdot with respect to q, v, z and p, at->a held fixed:
-     dq[coordinates], dv[coordinates], dz[states], dp[parameters]. weight[coordinates],
-     rate_weight[states]. */
-  void (*residual_adjoint)(const catena_point* at, const double* weight, const double* rate_weight,
-                           double* dq, double* dv, double* dz, double* dp);
-  /* as newton_solve, with the transpose of N; null unless structured */
-  void (*newton_solve_transposed)(const double* work, double* x);
-  /* residual_tangent, state_rate_tangent and newton_solve for CATENA_DIRECTIONS directions or
-     right-hand sides at once: every array of `along`, dr, dzdot and x hold that many numbers for
-     each entry, one a direction, and are aligned to as many doubles; along->t is that of all. To
-     the bit what one at a time gives. Null in models emitted as C. */
-  void (*residual_tangents)(const catena_point* at, const catena_point* along, double* dr);
-  void (*state_rate_tangents)(const catena_point* at, const catena_point* along, double* dzdot);
-  void (*newton_solves)(const double* work, double* x);
-  /* As acceleration, for `sets` points at once, with the bits of one at a time: entry i of set k is
-     [i * sets + k] in q, v, z, u, p and a, each aligned to 8 * sets bytes; t is the same for all.
-     The processor decides on sets (8, 4, 2 or 1). */
-  int32_t (*accelerations)(const catena_point* at, double* a);
-  int32_t sets;
+  void (*observe)(const void* context, double t, const double* p, const double in[3],
+                  double out[3]);
+  void (*observe_tangent)(const void* context, double t, const double* p, const double* dp,
+                          const double in[3], const double din[3], double dout[3]);
+  /* model time at which what was recorded at time t happened, and its derivative along dp; null
+     unless observes */
+  double (*clock)(const void* context, double t, const double* p);
+  double (*clock_tangent)(const void* context, double t, const double* p, const double* dp);
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -141,76 +141,92 @@ Point<double> point(const catena_point* p) {
   return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};
 }
 
-CATENA_EACH_PROCESSOR void c_residual(const catena_point* at, double* r) { residual(point(at), r); }
-CATENA_EACH_PROCESSOR void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
+CATENA_EACH_PROCESSOR
+void c_residual(const void*, const catena_point* at, double* r) {
+  residual(point(at), r);
+}
+CATENA_EACH_PROCESSOR
+void c_residual_tangent(const void*, const catena_point* at, const catena_point* along,
+                        double* dr) {
   residual_tangent(point(at), point(along), dr);
 }
-CATENA_EACH_PROCESSOR void c_residual_tangents(const catena_point* at,
-                                               const catena_point* along, double* dr) {
+CATENA_EACH_PROCESSOR
+void c_residual_tangents(const void*, const catena_point* at, const catena_point* along,
+                         double* dr) {
   residual_tangent(point(at), directions(along), directions(dr));
 }
-CATENA_EACH_PROCESSOR void c_residual_term(const catena_point* at, int32_t term, double* r) {
+CATENA_EACH_PROCESSOR
+void c_residual_term(const void*, const catena_point* at, int32_t term, double* r) {
   residual_term(point(at), term, r);
 }
-CATENA_EACH_PROCESSOR void c_bias(const catena_point* at, double* h) { bias(point(at), h); }
-CATENA_EACH_PROCESSOR void c_mass_matrix(const catena_point* at, double* mass) {
+CATENA_EACH_PROCESSOR
+void c_bias(const void*, const catena_point* at, double* h) {
+  bias(point(at), h);
+}
+CATENA_EACH_PROCESSOR
+void c_mass_matrix(const void*, const catena_point* at, double* mass) {
   mass_matrix(point(at), mass);
 }
-CATENA_EACH_PROCESSOR int32_t c_acceleration(const catena_point* at, double* a) {
+CATENA_EACH_PROCESSOR
+int32_t c_acceleration(const void*, const catena_point* at, double* a) {
   return acceleration(point(at), a);
 }
-CATENA_EACH_PROCESSOR int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,
-                        double* work) {
-  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);
-  newton_matrix(point(at), ca, cv, cq, matrix);
-  return matrix.factor();
+CATENA_EACH_PROCESSOR
+void c_energy(const void*, const catena_point* at, double* e) {
+  energy(point(at), e);
 }
-const NewtonMatrix<double>& factored(const double* work) {
-  return *reinterpret_cast<const NewtonMatrix<double>*>(work);
-}
-CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {
-  factored(work).solve(x);
-}
-CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {
-  factored(work).solve(directions(x));
-}
-CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {
-  factored(work).solve_transposed(x);
-}
-CATENA_EACH_PROCESSOR void c_energy(const catena_point* at, double* e) { energy(point(at), e); }
-CATENA_EACH_PROCESSOR void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {
-  energy_tangent(point(at), point(along), de);
-}
-CATENA_EACH_PROCESSOR void c_positions(const catena_point* at, double* side, double* down) {
+CATENA_EACH_PROCESSOR
+void c_positions(const void*, const catena_point* at, double* side, double* down) {
   positions(point(at), side, down);
 }
-CATENA_EACH_PROCESSOR void c_positions_tangent(const catena_point* at, const catena_point* along,
+CATENA_EACH_PROCESSOR
+void c_positions_tangent(const void*, const catena_point* at, const catena_point* along,
                          double* dside, double* ddown) {
   positions_tangent(point(at), point(along), dside, ddown);
 }
-CATENA_EACH_PROCESSOR void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {
+CATENA_EACH_PROCESSOR
+void c_velocities(const void*, const catena_point* at, double* side_rate, double* down_rate) {
   velocities(point(at), side_rate, down_rate);
 }
-CATENA_EACH_PROCESSOR void c_velocities_tangent(const catena_point* at, const catena_point* along,
-                          double* dside_rate, double* ddown_rate) {
-  velocities_tangent(point(at), point(along), dside_rate, ddown_rate);
-}
-CATENA_EACH_PROCESSOR void c_internal_forces(const catena_point* at, double* moment, double* tension,
+CATENA_EACH_PROCESSOR
+void c_internal_forces(const void*, const catena_point* at, double* moment, double* tension,
                        double* curvature) {
   internal_forces(point(at), moment, tension, curvature);
 }
-CATENA_EACH_PROCESSOR void c_internal_forces_tangent(const catena_point* at, const catena_point* along,
-                               double* dmoment, double* dtension, double* dcurvature) {
-  internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);
-}
-CATENA_EACH_PROCESSOR void c_residual_adjoint(const catena_point* at, const double* weights,
+CATENA_EACH_PROCESSOR
+void c_residual_adjoint(const void*, const catena_point* at, const double* weights,
                         const double* rate_weights, double* dq, double* dv, double* dz,
                         double* dp) {
   residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp);
 }
-template <int sets>
-int32_t several(const catena_point* at, double* a) {
-  using Number = Lanes<sets>;
+NewtonMatrix<double>& matrix_in(double* work) {
+  return *reinterpret_cast<NewtonMatrix<double>*>(work);
+}
+const NewtonMatrix<double>& factored(const double* work) {
+  return matrix_in(const_cast<double*>(work));  // solving only reads
+}
+CATENA_EACH_PROCESSOR
+int32_t c_newton_factor(const void*, const catena_point* at, double ca, double cv, double cq,
+                        double* work) {
+  auto&& matrix = matrix_in(work);
+  newton_matrix(point(at), ca, cv, cq, matrix);
+  return matrix.factor();
+}
+CATENA_EACH_PROCESSOR
+void c_newton_solve(const void*, const double* work, double* x) {
+  factored(work).solve(x);
+}
+CATENA_EACH_PROCESSOR
+void c_newton_solves(const void*, const double* work, double* x) {
+  factored(work).solve(directions(x));
+}
+CATENA_EACH_PROCESSOR
+void c_newton_solve_transposed(const void*, const double* work, double* x) {
+  factored(work).solve_transposed(x);
+}
+template <int batch>
+int32_t batch_of(const catena_point* at, double* a) {
+  using Number = Lanes<batch>;
   const auto numbers = [](const double* first) {
     return reinterpret_cast<const Number*>(first);
   };
@@ -219,38 +235,41 @@ int32_t several(const catena_point* at, double* a) {
   return accelerations(points, reinterpret_cast<Number*>(a));
 }
 #ifdef CATENA_PROCESSORS
-__attribute__((target("arch=x86-64-v4"), flatten)) int32_t eight(const catena_point* at,
-                                                                double* a) {
-  return several<8>(at, a);
+__attribute__((target("arch=x86-64-v4"), flatten))
+int32_t eight(const catena_point* at, double* a) {
+  return batch_of<8>(at, a);
 }
-__attribute__((target("arch=x86-64-v3"), flatten)) int32_t four(const catena_point* at,
-                                                               double* a) {
-  return several<4>(at, a);
+__attribute__((target("arch=x86-64-v3"), flatten))
+int32_t four(const catena_point* at, double* a) {
+  return batch_of<4>(at, a);
 }
-int32_t sets_at_once() {
+int32_t batch_size() {
   return __builtin_cpu_supports("x86-64-v4")   ? 8
          : __builtin_cpu_supports("x86-64-v3") ? 4
                                                  : 2;
 }
-int32_t c_accelerations(const catena_point* at, double* a) {
-  static const int32_t sets = sets_at_once();
-  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);
+int32_t c_accelerations(const void*, const catena_point* at, double* a) {
+  static const int32_t batch = batch_size();
+  return batch == 8 ? eight(at, a) : batch == 4 ? four(at, a) : batch_of<2>(at, a);
 }
 #elif defined(__GNUC__)
 #if defined(__AVX512F__)
-static constexpr int kSets = 8;
+static constexpr int kBatch = 8;
 #elif defined(__AVX2__)
-static constexpr int kSets = 4;
+static constexpr int kBatch = 4;
 #else
-static constexpr int kSets = 2;
+static constexpr int kBatch = 2;
 #endif
-int32_t sets_at_once() { return kSets; }
-CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {
-  return several<kSets>(at, a);
+int32_t batch_size() { return kBatch; }
+CATENA_EACH_PROCESSOR
+int32_t c_accelerations(const void*, const catena_point* at, double* a) {
+  return batch_of<kBatch>(at, a);
 }
 #else
-int32_t sets_at_once() { return 1; }
-int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, a); }
+int32_t batch_size() { return 1; }
+int32_t c_accelerations(const void* context, const catena_point* at, double* a) {
+  return c_acceleration(context, at, a);
+}
 #endif
 }  // namespace
 
@@ -260,6 +279,7 @@ const ::catena_model& table() {
       sizeof(::catena_model),
       "chain_12",
       "fa7041eb0fff7d62b7a0a54413cc5a263a87087073ced168df3a0024accbbce8",
+      nullptr,  // context
       kLinks,
       kCoordinates,
       kStates,
@@ -271,6 +291,7 @@ const ::catena_model& table() {
       0,  // observes
       1,  // structured
       sizeof(NewtonMatrix<double>) / sizeof(double),
+      batch_size(),  // batch
       kCoordinateTable,
       kStateTable,
       kSignalTable,
@@ -279,14 +300,20 @@ const ::catena_model& table() {
       kEnergyTable,
       c_residual,
       c_residual_tangent,
+      c_residual_tangents,
+      c_residual_adjoint,
       c_residual_term,
+      nullptr,
       nullptr,
       nullptr,
       c_mass_matrix,
       c_bias,
       c_acceleration,
+      c_accelerations,
       c_newton_factor,
       c_newton_solve,
+      c_newton_solves,
+      c_newton_solve_transposed,
       c_energy,
       c_positions,
       c_positions_tangent,
@@ -296,16 +323,6 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
-      c_velocities_tangent,
-      c_energy_tangent,
-      c_internal_forces_tangent,
-      c_residual_adjoint,
-      c_newton_solve_transposed,
-      c_residual_tangents,
-      nullptr,
-      c_newton_solves,
-      c_accelerations,
-      sets_at_once(),  // sets
   };
   return model;
 }

@@ -725,127 +725,6 @@ void energy(const Point<T>& at, T* e) {
   e[4] = torque_power_sum_2;
 }
 
-/// Derivative of the energies and powers along `along`.
-/// 74 additions, 122 multiplications, 0 divisions, 0 functions
-template <class T, class D>
-void energy_tangent(const Point<T>& at, const Point<D>& along, D* de) {
-  const FromOne<T> length(at.p);
-  const FromOne<T> mass(at.p + 2);
-  const FromOne<T> inertia(at.p + 4);
-  const FromOne<T> stiffness(at.p + 6);
-  const FromOne<T> damping(at.p + 8);
-  const FromOne<T> torque(at.p + 10);
-  const T load_mass = at.p[12];
-  const T gravity = at.p[13];
-  const FromOne<T> theta(at.q);
-  const FromOne<T> theta_dot(at.v);
-  T sine[3], cosine[3];
-  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
-  const FromOne<D> d_length(along.p);
-  const FromOne<D> d_mass(along.p + 2);
-  const FromOne<D> d_inertia(along.p + 4);
-  const FromOne<D> d_stiffness(along.p + 6);
-  const FromOne<D> d_damping(along.p + 8);
-  const FromOne<D> d_torque(along.p + 10);
-  const D d_load_mass = along.p[12];
-  const D d_gravity = along.p[13];
-  const FromOne<D> d_theta(along.q);
-  const FromOne<D> d_theta_dot(along.v);
-  const T joint_down_0 = T(0);
-  const T span_side_velocity_1 = length[1] * theta_dot[1] * cosine[1];
-  const T span_down_1 = length[1] * cosine[1];
-  const T span_down_velocity_1 = -length[1] * theta_dot[1] * sine[1];
-  const T centre_side_velocity_1 = ratio<T>(1, 2) * span_side_velocity_1;
-  const T centre_down_1 = joint_down_0 + ratio<T>(1, 2) * span_down_1;
-  const T centre_down_velocity_1 = ratio<T>(1, 2) * span_down_velocity_1;
-  const T joint_side_velocity_1 = span_side_velocity_1;
-  const T joint_down_1 = joint_down_0 + span_down_1;
-  const T joint_down_velocity_1 = span_down_velocity_1;
-  const T joint_angle_1 = theta[1];
-  const T joint_rate_1 = theta_dot[1];
-  const T arc_2 = length[1] + length[2];
-  const T span_side_velocity_2 = length[2] * theta_dot[2] * cosine[2];
-  const T span_down_2 = length[2] * cosine[2];
-  const T span_down_velocity_2 = -length[2] * theta_dot[2] * sine[2];
-  const T centre_side_velocity_2 = ratio<T>(1, 2) * span_side_velocity_2 + joint_side_velocity_1;
-  const T centre_down_2 = joint_down_1 + ratio<T>(1, 2) * span_down_2;
-  const T centre_down_velocity_2 = ratio<T>(1, 2) * span_down_velocity_2 + joint_down_velocity_1;
-  const T joint_side_velocity_2 = span_side_velocity_2 + joint_side_velocity_1;
-  const T joint_down_2 = joint_down_1 + span_down_2;
-  const T joint_down_velocity_2 = span_down_velocity_2 + joint_down_velocity_1;
-  const T joint_angle_2 = theta[2] - theta[1];
-  const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
-      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
-      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
-      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
-      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  const D d_centre_side_velocity_2 = d_span_side_velocity_1
-      + ratio<T>(1, 2) * d_span_side_velocity_2;
-  const D d_centre_down_velocity_2 = d_span_down_velocity_1
-      + ratio<T>(1, 2) * d_span_down_velocity_2;
-  const D d_centre_side_velocity_1 = ratio<T>(1, 2) * d_span_side_velocity_1;
-  const D d_centre_down_velocity_1 = ratio<T>(1, 2) * d_span_down_velocity_1;
-  const D d_kinetic_energy_sum_1 = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity_1
-      * centre_side_velocity_1 + centre_down_velocity_1 * centre_down_velocity_1)
-      + theta_dot[1] * (inertia[1] * d_theta_dot[1]
-      + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
-      + mass[1] * (centre_side_velocity_1 * d_centre_side_velocity_1
-      + centre_down_velocity_1 * d_centre_down_velocity_1);
-  const D d_kinetic_energy_sum_2 = d_kinetic_energy_sum_1
-      + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity_2 * centre_side_velocity_2
-      + centre_down_velocity_2 * centre_down_velocity_2)
-      + theta_dot[2] * (inertia[2] * d_theta_dot[2]
-      + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
-      + mass[2] * (centre_side_velocity_2 * d_centre_side_velocity_2
-      + centre_down_velocity_2 * d_centre_down_velocity_2);
-  const D d_kinetic_energy_sum_3 = d_kinetic_energy_sum_2
-      + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity_2 * joint_side_velocity_2
-      + joint_down_velocity_2 * joint_down_velocity_2)
-      + load_mass * (joint_side_velocity_2 * d_joint_side_velocity_2
-      + joint_down_velocity_2 * d_joint_down_velocity_2);
-  const D d_arc_2 = d_length[1] + d_length[2];
-  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
-  const D d_centre_down_2 = d_span_down_1 + ratio<T>(1, 2) * d_span_down_2;
-  const D d_centre_down_1 = ratio<T>(1, 2) * d_span_down_1;
-  const D d_gravity_energy_sum_1 = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1]
-      - centre_down_1) + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down_1)
-      + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down_1));
-  const D d_gravity_energy_sum_2 = d_gravity_energy_sum_1 + gravity * d_mass[2] * (length[1]
-      + ratio<T>(1, 2) * length[2] - centre_down_2) + mass[2] * (d_gravity * (length[1]
-      + ratio<T>(1, 2) * length[2] - centre_down_2) + gravity * (d_length[1]
-      + ratio<T>(1, 2) * d_length[2] - d_centre_down_2));
-  const D d_gravity_energy_sum_3 = d_gravity_energy_sum_2 + gravity * d_load_mass * (arc_2
-      - joint_down_2) + load_mass * (d_gravity * (arc_2 - joint_down_2) + gravity * (d_arc_2
-      - d_joint_down_2));
-  const D d_joint_elastic_energy_sum_1 = joint_angle_1 * (stiffness[1] * d_theta[1]
-      + ratio<T>(1, 2) * joint_angle_1 * d_stiffness[1]);
-  const D d_joint_elastic_energy_sum_2 = d_joint_elastic_energy_sum_1
-      + joint_angle_2 * (stiffness[2] * d_joint_angle_2
-      + ratio<T>(1, 2) * joint_angle_2 * d_stiffness[2]);
-  const D d_joint_damping_power_sum_1 = joint_rate_1 * (T(2) * damping[1] * d_theta_dot[1]
-      + joint_rate_1 * d_damping[1]);
-  const D d_joint_damping_power_sum_2 = d_joint_damping_power_sum_1
-      + joint_rate_2 * (T(2) * damping[2] * d_joint_rate_2 + joint_rate_2 * d_damping[2]);
-  const D d_torque_power_sum_1 = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
-  const D d_torque_power_sum_2 = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
-      + d_torque_power_sum_1;
-  de[0] = d_kinetic_energy_sum_3;
-  de[1] = d_gravity_energy_sum_3;
-  de[2] = d_joint_elastic_energy_sum_2;
-  de[3] = d_joint_damping_power_sum_2;
-  de[4] = d_torque_power_sum_2;
-}
-
 /// Support (0), far end of each link (1..), load (last): side and down, m.
 /// 4 additions, 4 multiplications, 0 divisions, 0 functions
 template <class T>
@@ -882,12 +761,12 @@ void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* d
   sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
   const FromOne<D> d_length(along.p);
   const FromOne<D> d_theta(along.q);
-  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
-  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
   const D d_span_side_1 = length[1] * cosine[1] * d_theta[1] + sine[1] * d_length[1];
+  const D d_span_down_1 = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
   const D d_span_side_2 = length[2] * cosine[2] * d_theta[2] + sine[2] * d_length[2];
   const D d_joint_side_2 = d_span_side_1 + d_span_side_2;
+  const D d_span_down_2 = cosine[2] * d_length[2] - length[2] * sine[2] * d_theta[2];
+  const D d_joint_down_2 = d_span_down_1 + d_span_down_2;
   dside[0] = D(T(0));
   ddown[0] = D(T(0));
   dside[1] = d_span_side_1;
@@ -922,38 +801,6 @@ void velocities(const Point<T>& at, T* side_rate, T* down_rate) {
   down_rate[2] = joint_down_velocity_2;
   side_rate[3] = joint_side_velocity_2;
   down_rate[3] = joint_down_velocity_2;
-}
-
-/// Derivative of the velocities along `along`.
-/// 10 additions, 24 multiplications, 0 divisions, 0 functions
-template <class T, class D>
-void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,
-                        D* ddown_rate) {
-  const FromOne<T> length(at.p);
-  const FromOne<T> theta_dot(at.v);
-  T sine[3], cosine[3];
-  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
-  const FromOne<D> d_length(along.p);
-  const FromOne<D> d_theta(along.q);
-  const FromOne<D> d_theta_dot(along.v);
-  const D d_span_side_velocity_1 = theta_dot[1] * cosine[1] * d_length[1]
-      + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-  const D d_span_side_velocity_2 = theta_dot[2] * cosine[2] * d_length[2]
-      + length[2] * (cosine[2] * d_theta_dot[2] - theta_dot[2] * sine[2] * d_theta[2]);
-  const D d_joint_side_velocity_2 = d_span_side_velocity_1 + d_span_side_velocity_2;
-  const D d_span_down_velocity_1 = -(theta_dot[1] * sine[1] * d_length[1]
-      + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-  const D d_span_down_velocity_2 = -(theta_dot[2] * sine[2] * d_length[2]
-      + length[2] * (theta_dot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_dot[2]));
-  const D d_joint_down_velocity_2 = d_span_down_velocity_1 + d_span_down_velocity_2;
-  dside_rate[0] = D(T(0));
-  ddown_rate[0] = D(T(0));
-  dside_rate[1] = d_span_side_velocity_1;
-  ddown_rate[1] = d_span_down_velocity_1;
-  dside_rate[2] = d_joint_side_velocity_2;
-  ddown_rate[2] = d_joint_down_velocity_2;
-  dside_rate[3] = d_joint_side_velocity_2;
-  ddown_rate[3] = d_joint_down_velocity_2;
 }
 
 /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
@@ -1012,122 +859,6 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   tension[1] = -(sine[2] * cut_force_side_2 + cosine[2] * cut_force_down_2);
   curvature[0] = T(2) * theta[1] / length[1];
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
-}
-
-/// Derivative of moments, tensions and curvatures along `along`.
-/// 77 additions, 114 multiplications, 4 divisions, 0 functions
-template <class T, class D>
-void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,
-                             D* dtension, D* dcurvature) {
-  const FromOne<T> length(at.p);
-  const FromOne<T> mass(at.p + 2);
-  const FromOne<T> stiffness(at.p + 6);
-  const FromOne<T> damping(at.p + 8);
-  const T load_mass = at.p[12];
-  const T gravity = at.p[13];
-  const FromOne<T> theta(at.q);
-  const FromOne<T> theta_dot(at.v);
-  const FromOne<T> theta_ddot(at.a);
-  T sine[3], cosine[3];
-  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
-  const FromOne<D> d_length(along.p);
-  const FromOne<D> d_mass(along.p + 2);
-  const FromOne<D> d_stiffness(along.p + 6);
-  const FromOne<D> d_damping(along.p + 8);
-  const D d_load_mass = along.p[12];
-  const D d_gravity = along.p[13];
-  const FromOne<D> d_theta(along.q);
-  const FromOne<D> d_theta_dot(along.v);
-  const FromOne<D> d_theta_ddot(along.a);
-  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
-      - theta_dot[1] * theta_dot[1] * sine[1]);
-  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-      + theta_ddot[1] * sine[1]);
-  const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
-  const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
-  const T joint_side_acceleration_1 = span_side_acceleration_1;
-  const T joint_down_acceleration_1 = span_down_acceleration_1;
-  const T joint_angle_1 = theta[1];
-  const T joint_rate_1 = theta_dot[1];
-  const T arc_2 = length[1] + length[2];
-  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
-      - theta_dot[2] * theta_dot[2] * sine[2]);
-  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
-      + theta_ddot[2] * sine[2]);
-  const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
-      + joint_side_acceleration_1;
-  const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
-      + joint_down_acceleration_1;
-  const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
-  const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
-  const T joint_angle_2 = theta[2] - theta[1];
-  const T joint_rate_2 = theta_dot[2] - theta_dot[1];
-  const T cut_force_down_3 = load_mass * (joint_down_acceleration_2 - gravity);
-  const T cut_force_side_3 = load_mass * joint_side_acceleration_2;
-  const T centre_down_force_2 = mass[2] * (centre_down_acceleration_2 - gravity);
-  const T centre_side_force_2 = mass[2] * centre_side_acceleration_2;
-  const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
-  const T cut_force_side_2 = cut_force_side_3 + centre_side_force_2;
-  const T centre_down_force_1 = mass[1] * (centre_down_acceleration_1 - gravity);
-  const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
-  const T cut_force_down_1 = cut_force_down_2 + centre_down_force_1;
-  const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
-  const D d_joint_angle_2 = d_theta[2] - d_theta[1];
-  const D d_joint_rate_2 = d_theta_dot[2] - d_theta_dot[1];
-  const D d_joint_moment_2 = stiffness[2] * d_joint_angle_2 + damping[2] * d_joint_rate_2
-      + joint_angle_2 * d_stiffness[2] + joint_rate_2 * d_damping[2];
-  const D d_joint_moment_1 = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
-      + joint_angle_1 * d_stiffness[1] + joint_rate_1 * d_damping[1];
-  const D d_span_down_acceleration_1 = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-      * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1]) - (theta_ddot[1] * cosine[1] * d_theta[1]
-      + sine[1] * d_theta_ddot[1])) - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-      + theta_ddot[1] * sine[1]);
-  const D d_span_down_acceleration_2 = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
-      * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2]) - (theta_ddot[2] * cosine[2] * d_theta[2]
-      + sine[2] * d_theta_ddot[2])) - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
-      + theta_ddot[2] * sine[2]);
-  const D d_joint_down_acceleration_2 = d_span_down_acceleration_1 + d_span_down_acceleration_2;
-  const D d_cut_force_down_3 = d_load_mass * (joint_down_acceleration_2 - gravity)
-      + load_mass * (d_joint_down_acceleration_2 - d_gravity);
-  const D d_centre_down_acceleration_2 = d_span_down_acceleration_1
-      + ratio<T>(1, 2) * d_span_down_acceleration_2;
-  const D d_centre_down_force_2 = d_mass[2] * (centre_down_acceleration_2 - gravity)
-      + mass[2] * (d_centre_down_acceleration_2 - d_gravity);
-  const D d_cut_force_down_2 = d_cut_force_down_3 + d_centre_down_force_2;
-  const D d_centre_down_acceleration_1 = ratio<T>(1, 2) * d_span_down_acceleration_1;
-  const D d_centre_down_force_1 = d_mass[1] * (centre_down_acceleration_1 - gravity)
-      + mass[1] * (d_centre_down_acceleration_1 - d_gravity);
-  const D d_span_side_acceleration_1 = d_length[1] * (theta_ddot[1] * cosine[1]
-      - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
-      - theta_ddot[1] * sine[1] * d_theta[1] - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
-      + theta_dot[1] * cosine[1] * d_theta[1]));
-  const D d_span_side_acceleration_2 = d_length[2] * (theta_ddot[2] * cosine[2]
-      - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
-      - theta_ddot[2] * sine[2] * d_theta[2] - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
-      + theta_dot[2] * cosine[2] * d_theta[2]));
-  const D d_joint_side_acceleration_2 = d_span_side_acceleration_1 + d_span_side_acceleration_2;
-  const D d_cut_force_side_3 = load_mass * d_joint_side_acceleration_2
-      + joint_side_acceleration_2 * d_load_mass;
-  const D d_centre_side_acceleration_2 = d_span_side_acceleration_1
-      + ratio<T>(1, 2) * d_span_side_acceleration_2;
-  const D d_centre_side_force_2 = mass[2] * d_centre_side_acceleration_2
-      + centre_side_acceleration_2 * d_mass[2];
-  const D d_cut_force_side_2 = d_cut_force_side_3 + d_centre_side_force_2;
-  const D d_centre_side_acceleration_1 = ratio<T>(1, 2) * d_span_side_acceleration_1;
-  const D d_centre_side_force_1 = mass[1] * d_centre_side_acceleration_1
-      + centre_side_acceleration_1 * d_mass[1];
-  const D d_arc_2 = d_length[1] + d_length[2];
-  const D d_cut_force_down_1 = d_cut_force_down_2 + d_centre_down_force_1;
-  const D d_cut_force_side_1 = d_cut_force_side_2 + d_centre_side_force_1;
-  dmoment[0] = -d_joint_moment_1;
-  dmoment[1] = -d_joint_moment_2;
-  dtension[0] = sine[1] * (cut_force_down_1 * d_theta[1] - d_cut_force_side_1)
-      - cosine[1] * (cut_force_side_1 * d_theta[1] + d_cut_force_down_1);
-  dtension[1] = sine[2] * (cut_force_down_2 * d_theta[2] - d_cut_force_side_2)
-      - cosine[2] * (cut_force_side_2 * d_theta[2] + d_cut_force_down_2);
-  dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
-  dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc_2 * (theta[1]
-      - theta[2]) / arc_2) / arc_2;
 }
 
 /// Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.

@@ -40,10 +40,6 @@ inline constexpr ParameterFamily kParameters[] = {
 /// theta_1 ... theta_n
 inline constexpr catena_quantity kCoordinate = {"theta", "rad"};
 
-/// The table of a chain of `links` links at a place of any_links.hpp, in double precision. Its id,
-/// coordinates and parameters are to be filled in: names take memory.
-catena_model table_at_place(int place, int links);
-
 /// Mass matrix in the form in which it is factored.
 template <class T>
 using MassMatrix = SymmetricSemiseparable<T, kAtRunTime, 2>;
@@ -1330,202 +1326,6 @@ struct Chain {
     e[4] = torque_power_sum[links];
   }
 
-  /// Derivative of the energies and powers along `along`.
-  /// 44 * links - 14 additions, 55 * links + 12 multiplications, 0 divisions, 0 functions
-  template <class T, class D>
-  void energy_tangent(const Point<T>& at, const Point<D>& along, D* de) const {
-    const int links = this->links();
-    const FromOne<T> length(at.p);
-    const FromOne<T> mass(at.p + links);
-    const FromOne<T> inertia(at.p + 2 * links);
-    const FromOne<T> stiffness(at.p + 3 * links);
-    const FromOne<T> damping(at.p + 4 * links);
-    const FromOne<T> torque(at.p + 5 * links);
-    const T load_mass = at.p[6 * links];
-    const T gravity = at.p[6 * links + 1];
-    const FromOne<T> theta(at.q);
-    const FromOne<T> theta_dot(at.v);
-    T sine[links + 1], cosine[links + 1];
-    sines_and_cosines(links, at.q, sine + 1, cosine + 1);
-    const FromOne<D> d_length(along.p);
-    const FromOne<D> d_mass(along.p + links);
-    const FromOne<D> d_inertia(along.p + 2 * links);
-    const FromOne<D> d_stiffness(along.p + 3 * links);
-    const FromOne<D> d_damping(along.p + 4 * links);
-    const FromOne<D> d_torque(along.p + 5 * links);
-    const D d_load_mass = along.p[6 * links];
-    const D d_gravity = along.p[6 * links + 1];
-    const FromOne<D> d_theta(along.q);
-    const FromOne<D> d_theta_dot(along.v);
-    T span_side_velocity[links + 1];
-    T span_down[links + 1];
-    T span_down_velocity[links + 1];
-    T joint_angle[links + 1];
-    T joint_rate[links + 1];
-    D d_joint_angle[links + 1];
-    D d_joint_rate[links + 1];
-    D d_span_side_velocity[links + 1];
-    D d_span_down_velocity[links + 1];
-    D d_span_down[links + 1];
-    span_side_velocity[1] = length[1] * theta_dot[1] * cosine[1];
-    span_down[1] = length[1] * cosine[1];
-    span_down_velocity[1] = -length[1] * theta_dot[1] * sine[1];
-    joint_angle[1] = theta[1];
-    joint_rate[1] = theta_dot[1];
-    d_span_side_velocity[1] = theta_dot[1] * cosine[1] * d_length[1]
-        + length[1] * (cosine[1] * d_theta_dot[1] - theta_dot[1] * sine[1] * d_theta[1]);
-    d_span_down_velocity[1] = -(theta_dot[1] * sine[1] * d_length[1]
-        + length[1] * (theta_dot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_dot[1]));
-    d_span_down[1] = cosine[1] * d_length[1] - length[1] * sine[1] * d_theta[1];
-    for (int i = 2; i <= links; ++i) {
-      span_side_velocity[i] = length[i] * theta_dot[i] * cosine[i];
-      span_down[i] = length[i] * cosine[i];
-      span_down_velocity[i] = -length[i] * theta_dot[i] * sine[i];
-      joint_angle[i] = theta[i] - theta[i - 1];
-      joint_rate[i] = theta_dot[i] - theta_dot[i - 1];
-      d_joint_angle[i] = d_theta[i] - d_theta[i - 1];
-      d_joint_rate[i] = d_theta_dot[i] - d_theta_dot[i - 1];
-      d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
-          + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
-      d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
-          + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
-      d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
-    }
-    T joint_side_velocity[links + 1];
-    T joint_down_velocity[links + 1];
-    T arc[links + 1];
-    D d_joint_side_velocity[links + 1];
-    D d_joint_down_velocity[links + 1];
-    D d_arc[links + 1];
-    D d_joint_down[links + 1];
-    D d_joint_elastic_energy_sum[links + 1];
-    D d_joint_damping_power_sum[links + 1];
-    D d_torque_power_sum[links + 1];
-    T joint_down[links + 1];
-    D d_kinetic_energy_sum[links + 2];
-    D d_gravity_energy_sum[links + 2];
-    {
-      joint_down[0] = T(0);
-    }
-    {
-      joint_side_velocity[1] = span_side_velocity[1];
-      joint_down_velocity[1] = span_down_velocity[1];
-      const D d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[1];
-      const D d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[1];
-      const D d_centre_down = ratio<T>(1, 2) * d_span_down[1];
-      d_joint_elastic_energy_sum[1] = joint_angle[1] * (stiffness[1] * d_theta[1]
-          + ratio<T>(1, 2) * joint_angle[1] * d_stiffness[1]);
-      d_joint_damping_power_sum[1] = joint_rate[1] * (T(2) * damping[1] * d_theta_dot[1]
-          + joint_rate[1] * d_damping[1]);
-      d_torque_power_sum[1] = torque[1] * d_theta_dot[1] + theta_dot[1] * d_torque[1];
-      joint_down[1] = joint_down[0] + span_down[1];
-      const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[1];
-      const T centre_down = joint_down[0] + ratio<T>(1, 2) * span_down[1];
-      const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[1];
-      d_kinetic_energy_sum[1] = ratio<T>(1, 2) * d_mass[1] * (centre_side_velocity
-          * centre_side_velocity + centre_down_velocity * centre_down_velocity)
-          + theta_dot[1] * (inertia[1] * d_theta_dot[1]
-          + ratio<T>(1, 2) * theta_dot[1] * d_inertia[1])
-          + mass[1] * (centre_side_velocity * d_centre_side_velocity
-          + centre_down_velocity * d_centre_down_velocity);
-      d_gravity_energy_sum[1] = gravity * d_mass[1] * (ratio<T>(1, 2) * length[1] - centre_down)
-          + mass[1] * (d_gravity * (ratio<T>(1, 2) * length[1] - centre_down)
-          + gravity * (ratio<T>(1, 2) * d_length[1] - d_centre_down));
-    }
-    {
-      joint_side_velocity[2] = span_side_velocity[2] + joint_side_velocity[1];
-      joint_down_velocity[2] = span_down_velocity[2] + joint_down_velocity[1];
-      arc[2] = length[1] + length[2];
-      d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
-      d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
-      const D d_centre_side_velocity = d_span_side_velocity[1]
-          + ratio<T>(1, 2) * d_span_side_velocity[2];
-      const D d_centre_down_velocity = d_span_down_velocity[1]
-          + ratio<T>(1, 2) * d_span_down_velocity[2];
-      d_arc[2] = d_length[1] + d_length[2];
-      d_joint_down[2] = d_span_down[1] + d_span_down[2];
-      const D d_centre_down = d_span_down[1] + ratio<T>(1, 2) * d_span_down[2];
-      d_joint_elastic_energy_sum[2] = d_joint_elastic_energy_sum[1]
-          + joint_angle[2] * (stiffness[2] * d_joint_angle[2]
-          + ratio<T>(1, 2) * joint_angle[2] * d_stiffness[2]);
-      d_joint_damping_power_sum[2] = d_joint_damping_power_sum[1]
-          + joint_rate[2] * (T(2) * damping[2] * d_joint_rate[2] + joint_rate[2] * d_damping[2]);
-      d_torque_power_sum[2] = torque[2] * d_theta_dot[2] + theta_dot[2] * d_torque[2]
-          + d_torque_power_sum[1];
-      joint_down[2] = joint_down[1] + span_down[2];
-      const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[2]
-          + joint_side_velocity[1];
-      const T centre_down = joint_down[1] + ratio<T>(1, 2) * span_down[2];
-      const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[2]
-          + joint_down_velocity[1];
-      d_kinetic_energy_sum[2] = d_kinetic_energy_sum[1]
-          + ratio<T>(1, 2) * d_mass[2] * (centre_side_velocity * centre_side_velocity
-          + centre_down_velocity * centre_down_velocity)
-          + theta_dot[2] * (inertia[2] * d_theta_dot[2]
-          + ratio<T>(1, 2) * theta_dot[2] * d_inertia[2])
-          + mass[2] * (centre_side_velocity * d_centre_side_velocity
-          + centre_down_velocity * d_centre_down_velocity);
-      d_gravity_energy_sum[2] = d_gravity_energy_sum[1] + gravity * d_mass[2] * (length[1]
-          + ratio<T>(1, 2) * length[2] - centre_down) + mass[2] * (d_gravity * (length[1]
-          + ratio<T>(1, 2) * length[2] - centre_down) + gravity * (d_length[1]
-          + ratio<T>(1, 2) * d_length[2] - d_centre_down));
-    }
-    for (int i = 3; i <= links; ++i) {
-      joint_side_velocity[i] = span_side_velocity[i] + joint_side_velocity[i - 1];
-      joint_down_velocity[i] = span_down_velocity[i] + joint_down_velocity[i - 1];
-      arc[i] = length[i] + arc[i - 1];
-      d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
-      d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
-      const D d_centre_side_velocity = ratio<T>(1, 2) * d_span_side_velocity[i]
-          + d_joint_side_velocity[i - 1];
-      const D d_centre_down_velocity = ratio<T>(1, 2) * d_span_down_velocity[i]
-          + d_joint_down_velocity[i - 1];
-      d_arc[i] = d_length[i] + d_arc[i - 1];
-      d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
-      const D d_centre_down = ratio<T>(1, 2) * d_span_down[i] + d_joint_down[i - 1];
-      d_joint_elastic_energy_sum[i] = d_joint_elastic_energy_sum[i - 1]
-          + joint_angle[i] * (stiffness[i] * d_joint_angle[i]
-          + ratio<T>(1, 2) * joint_angle[i] * d_stiffness[i]);
-      d_joint_damping_power_sum[i] = d_joint_damping_power_sum[i - 1]
-          + joint_rate[i] * (T(2) * damping[i] * d_joint_rate[i] + joint_rate[i] * d_damping[i]);
-      d_torque_power_sum[i] = torque[i] * d_theta_dot[i] + theta_dot[i] * d_torque[i]
-          + d_torque_power_sum[i - 1];
-      joint_down[i] = joint_down[i - 1] + span_down[i];
-      const T centre_side_velocity = ratio<T>(1, 2) * span_side_velocity[i]
-          + joint_side_velocity[i - 1];
-      const T centre_down = joint_down[i - 1] + ratio<T>(1, 2) * span_down[i];
-      const T centre_down_velocity = ratio<T>(1, 2) * span_down_velocity[i]
-          + joint_down_velocity[i - 1];
-      d_kinetic_energy_sum[i] = d_kinetic_energy_sum[i - 1]
-          + ratio<T>(1, 2) * d_mass[i] * (centre_side_velocity * centre_side_velocity
-          + centre_down_velocity * centre_down_velocity)
-          + theta_dot[i] * (inertia[i] * d_theta_dot[i]
-          + ratio<T>(1, 2) * theta_dot[i] * d_inertia[i])
-          + mass[i] * (centre_side_velocity * d_centre_side_velocity
-          + centre_down_velocity * d_centre_down_velocity);
-      d_gravity_energy_sum[i] = d_gravity_energy_sum[i - 1]
-          + gravity * d_mass[i] * (ratio<T>(1, 2) * length[i] - centre_down + arc[i - 1])
-          + mass[i] * (d_gravity * (ratio<T>(1, 2) * length[i] - centre_down + arc[i - 1])
-          + gravity * (ratio<T>(1, 2) * d_length[i] + d_arc[i - 1] - d_centre_down));
-    }
-    {
-      d_kinetic_energy_sum[links + 1] = d_kinetic_energy_sum[links]
-          + ratio<T>(1, 2) * d_load_mass * (joint_side_velocity[links]
-          * joint_side_velocity[links] + joint_down_velocity[links] * joint_down_velocity[links])
-          + load_mass * (joint_side_velocity[links] * d_joint_side_velocity[links]
-          + joint_down_velocity[links] * d_joint_down_velocity[links]);
-      d_gravity_energy_sum[links + 1] = d_gravity_energy_sum[links]
-          + gravity * d_load_mass * (arc[links] - joint_down[links])
-          + load_mass * (d_gravity * (arc[links] - joint_down[links]) + gravity * (d_arc[links]
-          - d_joint_down[links]));
-    }
-    de[0] = d_kinetic_energy_sum[links + 1];
-    de[1] = d_gravity_energy_sum[links + 1];
-    de[2] = d_joint_elastic_energy_sum[links];
-    de[3] = d_joint_damping_power_sum[links];
-    de[4] = d_torque_power_sum[links];
-  }
-
   /// Support (0), far end of each link (1..), load (last): side and down, m.
   /// 2 * links additions, 2 * links multiplications, 0 divisions, 0 functions
   template <class T>
@@ -1566,19 +1366,19 @@ struct Chain {
     sines_and_cosines(links, at.q, sine + 1, cosine + 1);
     const FromOne<D> d_length(along.p);
     const FromOne<D> d_theta(along.q);
-    D d_span_down[links + 1];
     D d_span_side[links + 1];
+    D d_span_down[links + 1];
     for (int i = 1; i <= links; ++i) {
-      d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
       d_span_side[i] = length[i] * cosine[i] * d_theta[i] + sine[i] * d_length[i];
+      d_span_down[i] = cosine[i] * d_length[i] - length[i] * sine[i] * d_theta[i];
     }
-    D d_joint_down[links + 1];
     D d_joint_side[links + 1];
-    d_joint_down[2] = d_span_down[1] + d_span_down[2];
+    D d_joint_down[links + 1];
     d_joint_side[2] = d_span_side[1] + d_span_side[2];
+    d_joint_down[2] = d_span_down[1] + d_span_down[2];
     for (int i = 3; i <= links; ++i) {
-      d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
       d_joint_side[i] = d_span_side[i] + d_joint_side[i - 1];
+      d_joint_down[i] = d_span_down[i] + d_joint_down[i - 1];
     }
     dside[0] = D(T(0));
     ddown[0] = D(T(0));
@@ -1623,47 +1423,6 @@ struct Chain {
     }
     side_rate[links + 1] = joint_side_velocity[links];
     down_rate[links + 1] = joint_down_velocity[links];
-  }
-
-  /// Derivative of the velocities along `along`.
-  /// 6 * links - 2 additions, 12 * links multiplications, 0 divisions, 0 functions
-  template <class T, class D>
-  void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,
-                          D* ddown_rate) const {
-    const int links = this->links();
-    const FromOne<T> length(at.p);
-    const FromOne<T> theta_dot(at.v);
-    T sine[links + 1], cosine[links + 1];
-    sines_and_cosines(links, at.q, sine + 1, cosine + 1);
-    const FromOne<D> d_length(along.p);
-    const FromOne<D> d_theta(along.q);
-    const FromOne<D> d_theta_dot(along.v);
-    D d_span_side_velocity[links + 1];
-    D d_span_down_velocity[links + 1];
-    for (int i = 1; i <= links; ++i) {
-      d_span_side_velocity[i] = theta_dot[i] * cosine[i] * d_length[i]
-          + length[i] * (cosine[i] * d_theta_dot[i] - theta_dot[i] * sine[i] * d_theta[i]);
-      d_span_down_velocity[i] = -(theta_dot[i] * sine[i] * d_length[i]
-          + length[i] * (theta_dot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_dot[i]));
-    }
-    D d_joint_side_velocity[links + 1];
-    D d_joint_down_velocity[links + 1];
-    d_joint_side_velocity[2] = d_span_side_velocity[1] + d_span_side_velocity[2];
-    d_joint_down_velocity[2] = d_span_down_velocity[1] + d_span_down_velocity[2];
-    for (int i = 3; i <= links; ++i) {
-      d_joint_side_velocity[i] = d_span_side_velocity[i] + d_joint_side_velocity[i - 1];
-      d_joint_down_velocity[i] = d_span_down_velocity[i] + d_joint_down_velocity[i - 1];
-    }
-    dside_rate[0] = D(T(0));
-    ddown_rate[0] = D(T(0));
-    dside_rate[1] = d_span_side_velocity[1];
-    ddown_rate[1] = d_span_down_velocity[1];
-    for (int i = 2; i <= links; ++i) {
-      dside_rate[i] = d_joint_side_velocity[i];
-      ddown_rate[i] = d_joint_down_velocity[i];
-    }
-    dside_rate[links + 1] = d_joint_side_velocity[links];
-    ddown_rate[links + 1] = d_joint_down_velocity[links];
   }
 
   /// Joint moments (N m), link tensions (N), curvatures at joints (rad/m).
@@ -1753,195 +1512,6 @@ struct Chain {
     }
     for (int i = 1; i <= links; ++i) {
       tension[i - 1] = -(sine[i] * cut_force_side[i] + cosine[i] * cut_force_down[i]);
-    }
-  }
-
-  /// Derivative of moments, tensions and curvatures along `along`.
-  /// 44 * links - 11 additions, 54 * links + 6 multiplications, 2 * links divisions, 0 functions
-  template <class T, class D>
-  void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,
-                               D* dtension, D* dcurvature) const {
-    const int links = this->links();
-    const FromOne<T> length(at.p);
-    const FromOne<T> mass(at.p + links);
-    const FromOne<T> stiffness(at.p + 3 * links);
-    const FromOne<T> damping(at.p + 4 * links);
-    const T load_mass = at.p[6 * links];
-    const T gravity = at.p[6 * links + 1];
-    const FromOne<T> theta(at.q);
-    const FromOne<T> theta_dot(at.v);
-    const FromOne<T> theta_ddot(at.a);
-    T sine[links + 1], cosine[links + 1];
-    sines_and_cosines(links, at.q, sine + 1, cosine + 1);
-    const FromOne<D> d_length(along.p);
-    const FromOne<D> d_mass(along.p + links);
-    const FromOne<D> d_stiffness(along.p + 3 * links);
-    const FromOne<D> d_damping(along.p + 4 * links);
-    const D d_load_mass = along.p[6 * links];
-    const D d_gravity = along.p[6 * links + 1];
-    const FromOne<D> d_theta(along.q);
-    const FromOne<D> d_theta_dot(along.v);
-    const FromOne<D> d_theta_ddot(along.a);
-    T span_side_acceleration[links + 1];
-    T span_down_acceleration[links + 1];
-    D d_span_down_acceleration[links + 1];
-    D d_span_side_acceleration[links + 1];
-    {
-      span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
-          - theta_dot[1] * theta_dot[1] * sine[1]);
-      span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-          + theta_ddot[1] * sine[1]);
-      const T joint_angle = theta[1];
-      const T joint_rate = theta_dot[1];
-      const D d_joint_moment = stiffness[1] * d_theta[1] + damping[1] * d_theta_dot[1]
-          + joint_angle * d_stiffness[1] + joint_rate * d_damping[1];
-      d_span_down_acceleration[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-          * d_theta[1] - T(2) * cosine[1] * d_theta_dot[1])
-          - (theta_ddot[1] * cosine[1] * d_theta[1] + sine[1] * d_theta_ddot[1]))
-          - d_length[1] * (theta_dot[1] * theta_dot[1] * cosine[1] + theta_ddot[1] * sine[1]);
-      d_span_side_acceleration[1] = d_length[1] * (theta_ddot[1] * cosine[1]
-          - theta_dot[1] * theta_dot[1] * sine[1]) + length[1] * (cosine[1] * d_theta_ddot[1]
-          - theta_ddot[1] * sine[1] * d_theta[1]
-          - theta_dot[1] * (T(2) * sine[1] * d_theta_dot[1]
-          + theta_dot[1] * cosine[1] * d_theta[1]));
-      dmoment[0] = -d_joint_moment;
-      dcurvature[0] = T(2) * (d_theta[1] - theta[1] * d_length[1] / length[1]) / length[1];
-    }
-    {
-      span_side_acceleration[2] = length[2] * (theta_ddot[2] * cosine[2]
-          - theta_dot[2] * theta_dot[2] * sine[2]);
-      span_down_acceleration[2] = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
-          + theta_ddot[2] * sine[2]);
-      const T joint_angle = theta[2] - theta[1];
-      const T joint_rate = theta_dot[2] - theta_dot[1];
-      const T arc = length[1] + length[2];
-      const D d_joint_angle = d_theta[2] - d_theta[1];
-      const D d_joint_rate = d_theta_dot[2] - d_theta_dot[1];
-      const D d_joint_moment = stiffness[2] * d_joint_angle + damping[2] * d_joint_rate
-          + joint_angle * d_stiffness[2] + joint_rate * d_damping[2];
-      d_span_down_acceleration[2] = length[2] * (theta_dot[2] * (theta_dot[2] * sine[2]
-          * d_theta[2] - T(2) * cosine[2] * d_theta_dot[2])
-          - (theta_ddot[2] * cosine[2] * d_theta[2] + sine[2] * d_theta_ddot[2]))
-          - d_length[2] * (theta_dot[2] * theta_dot[2] * cosine[2] + theta_ddot[2] * sine[2]);
-      d_span_side_acceleration[2] = d_length[2] * (theta_ddot[2] * cosine[2]
-          - theta_dot[2] * theta_dot[2] * sine[2]) + length[2] * (cosine[2] * d_theta_ddot[2]
-          - theta_ddot[2] * sine[2] * d_theta[2]
-          - theta_dot[2] * (T(2) * sine[2] * d_theta_dot[2]
-          + theta_dot[2] * cosine[2] * d_theta[2]));
-      const D d_arc = d_length[1] + d_length[2];
-      dmoment[1] = -d_joint_moment;
-      dcurvature[1] = T(2) * (d_theta[2] - d_theta[1] + d_arc * (theta[1] - theta[2]) / arc) / arc;
-    }
-    for (int i = 3; i <= links; ++i) {
-      span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
-          - theta_dot[i] * theta_dot[i] * sine[i]);
-      span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
-          + theta_ddot[i] * sine[i]);
-      const T joint_angle = theta[i] - theta[i - 1];
-      const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-      const T curvature_divisor = length[i - 1] + length[i];
-      const D d_joint_angle = d_theta[i] - d_theta[i - 1];
-      const D d_joint_rate = d_theta_dot[i] - d_theta_dot[i - 1];
-      const D d_joint_moment = stiffness[i] * d_joint_angle + damping[i] * d_joint_rate
-          + joint_angle * d_stiffness[i] + joint_rate * d_damping[i];
-      d_span_down_acceleration[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
-          * d_theta[i] - T(2) * cosine[i] * d_theta_dot[i])
-          - (theta_ddot[i] * cosine[i] * d_theta[i] + sine[i] * d_theta_ddot[i]))
-          - d_length[i] * (theta_dot[i] * theta_dot[i] * cosine[i] + theta_ddot[i] * sine[i]);
-      d_span_side_acceleration[i] = d_length[i] * (theta_ddot[i] * cosine[i]
-          - theta_dot[i] * theta_dot[i] * sine[i]) + length[i] * (cosine[i] * d_theta_ddot[i]
-          - theta_ddot[i] * sine[i] * d_theta[i]
-          - theta_dot[i] * (T(2) * sine[i] * d_theta_dot[i]
-          + theta_dot[i] * cosine[i] * d_theta[i]));
-      const D d_curvature_divisor = d_length[i - 1] + d_length[i];
-      dmoment[i - 1] = -d_joint_moment;
-      dcurvature[i - 1] = T(2) * (d_theta[i] - d_theta[i - 1]
-          + d_curvature_divisor * (theta[i - 1]
-          - theta[i]) / curvature_divisor) / curvature_divisor;
-    }
-    T joint_side_acceleration[links + 1];
-    T joint_down_acceleration[links + 1];
-    D d_joint_down_acceleration[links + 1];
-    D d_joint_side_acceleration[links + 1];
-    joint_side_acceleration[1] = span_side_acceleration[1];
-    joint_down_acceleration[1] = span_down_acceleration[1];
-    joint_side_acceleration[2] = span_side_acceleration[2] + joint_side_acceleration[1];
-    joint_down_acceleration[2] = span_down_acceleration[2] + joint_down_acceleration[1];
-    d_joint_down_acceleration[2] = d_span_down_acceleration[1] + d_span_down_acceleration[2];
-    d_joint_side_acceleration[2] = d_span_side_acceleration[1] + d_span_side_acceleration[2];
-    for (int i = 3; i <= links; ++i) {
-      joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
-      joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
-      d_joint_down_acceleration[i] = d_span_down_acceleration[i] + d_joint_down_acceleration[i - 1];
-      d_joint_side_acceleration[i] = d_span_side_acceleration[i] + d_joint_side_acceleration[i - 1];
-    }
-    T centre_down_force[links + 1];
-    T centre_side_force[links + 1];
-    D d_centre_down_force[links + 1];
-    D d_centre_side_force[links + 1];
-    {
-      const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[1];
-      const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[1];
-      const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
-      const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
-      centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
-      centre_side_force[1] = mass[1] * centre_side_acceleration;
-      d_centre_down_force[1] = d_mass[1] * (centre_down_acceleration - gravity)
-          + mass[1] * (d_centre_down_acceleration - d_gravity);
-      d_centre_side_force[1] = mass[1] * d_centre_side_acceleration
-          + centre_side_acceleration * d_mass[1];
-    }
-    {
-      const D d_centre_down_acceleration = d_span_down_acceleration[1]
-          + ratio<T>(1, 2) * d_span_down_acceleration[2];
-      const D d_centre_side_acceleration = d_span_side_acceleration[1]
-          + ratio<T>(1, 2) * d_span_side_acceleration[2];
-      const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[2]
-          + joint_side_acceleration[1];
-      const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[2]
-          + joint_down_acceleration[1];
-      centre_down_force[2] = mass[2] * (centre_down_acceleration - gravity);
-      centre_side_force[2] = mass[2] * centre_side_acceleration;
-      d_centre_down_force[2] = d_mass[2] * (centre_down_acceleration - gravity)
-          + mass[2] * (d_centre_down_acceleration - d_gravity);
-      d_centre_side_force[2] = mass[2] * d_centre_side_acceleration
-          + centre_side_acceleration * d_mass[2];
-    }
-    for (int i = 3; i <= links; ++i) {
-      const D d_centre_down_acceleration = ratio<T>(1, 2) * d_span_down_acceleration[i]
-          + d_joint_down_acceleration[i - 1];
-      const D d_centre_side_acceleration = ratio<T>(1, 2) * d_span_side_acceleration[i]
-          + d_joint_side_acceleration[i - 1];
-      const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
-          + joint_side_acceleration[i - 1];
-      const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
-          + joint_down_acceleration[i - 1];
-      centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
-      centre_side_force[i] = mass[i] * centre_side_acceleration;
-      d_centre_down_force[i] = d_mass[i] * (centre_down_acceleration - gravity)
-          + mass[i] * (d_centre_down_acceleration - d_gravity);
-      d_centre_side_force[i] = mass[i] * d_centre_side_acceleration
-          + centre_side_acceleration * d_mass[i];
-    }
-    T cut_force_down[links + 2];
-    T cut_force_side[links + 2];
-    D d_cut_force_down[links + 2];
-    D d_cut_force_side[links + 2];
-    cut_force_down[links + 1] = load_mass * (joint_down_acceleration[links] - gravity);
-    cut_force_side[links + 1] = load_mass * joint_side_acceleration[links];
-    d_cut_force_down[links + 1] = d_load_mass * (joint_down_acceleration[links] - gravity)
-        + load_mass * (d_joint_down_acceleration[links] - d_gravity);
-    d_cut_force_side[links + 1] = load_mass * d_joint_side_acceleration[links]
-        + joint_side_acceleration[links] * d_load_mass;
-    for (int i = links; i >= 1; --i) {
-      cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
-      cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
-      d_cut_force_down[i] = d_cut_force_down[i + 1] + d_centre_down_force[i];
-      d_cut_force_side[i] = d_cut_force_side[i + 1] + d_centre_side_force[i];
-    }
-    for (int i = 1; i <= links; ++i) {
-      dtension[i - 1] = sine[i] * (cut_force_down[i] * d_theta[i] - d_cut_force_side[i])
-          - cosine[i] * (cut_force_side[i] * d_theta[i] + d_cut_force_down[i]);
     }
   }
 
@@ -2181,5 +1751,9 @@ struct Chain {
 };
 
 #pragma GCC diagnostic pop
+
+/// The table of a chain, in double precision. Its id, coordinates and parameters are to be filled in:
+/// names take memory. Its context is `chain`, which is to live as long as the table.
+catena_model table(const Chain& chain);
 
 }  // namespace catena::chain_any

@@ -111,13 +111,13 @@ void AdjointSolver::run(const std::vector<double>& times, const Trajectory& slop
 /// mu.r - lambda_z.f there.
 bool AdjointSolver::evaluate(double t, N_Vector y, double gamma, double* right) {
   const double *q = elements(y), *v = q + n_, *z = v + n_;
-  const catena_model& table = dynamics_.table();
+  const Model& model = dynamics_.model();
   const catena_point at = dynamics_.at(t, q, v, a_.data(), z);
-  if (table.acceleration(&at, a_.data()) != 0) return false;
+  if (model.acceleration(at, a_.data()) != 0) return false;
   if (matrix_->factor(dynamics_, at, gamma) != 0) return false;
   matrix_->solve_transposed(right);
   for (int i = 0; i < states_; ++i) minus_z_[static_cast<std::size_t>(i)] = -right[n_ + i];
-  table.residual_adjoint(&at, right, minus_z_.data(), dq_.data(), dv_.data(), dz_.data(),
+  model.residual_adjoint(at, right, minus_z_.data(), dq_.data(), dv_.data(), dz_.data(),
                          dp_.data());
   time_ = t;
   return true;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/any_links.hpp"
 
-#include <array>
 #include <deque>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "generated/chain_any.hpp"
 
 namespace catena {
@@ -15,10 +15,10 @@ namespace {
 
 static_assert(kFewestLinks == chain_any::kFewestLinks);
 
-/// A table with the names in it.
+/// A table with its context and the names in it.
 class AnyLinks {
  public:
-  AnyLinks(int place, int links) : table_(chain_any::table_at_place(place, links)) {
+  explicit AnyLinks(int links) : chain_{links}, table_(chain_any::table(chain_)) {
     const auto kept = [this](std::string text) {
       return texts_.emplace_back(std::move(text)).c_str();
     };
@@ -48,6 +48,7 @@ class AnyLinks {
  private:
   static constexpr catena_quantity kNone = {nullptr, nullptr};
 
+  chain_any::Chain chain_;
   std::deque<std::string> texts_;
   std::vector<catena_quantity> coordinates_;
   std::vector<catena_parameter> parameters_;
@@ -61,22 +62,7 @@ Model any_links_model(int links) {
   if (links > kMostLinks)
     throw InputError("a model of " + std::to_string(links) + " links: at most " +
                      std::to_string(kMostLinks) + " are possible");
-  static std::mutex mutex;
-  static std::array<std::weak_ptr<const AnyLinks>, kPlaces> places;
-  const std::lock_guard lock(mutex);
-  int free = -1;
-  for (int place = 0; place < kPlaces; ++place) {
-    const auto there = places[static_cast<std::size_t>(place)].lock();
-    if (there && there->table().links == links)
-      return Model(std::shared_ptr<const catena_model>(there, &there->table()));
-    if (!there && free < 0) free = place;
-  }
-  if (free < 0)
-    throw InputError("a model of " + std::to_string(links) + " links: models of " +
-                     std::to_string(kPlaces) +
-                     " other numbers of links are in use, which is the most; let one go");
-  const auto made = std::make_shared<const AnyLinks>(free, links);
-  places[static_cast<std::size_t>(free)] = made;
+  const auto made = std::make_shared<const AnyLinks>(links);
   return Model(std::shared_ptr<const catena_model>(made, &made->table()));
 }
 

@@ -8,11 +8,11 @@ namespace catena {
 
 EightSets::EightSets(const Model& model)
     : model_(model),
-      q_(model.coordinates(), model.table().sets),
+      q_(model.coordinates(), model.table().batch),
       v_(q_),
-      z_(model.states(), model.table().sets),
-      u_(3 * model.signals(), model.table().sets),
-      p_(model.parameters(), model.table().sets),
+      z_(model.states(), model.table().batch),
+      u_(3 * model.signals(), model.table().batch),
+      p_(model.parameters(), model.table().batch),
       a_(q_) {}
 
 void EightSets::set_parameters(int k, const Eigen::VectorXd& p) {
@@ -23,8 +23,7 @@ void EightSets::set_parameters(int k, const Eigen::VectorXd& p) {
 }
 
 int EightSets::evaluate(double t) {
-  const catena_model& table = model_.table();
-  for (int first = 0; first < kSets; first += table.sets) {
+  for (int first = 0; first < kSets; first += model_.table().batch) {
     const catena_point at{t,
                           q_.group(first),
                           v_.group(first),
@@ -32,7 +31,7 @@ int EightSets::evaluate(double t) {
                           z_.group(first),
                           u_.group(first),
                           p_.group(first)};
-    if (const int failed = table.accelerations(&at, a_.group(first)); failed != 0) return failed;
+    if (const int failed = model_.accelerations(at, a_.group(first)); failed != 0) return failed;
   }
   return 0;
 }

@@ -136,13 +136,13 @@ int Integrator::rates(double t, N_Vector y, N_Vector ydot, void* user) {
     return 0;
   }
 
-  const catena_model& table = self.dynamics_.table();
+  const Model& model = self.dynamics_.model();
   const catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
-  if (const int pivot = table.acceleration(&at, a)) {
+  if (const int pivot = model.acceleration(at, a)) {
     self.rates_failure_ = {Status::kSingular, pivot - 1, t};
     return 1;
   }
-  if (states > 0) table.state_rate(&at, zdot);
+  if (states > 0) model.state_rate(at, zdot);
   for (int i = 0; i < n + states; ++i)
     if (!std::isfinite(a[i])) {
       self.rates_failure_ = {Status::kNotFinite, i < n ? i : n + i, t};
@@ -155,7 +155,7 @@ int Integrator::powers(double t, N_Vector y, N_Vector power, void* user) {
   auto& self = *static_cast<Integrator*>(user);
   const double *q = elements(y), *v = q + self.n_, *z = v + self.n_;
   const catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
-  self.dynamics_.table().energy(&at, self.energies_.data());
+  self.dynamics_.model().energy(at, self.energies_.data());
   for (std::size_t i = 0; i < self.integrated_.size(); ++i)
     elements(power)[i] = self.energies_[static_cast<std::size_t>(self.integrated_[i])];
   return 0;
@@ -292,7 +292,7 @@ void Integrator::record_energy(double t, std::size_t column, SensitiveSimulation
   auto energy = result.trajectory.energy.col(k);
   const catena_point at = dynamics_.at(t, motion.q.col(k).data(), motion.v.col(k).data(),
                                        dynamics_.zero(), motion.z.col(k).data());
-  table.energy(&at, energies_.data());
+  dynamics_.model().energy(at, energies_.data());
   energy = Eigen::Map<const Eigen::VectorXd>(energies_.data(), energy.size());
   if (!integrated_.empty() && column > 0)
     require(CVodeGetQuadDky(cvodes_.get(), t, 0, quadrature_.get()), "CVodeGetQuadDky");

@@ -43,15 +43,17 @@ std::string fault_of(const catena_model* table) {
       table->signals < 0 || table->parameters < 0 || table->terms < 0 || table->energies < 0)
     return "its counts of links, coordinates, states, signals, parameters, terms or energies are "
            "impossible";
-  const bool complete = table->residual && table->residual_tangent && table->residual_term &&
-                        table->mass_matrix && table->bias && table->acceleration &&
-                        table->accelerations && table->energy && table->positions &&
-                        table->positions_tangent && table->velocities &&
-                        (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
-                        (table->structured == 0 || (table->newton_factor && table->newton_solve));
+  const bool complete =
+      table->residual && table->residual_tangent && table->residual_term && table->mass_matrix &&
+      table->bias && table->acceleration && table->accelerations && table->energy &&
+      table->positions && table->positions_tangent && table->velocities && table->internal_forces &&
+      (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
+      (table->structured == 0 || (table->newton_factor && table->newton_solve)) &&
+      (table->observes == 0 ||
+       (table->observe && table->observe_tangent && table->clock && table->clock_tangent));
   if (!complete) return "functions are missing from its table";
-  if (table->sets < 1 || 8 % table->sets != 0)
-    return "it evaluates " + std::to_string(table->sets) + " sets at once, not 1, 2, 4 or 8";
+  if (table->batch < 1 || 8 % table->batch != 0)
+    return "it evaluates batches of " + std::to_string(table->batch) + " points, not 1, 2, 4 or 8";
   return {};
 }
 

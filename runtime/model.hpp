@@ -41,6 +41,74 @@ class Model {
   int signals() const { return table_->signals; }
   int energies() const { return table_->energies; }
 
+  /// The functions of the table, with its context; shapes and units are those of catena_model.h.
+  void residual(const catena_point& at, double* r) const {
+    table_->residual(table_->context, &at, r);
+  }
+  void residual_tangent(const catena_point& at, const catena_point& along, double* dr) const {
+    table_->residual_tangent(table_->context, &at, &along, dr);
+  }
+  void residual_tangents(const catena_point& at, const catena_point& along, double* dr) const {
+    table_->residual_tangents(table_->context, &at, &along, dr);
+  }
+  void residual_adjoint(const catena_point& at, const double* weight, const double* rate_weight,
+                        double* dq, double* dv, double* dz, double* dp) const {
+    table_->residual_adjoint(table_->context, &at, weight, rate_weight, dq, dv, dz, dp);
+  }
+  void state_rate(const catena_point& at, double* zdot) const {
+    table_->state_rate(table_->context, &at, zdot);
+  }
+  void state_rate_tangent(const catena_point& at, const catena_point& along, double* dzdot) const {
+    table_->state_rate_tangent(table_->context, &at, &along, dzdot);
+  }
+  void state_rate_tangents(const catena_point& at, const catena_point& along, double* dzdot) const {
+    table_->state_rate_tangents(table_->context, &at, &along, dzdot);
+  }
+  int acceleration(const catena_point& at, double* a) const {
+    return table_->acceleration(table_->context, &at, a);
+  }
+  int accelerations(const catena_point& at, double* a) const {
+    return table_->accelerations(table_->context, &at, a);
+  }
+  int newton_factor(const catena_point& at, double ca, double cv, double cq, double* work) const {
+    return table_->newton_factor(table_->context, &at, ca, cv, cq, work);
+  }
+  void newton_solve(const double* work, double* x) const {
+    table_->newton_solve(table_->context, work, x);
+  }
+  void newton_solves(const double* work, double* x) const {
+    table_->newton_solves(table_->context, work, x);
+  }
+  void newton_solve_transposed(const double* work, double* x) const {
+    table_->newton_solve_transposed(table_->context, work, x);
+  }
+  void energy(const catena_point& at, double* e) const { table_->energy(table_->context, &at, e); }
+  void positions(const catena_point& at, double* side, double* down) const {
+    table_->positions(table_->context, &at, side, down);
+  }
+  void positions_tangent(const catena_point& at, const catena_point& along, double* dside,
+                         double* ddown) const {
+    table_->positions_tangent(table_->context, &at, &along, dside, ddown);
+  }
+  void velocities(const catena_point& at, double* side_rate, double* down_rate) const {
+    table_->velocities(table_->context, &at, side_rate, down_rate);
+  }
+  void internal_forces(const catena_point& at, double* moment, double* tension,
+                       double* curvature) const {
+    table_->internal_forces(table_->context, &at, moment, tension, curvature);
+  }
+  void observe(double t, const double* p, const double in[3], double out[3]) const {
+    table_->observe(table_->context, t, p, in, out);
+  }
+  void observe_tangent(double t, const double* p, const double* dp, const double in[3],
+                       const double din[3], double dout[3]) const {
+    table_->observe_tangent(table_->context, t, p, dp, in, din, dout);
+  }
+  double clock(double t, const double* p) const { return table_->clock(table_->context, t, p); }
+  double clock_tangent(double t, const double* p, const double* dp) const {
+    return table_->clock_tangent(table_->context, t, p, dp);
+  }
+
   /// Place of a parameter in the vector p. Throws InputError naming the nearest known name.
   int parameter_index(std::string_view name) const;
 

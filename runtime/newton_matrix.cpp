@@ -17,10 +17,10 @@ void NewtonMatrix::solve_several(double* x) const {
 
 StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
     : NewtonMatrix(model),
-      table_(model.table()),
+      model_(model),
       n_(static_cast<std::size_t>(model.coordinates())),
       states_(static_cast<std::size_t>(model.states())),
-      work_(static_cast<std::size_t>(table_.newton_work)) {
+      work_(static_cast<std::size_t>(model.table().newton_work)) {
   if (states_ == 0) return;
   const auto parameters = static_cast<std::size_t>(model.parameters());
   u_.resize(3 * static_cast<std::size_t>(model.signals()));
@@ -33,7 +33,7 @@ StructuredNewtonMatrix::StructuredNewtonMatrix(const Model& model)
 int StructuredNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
   gamma_ = gamma;
   if (states_ > 0) keep(at);
-  return table_.newton_factor(&at, 1.0, gamma, gamma * gamma, work_.data());
+  return model_.newton_factor(at, 1.0, gamma, gamma * gamma, work_.data());
 }
 
 /// Copies the point and finds D: each rate depends on its own state alone, so that one product with
@@ -47,7 +47,7 @@ void StructuredNewtonMatrix::keep(const catena_point& at) {
   at_ = {at.t, q_.data(), v_.data(), a_.data(), z_.data(), u_.data(), at.p};
   std::fill(dz_.begin(), dz_.end(), gamma_);
   const catena_point along = direction(none_, none_, dz_);
-  table_.state_rate_tangent(&at_, &along, rate_.data());
+  model_.state_rate_tangent(at_, along, rate_.data());
   for (std::size_t k = 0; k < states_; ++k) diagonal_[k] = 1.0 - rate_[k];
 }
 
@@ -64,24 +64,24 @@ void StructuredNewtonMatrix::solve(double* x) const {
       dz_[k] = gamma_ * x[n_ + k];
     }
     const catena_point along = direction(none_, none_, dz_);
-    table_.residual_tangent(&at_, &along, dr_.data());
+    model_.residual_tangent(at_, along, dr_.data());
     for (std::size_t i = 0; i < n_; ++i) x[i] -= dr_[i];
   }
-  table_.newton_solve(work_.data(), x);
+  model_.newton_solve(work_.data(), x);
   if (states_ > 0) {
     for (std::size_t i = 0; i < n_; ++i) {
       dv_[i] = gamma_ * x[i];
       dq_[i] = gamma_ * dv_[i];
     }
     const catena_point along = direction(dq_, dv_, none_);
-    table_.state_rate_tangent(&at_, &along, rate_.data());
+    model_.state_rate_tangent(at_, along, rate_.data());
     for (std::size_t k = 0; k < states_; ++k) x[n_ + k] += rate_[k] / diagonal_[k];
   }
 }
 
 void StructuredNewtonMatrix::solve_several(double* x) const {
-  if (states_ == 0 && table_.newton_solves != nullptr)
-    table_.newton_solves(work_.data(), x);
+  if (states_ == 0 && model_.table().newton_solves != nullptr)
+    model_.newton_solves(work_.data(), x);
   else
     NewtonMatrix::solve_several(x);
 }
@@ -92,13 +92,13 @@ void StructuredNewtonMatrix::solve_transposed(double* x) const {
       x[n_ + k] /= diagonal_[k];
       rate_[k] = gamma_ * x[n_ + k];
     }
-    table_.residual_adjoint(&at_, none_.data(), rate_.data(), dq_.data(), dv_.data(), dz_.data(),
+    model_.residual_adjoint(at_, none_.data(), rate_.data(), dq_.data(), dv_.data(), dz_.data(),
                             dp_.data());
     for (std::size_t i = 0; i < n_; ++i) x[i] += dv_[i] + gamma_ * dq_[i];
   }
-  table_.newton_solve_transposed(work_.data(), x);
+  model_.newton_solve_transposed(work_.data(), x);
   if (states_ > 0) {
-    table_.residual_adjoint(&at_, x, none_.data(), dq_.data(), dv_.data(), dz_.data(), dp_.data());
+    model_.residual_adjoint(at_, x, none_.data(), dq_.data(), dv_.data(), dz_.data(), dp_.data());
     for (std::size_t k = 0; k < states_; ++k) x[n_ + k] -= gamma_ * dz_[k] / diagonal_[k];
   }
 }
@@ -114,8 +114,8 @@ DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) : NewtonMatrix(model) {
 }
 
 int DenseNewtonMatrix::factor(Dynamics& dynamics, const catena_point& at, double gamma) {
-  const catena_model& table = dynamics.table();
-  const int n = table.coordinates, states = table.states;
+  const Model& model = dynamics.model();
+  const int n = model.coordinates(), states = model.states();
   const double* zero = dynamics.zero();
   const catena_point along{0.0, dq_.data(), dv_.data(), da_.data(), dz_.data(), zero, zero};
   for (int j = 0; j < n + states; ++j) {
@@ -128,10 +128,10 @@ int DenseNewtonMatrix::factor(Dynamics& dynamics, const catena_point& at, double
       dz_[i] = gamma;
     }
     double* column = matrix_.col(j).data();
-    table.residual_tangent(&at, &along, column);
+    model.residual_tangent(at, along, column);
     if (states > 0) {
       // dv and dz carry one factor gamma already
-      table.state_rate_tangent(&at, &along, column + n);
+      model.state_rate_tangent(at, along, column + n);
       for (int k = 0; k < states; ++k) column[n + k] = -column[n + k];
       if (j >= n) column[j] += 1.0;
     }

@@ -53,7 +53,7 @@ class StructuredNewtonMatrix : public NewtonMatrix {
   catena_point direction(const std::vector<double>& q, const std::vector<double>& v,
                          const std::vector<double>& z) const;
 
-  const catena_model& table_;
+  Model model_;
   const std::size_t n_, states_;
   std::vector<double> work_;
   // for extra states: the point of the factors, D there, and what the products need

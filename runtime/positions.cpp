@@ -39,7 +39,7 @@ Positions positions(const Model& model, const Eigen::VectorXd& parameters, doubl
   const Reading reading(model, signals, t);
   const catena_point at = reading.at(t, q, reading.zero.data(), parameters);
   Positions result = empty_positions(model);
-  model.table().positions(&at, result.side.data(), result.down.data());
+  model.positions(at, result.side.data(), result.down.data());
   return result;
 }
 
@@ -52,7 +52,7 @@ Positions positions_tangent(const Model& model, const Eigen::VectorXd& parameter
   const catena_point along{0.0,  q_direction.data(),         zero, zero, zero,
                            zero, parameters_direction.data()};
   Positions result = empty_positions(model);
-  model.table().positions_tangent(&at, &along, result.side.data(), result.down.data());
+  model.positions_tangent(at, along, result.side.data(), result.down.data());
   return result;
 }
 
@@ -61,7 +61,7 @@ Positions velocities(const Model& model, const Eigen::VectorXd& parameters, doub
   const Reading reading(model, signals, t);
   const catena_point at = reading.at(t, q, v.data(), parameters);
   Positions result = empty_positions(model);
-  model.table().velocities(&at, result.side.data(), result.down.data());
+  model.velocities(at, result.side.data(), result.down.data());
   return result;
 }
 

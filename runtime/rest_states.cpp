@@ -182,10 +182,10 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
   const catena_point along{0.0,         direction.data(), zero.data(), zero.data(),
                            zero.data(), zero.data(),      zero.data()};
   for (int iteration = 0; iteration < 100; ++iteration) {
-    model.table().residual(&at, residual.data());
+    model.residual(at, residual.data());
     for (int j = 0; j < n; ++j) {
       direction[j] = 1.0;
-      model.table().residual_tangent(&at, &along, stiffness.col(j).data());
+      model.residual_tangent(at, along, stiffness.col(j).data());
       direction[j] = 0.0;
     }
     const Eigen::PartialPivLU<Eigen::MatrixXd> factors(stiffness);

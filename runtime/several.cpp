@@ -16,15 +16,16 @@ SeveralTangents::SeveralTangents(const Dynamics& dynamics) : dynamics_(dynamics)
 }
 
 void SeveralTangents::residual(const catena_point& at, const catena_point& along, double* dr) {
-  const catena_model& table = dynamics_.table();
-  if (table.residual_tangents != nullptr) return table.residual_tangents(&at, &along, dr);
-  one_at_a_time(table.residual_tangent, at, along, dynamics_.coordinates(), dr);
+  const Model& model = dynamics_.model();
+  if (model.table().residual_tangents != nullptr) return model.residual_tangents(at, along, dr);
+  one_at_a_time(&Model::residual_tangent, at, along, dynamics_.coordinates(), dr);
 }
 
 void SeveralTangents::state_rate(const catena_point& at, const catena_point& along, double* dzdot) {
-  const catena_model& table = dynamics_.table();
-  if (table.state_rate_tangents != nullptr) return table.state_rate_tangents(&at, &along, dzdot);
-  one_at_a_time(table.state_rate_tangent, at, along, dynamics_.states(), dzdot);
+  const Model& model = dynamics_.model();
+  if (model.table().state_rate_tangents != nullptr)
+    return model.state_rate_tangents(at, along, dzdot);
+  one_at_a_time(&Model::state_rate_tangent, at, along, dynamics_.states(), dzdot);
 }
 
 void SeveralTangents::one_at_a_time(Tangent tangent, const catena_point& at,
@@ -36,7 +37,7 @@ void SeveralTangents::one_at_a_time(Tangent tangent, const catena_point& at,
          {std::pair{along.q, &q_}, {along.v, &v_}, {along.a, &a_}, {along.z, &z_}, {along.p, &p_}})
       for (std::size_t i = 0; i < single->size(); ++i)
         (*single)[i] = several[CATENA_DIRECTIONS * i + static_cast<std::size_t>(k)];
-    tangent(&at, &one, change_.data());
+    (dynamics_.model().*tangent)(at, one, change_.data());
     for (int i = 0; i < count; ++i)
       changes[CATENA_DIRECTIONS * i + k] = change_[static_cast<std::size_t>(i)];
   }

@@ -28,7 +28,8 @@ class SeveralTangents {
   void state_rate(const catena_point& at, const catena_point& along, double* dzdot);
 
  private:
-  using Tangent = void (*)(const catena_point* at, const catena_point* along, double* change);
+  using Tangent = void (Model::*)(const catena_point& at, const catena_point& along,
+                                  double* change) const;
   void one_at_a_time(Tangent tangent, const catena_point& at, const catena_point& along, int count,
                      double* changes);
 

@@ -114,8 +114,8 @@ int StepSolver::iterate(const Step& step) {
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     set_point(step);
     const catena_point at = dynamics_.at(step.t, q_.data(), v_.data(), a_.data(), z_.data());
-    dynamics_.table().residual(&at, change_.data());
-    if (states_ > 0) dynamics_.table().state_rate(&at, zdot_.data());
+    dynamics_.model().residual(at, change_.data());
+    if (states_ > 0) dynamics_.model().state_rate(at, zdot_.data());
     ++residual_evaluations_;
     ++iterations_;
     ++all_iterations_;
@@ -146,7 +146,7 @@ int StepSolver::iterate(const Step& step) {
       sum += change * step.weight[n_ + i] * (change * step.weight[n_ + i]);
     }
     const double norm = std::sqrt(sum / (n_ + size));
-    if (!std::isfinite(norm)) return fail(Status::kNotFinite, 0, step.t);
+    if (!std::isfinite(norm)) return fail(Status::kNotFinite, farthest_from_met(step, at), step.t);
     if (iteration > 0) rate_ = std::max(kRateMemory * rate_, norm / before);
     if (norm * std::min(1.0, rate_) <= step.tolerance) {
       set_point(step);
@@ -161,6 +161,22 @@ int StepSolver::iterate(const Step& step) {
         std::abs(change_[static_cast<std::size_t>(worst)] * step.weight[n_ + worst]))
       worst = i;
   return fail(Status::kNoConvergence, worst, step.t);
+}
+
+/// The equation with the largest residual at the point of the last change. A change that is not
+/// finite spreads to all unknowns when it is solved for, so that the changes do not tell.
+int StepSolver::farthest_from_met(const Step& step, const catena_point& at) {
+  dynamics_.model().residual(at, change_.data());
+  for (int i = 0; i < n_; ++i) change_[static_cast<std::size_t>(i)] *= step.gamma;
+  for (int i = 0; i < states_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    change_[static_cast<std::size_t>(n_ + i)] = step.gamma * zdot_[k] -
+                                                step.rl1 * step.history[2 * n_ + i] -
+                                                (z_[k] - step.predicted[2 * n_ + i]);
+  }
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  return static_cast<int>(std::max_element(change_.begin(), change_.end(), smaller) -
+                          change_.begin());
 }
 
 int StepSolver::fail(Status status, int equation, double t) {

@@ -76,6 +76,7 @@ class StepSolver {
   int factor(const Step& step);
   int iterate(const Step& step);
   void set_point(const Step& step);
+  int farthest_from_met(const Step& step, const catena_point& at);
   int fail(Status status, int equation, double t);
 
   Dynamics& dynamics_;

@@ -71,7 +71,7 @@ MatrixXd emitted_stiffness(const catena_model& table, const RandomPoint& point) 
   for (int j = 0; j < table.coordinates; ++j) {
     along.q[at(j)] = 1;
     const catena_point direction = along.at();
-    table.residual_tangent(&here, &direction, stiffness.col(j).data());
+    table.residual_tangent(table.context, &here, &direction, stiffness.col(j).data());
     along.q[at(j)] = 0;
   }
   return stiffness;
@@ -84,7 +84,7 @@ bool come_to_rest(const catena_model& table, RandomPoint& point) {
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd r(table.coordinates);
     const catena_point here = point.at();
-    table.residual(&here, r.data());
+    table.residual(table.context, &here, r.data());
     const VectorXd change = emitted_stiffness(table, point).partialPivLu().solve(r);
     const double length = change.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length)) return false;
@@ -208,7 +208,7 @@ RestFrequencies rest_frequencies(const Description& description, int links,
   }
   MatrixXd mass(table.coordinates, table.coordinates);
   const catena_point here = rest.at();
-  table.mass_matrix(&here, mass.data());
+  table.mass_matrix(table.context, &here, mass.data());
   const Eigenvalues emitted = eigenvalues(mass, emitted_stiffness(table, rest));
 
   const long digits_before = GiNaC::Digits;

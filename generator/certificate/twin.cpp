@@ -115,7 +115,7 @@ std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int p
     const auto chain = reference_chain<Real>(table, point.p);
     const Vector theta(point.q.begin(), point.q.end()), rate(point.v.begin(), point.v.end());
     std::vector<double> mass(at(n * n)), term(at(n));
-    table.mass_matrix(&here, mass.data());
+    table.mass_matrix(table.context, &here, mass.data());
     Vector closed_mass;
     for (const Vector& row : reference::mass_matrix(chain, theta)) {
       closed_mass.insert(closed_mass.end(), row.begin(), row.end());
@@ -129,7 +129,7 @@ std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int p
     for (int i = 0; i < table.terms; ++i) {
       const auto found = closed.find(table.term[i].name);
       if (found == closed.end()) continue;
-      table.residual_term(&here, i, term.data());
+      table.residual_term(table.context, &here, i, term.data());
       comparison.add(found->second.first, Vector(term.begin(), term.end()), found->second.second);
     }
   }
@@ -154,13 +154,13 @@ Frequencies natural_frequencies(const catena_model& table) {
   const int n = table.links;
   const catena_point here = rest.at();
   Eigen::MatrixXd mass(n, n), stiffness(n, n);  // symmetric: row by row is column by column
-  table.mass_matrix(&here, mass.data());
+  table.mass_matrix(table.context, &here, mass.data());
   RandomPoint along = rest;
   std::fill(along.p.begin(), along.p.end(), 0.0);
   for (int j = 0; j < n; ++j) {
     along.q[at(j)] = 1;
     const catena_point direction = along.at();
-    table.residual_tangent(&here, &direction, stiffness.col(j).data());
+    table.residual_tangent(table.context, &here, &direction, stiffness.col(j).data());
     along.q[at(j)] = 0;
   }
   const auto chain = reference_chain<double>(table, rest.p);

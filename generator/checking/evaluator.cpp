@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "common/most_links.hpp"
 #include "generator/checking/expression_evaluator.hpp"
 #include "generator/checking/scope.hpp"
 
@@ -12,8 +13,6 @@ namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
-
-constexpr int kMostLinks = 1000;
 
 class Evaluator {
  public:

@@ -115,9 +115,7 @@ class Writer {
     }
     out << "};\n/// theta_1 ... theta_n\ninline constexpr catena_quantity kCoordinate = {"
         << quantity_text(coordinates_.front().row)
-        << "};\n\n/// The table of a chain of `links` links at a place of any_links.hpp, in double "
-           "precision. Its id,\n/// coordinates and parameters are to be filled in: names take "
-           "memory.\ncatena_model table_at_place(int place, int links);\n"
+        << "};\n"
            "\n/// Mass matrix in the form in which it is factored.\ntemplate <class T>\nusing "
            "MassMatrix = "
         << at_run_time(model_.mass_type)
@@ -140,7 +138,12 @@ class Writer {
                       (!statements.empty() ? kLinks : "") + before(function))
           << statements_text(statements, Language::kCpp, 2) << indented(function.after + "}\n");
     }
-    out << "};\n\n#pragma GCC diagnostic pop\n\n}  // namespace catena::" << name_ << "\n";
+    out << "};\n\n#pragma GCC diagnostic pop\n\n"
+           "/// The table of a chain, in double precision. Its id, coordinates and parameters are "
+           "to "
+           "be filled in:\n/// names take memory. Its context is `chain`, which is to live as long "
+           "as the table.\ncatena_model table(const Chain& chain);\n\n}  // namespace catena::"
+        << name_ << "\n";
     return out.str();
   }
 
@@ -150,47 +153,35 @@ class Writer {
         << ".hpp\"\n\n#include \"directions.hpp\"\n\nnamespace catena::" << name_
         << " {\n\nnamespace {\n\n"
         << term_array(model_) << energy_array(model_) << processors_text()
-        << "struct Functions : Chain {\n";
-    std::string functions;
+        << "const Chain& chain(const void* context) {\n"
+           "  return *static_cast<const Chain*>(context);\n}\n\n";
     for (const EmittedFunction& function : model_.functions) {
-      if (!function.wrapper.empty())
-        functions += "CATENA_EACH_PROCESSOR " +
-                     (function.name == "newton_matrix" ? newton_wrapper() : function.wrapper);
+      for (const TableFunction& entry : function.entries)
+        out << table_function_text(entry, kChainContext);
     }
-    functions += several_at_once_text(model_.accelerations);
-    out << indented(functions) << "};\n\n"
-        << "struct MakeTable {\n  template <int place>\n"
-           "  catena_model operator()(int links) const {\n"
-           "    using Place = AtPlace<Functions, place>;\n    Place::links = links;\n"
-           "    const bool several = links <= "
-        << model_.most_links_at_once()
-        << ";\n    Functions functions{{links}};\n    return {\n"
-           "        CATENA_MODEL_ABI,\n        sizeof(catena_model),\n        nullptr,  // id\n"
-           "        \""
+    out << newton_text(kChainContext, "NewtonMatrix<double>", "{chain(context).links(), work}")
+        << batch_text(kChainContext, model_.accelerations)
+        << "\n}  // namespace\n\ncatena_model table(const Chain& chain) {\n"
+           "  const int links = chain.links();\n  const bool has_batch = links <= "
+        << model_.most_links_of_batch()
+        << ";  // their arrays are on the stack\n  return {\n"
+           "      CATENA_MODEL_ABI,\n      sizeof(catena_model),\n      nullptr,  // id\n"
+           "      \""
         << sha256_hex(canonical_text(description_))
-        << "\",\n        links,\n        functions.coordinates(),\n        0,  // states\n"
-           "        0,  // signals\n        functions.parameters(),\n        "
-        << model_.terms.size() << ",  // terms\n        " << model_.energies.size()
-        << ",  // energies\n        0,  // uses_time\n        0,  // observes\n"
-           "        1,  // structured\n        NewtonMatrix<double>::numbers(links),\n"
-           "        nullptr,  // coordinates\n        nullptr,\n        nullptr,\n"
-           "        nullptr,  // parameters\n        kTermTable,\n        kEnergyTable,\n";
-    const auto call = [](const std::string& function) {
-      return "Place::template Call<&Functions::" + function + ">::of";
-    };
+        << "\",\n      &chain,\n      links,\n      chain.coordinates(),\n"
+           "      0,  // states\n      0,  // signals\n      chain.parameters(),\n      "
+        << model_.terms.size() << ",  // terms\n      " << model_.energies.size()
+        << ",  // energies\n      0,  // uses_time\n      0,  // observes\n"
+           "      1,  // structured\n      NewtonMatrix<double>::numbers(links),\n"
+           "      has_batch ? batch_size() : 1,\n"
+           "      nullptr,  // coordinates\n      nullptr,\n      nullptr,\n"
+           "      nullptr,  // parameters\n      kTermTable,\n      kEnergyTable,\n";
     for (const std::string& entry : model_.table_entries(Language::kCpp)) {
-      out << "        "
-          << (entry == "nullptr" ? entry
-              : entry == "c_accelerations"
-                  ? "several ? " + call(entry) + " : " + call("c_acceleration")
-                  : call(entry))
+      out << "      "
+          << (entry == "c_accelerations" ? "has_batch ? c_accelerations : c_acceleration" : entry)
           << ",\n";
     }
-    out << "        several ? functions.sets_at_once() : 1,\n    };\n  }\n};\n\n"
-           "}  // namespace\n\ncatena_model table_at_place(int place, int links) {\n"
-           "  return catena::table_at_place(place, links, MakeTable{});\n}\n\n"
-           "}  // namespace catena::"
-        << name_ << "\n";
+    out << "  };\n}\n\n}  // namespace catena::" << name_ << "\n";
     return out.str();
   }
 
@@ -211,7 +202,7 @@ class Writer {
       for (const std::string& term : model.terms) text += term;
       for (const EnergyItem& item : model.energies) text += item.name;
       for (const EmittedFunction& f : model.functions)
-        text += f.comment + f.signature + f.before + f.after + f.wrapper;
+        text += f.comment + f.signature + f.before + f.after;
       return text;
     };
     if (key(model_) != key(other)) fail("functions differ between numbers of links");
@@ -259,13 +250,6 @@ class Writer {
            ", diagonal[links];\n"
            "  const MassMatrix<T> matrix{links, " +
            arrays("row") + ", " + arrays("column") + ", diagonal};\n";
-  }
-
-  static std::string newton_wrapper() {
-    return newton_text(
-        "  NewtonMatrix<double> matrix(links(), work);\n",
-        "const NewtonMatrix<double> factored(const double* work) const {\n"
-        "  return {links(), const_cast<double*>(work)};  // solving only reads\n}\n");
   }
 
   // Lines of the preprocessor stay at the margin.

@@ -112,8 +112,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-// "void residual(const Point<T>& at, T* r)" in C
+// "void residual(const Point<T>& at, T* r)" in C; every function takes the table's context.
 std::string c_signature(std::string signature) {
+  signature.insert(signature.find('(') + 1, "const void* context, ");
   for (const auto& [from, to] : {std::pair{"[[maybe_unused]] ", ""},
                                  {"const Point<T>&", "const catena_point*"},
                                  {"const Point<D>&", "const catena_point*"},
@@ -140,7 +141,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   out << "\n};\n" << kSinesAndCosines << (s.mass_structured ? kSemiseparable : kDense);
   for (const EmittedFunction& function : functions.functions) {
     out << "\n/* " << function.comment << " */\nstatic " << c_signature(function.signature)
-        << " {\n";
+        << " {\n  (void)context;\n";
     // What a function does not read it names all the same, so that compilers stay quiet.
     for (const std::string argument : {"t", "p", "dp", "in", "rate_weights", "dz"}) {
       for (const std::string type : {"const T* ", "const T& ", "T* "}) {

@@ -13,16 +13,16 @@ void FunctionBuilder::residual() {
   const auto r = chain_.residual();
   add("residual", "r(t, q, v, a, z, u, p), the inverse dynamics.",
       "void residual(const Point<T>& at, T* r)", body(from_one("r", r), at_),
-      "void c_residual(const catena_point* at, double* r) { residual(point(at), r); }\n");
+      {{"void", "residual", "const catena_point* at, double* r", "residual(point(at), r)"}});
   const auto dr = each(r, [&](const ex& e) { return tangent_.of(e); });
   add("residual_tangent", "Derivative of r along `along`.",
       "void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr)",
       body(from_one("dr", dr), at_and_along_),
-      "void c_residual_tangent(const catena_point* at, const catena_point* along, double* dr) {\n"
-      "  residual_tangent(point(at), point(along), dr);\n}\n"
-      "CATENA_EACH_PROCESSOR void c_residual_tangents(const catena_point* at,\n"
-      "                                               const catena_point* along, double* dr) {\n"
-      "  residual_tangent(point(at), directions(along), directions(dr));\n}\n");
+      {{"void", "residual_tangent", "const catena_point* at, const catena_point* along, double* dr",
+        "residual_tangent(point(at), point(along), dr)"},
+       {"void", "residual_tangents",
+        "const catena_point* at, const catena_point* along, double* dr",
+        "residual_tangent(point(at), directions(along), directions(dr))"}});
 }
 
 // Each term of r from a derivation that has this term alone.
@@ -32,7 +32,7 @@ void FunctionBuilder::terms() {
     result_.terms.push_back(name);
     add("term_" + name, "The term " + name + " of r alone.",
         "void term_" + name + "(const Point<T>& at, T* r)",
-        function_body(definitions, from_one("r", values), at_, layout_), "");
+        function_body(definitions, from_one("r", values), at_, layout_), {});
   };
   for (const std::string& name : Chain::term_names(description_)) {
     Chain chain(description_, links_, name);
@@ -55,14 +55,14 @@ void FunctionBuilder::terms() {
   }
   std::string choose = "  switch (term) {\n";
   for (size_t k = 0; k < result_.terms.size(); ++k) {
-    choose += "    case " + std::to_string(k) + ":\n      term_" + result_.terms[k] +
-              "(at, r);\n      break;\n";
+    choose += "    case " + std::to_string(k) + ":\n      term_" + result_.terms[k] + "(" +
+              context() + "at, r);\n      break;\n";
   }
   choose += "  }\n";
   add("residual_term", "One term of r, numbered as in the table; their sum is r.",
       "void residual_term(const Point<T>& at, int term, T* r)", {},
-      "void c_residual_term(const catena_point* at, int32_t term, double* r) {\n"
-      "  residual_term(point(at), term, r);\n}\n",
+      {{"void", "residual_term", "const catena_point* at, int32_t term, double* r",
+        "residual_term(point(at), term, r)"}},
       choose);
 }
 
@@ -70,19 +70,18 @@ void FunctionBuilder::state_rates() {
   const auto f = chain_.state_rates();
   add("state_rate", "zdot = f(t, q, v, z, u, p), the rates of the extra states.",
       "void state_rate(const Point<T>& at, T* zdot)", body(from_one("zdot", f), at_),
-      "void c_state_rate(const catena_point* at, double* zdot) { state_rate(point(at), zdot); "
-      "}\n");
+      {{"void", "state_rate", "const catena_point* at, double* zdot",
+        "state_rate(point(at), zdot)"}});
   const auto df = each(f, [&](const ex& e) { return tangent_.of(e); });
   add("state_rate_tangent", "Derivative of zdot along `along`.",
       "void state_rate_tangent(const Point<T>& at, const Point<D>& along, D* dzdot)",
       body(from_one("dzdot", df), at_and_along_),
-      "void c_state_rate_tangent(const catena_point* at, const catena_point* along,\n"
-      "                          double* dzdot) {\n"
-      "  state_rate_tangent(point(at), point(along), dzdot);\n}\n"
-      "CATENA_EACH_PROCESSOR void c_state_rate_tangents(const catena_point* at,\n"
-      "                                                 const catena_point* along, double* dzdot) "
-      "{\n"
-      "  state_rate_tangent(point(at), directions(along), directions(dzdot));\n}\n");
+      {{"void", "state_rate_tangent",
+        "const catena_point* at, const catena_point* along, double* dzdot",
+        "state_rate_tangent(point(at), point(along), dzdot)"},
+       {"void", "state_rate_tangents",
+        "const catena_point* at, const catena_point* along, double* dzdot",
+        "state_rate_tangent(point(at), directions(along), directions(dzdot))"}});
 }
 
 // The gradient of weight . r + rate_weight . zdot.
@@ -120,10 +119,10 @@ void FunctionBuilder::adjoint() {
       "                      [[maybe_unused]] const T* rate_weights, T* dq, T* dv,\n"
       "                      [[maybe_unused]] T* dz, T* dp)",
       body(outputs, inputs),
-      "void c_residual_adjoint(const catena_point* at, const double* weights,\n"
-      "                        const double* rate_weights, double* dq, double* dv, double* dz,\n"
-      "                        double* dp) {\n"
-      "  residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp);\n}\n");
+      {{"void", "residual_adjoint",
+        "const catena_point* at, const double* weights, const double* rate_weights, double* dq, "
+        "double* dv, double* dz, double* dp",
+        "residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp)"}});
 }
 
 // Symbols the equations depend on.

@@ -42,6 +42,8 @@ class FunctionBuilder {
 
   // what they share
   bool in_c() const { return language_ == Language::kC; }
+  /// What a call begins with: in C every function has the context of the table.
+  std::string context() const { return in_c() ? "context, " : ""; }
   void seed_tangent();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
@@ -50,10 +52,10 @@ class FunctionBuilder {
   }
 
   void add(const std::string& name, const std::string& comment, const std::string& signature,
-           FunctionBody body, const std::string& wrapper, const std::string& before = "",
+           FunctionBody body, std::vector<TableFunction> entries, const std::string& before = "",
            const std::string& after = "") {
     result_.functions.push_back(
-        {name, comment, signature, before, std::move(body), after, wrapper});
+        {name, comment, signature, before, std::move(body), after, std::move(entries)});
   }
 
   std::vector<GiNaC::ex> each(const std::vector<GiNaC::ex>& values, const auto& act) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/function_builder.hpp"
-#include "generator/emission/model_text.hpp"
 
 namespace catena {
 
@@ -60,35 +59,33 @@ void FunctionBuilder::mass_and_acceleration() {
   Substitution bias = without_acceleration(chain_);
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
   add("bias", "r with a = 0.", "void bias(const Point<T>& at, T* h)", body(from_one("h", h), at_),
-      "void c_bias(const catena_point* at, double* h) { bias(point(at), h); }\n");
+      {{"void", "bias", "const catena_point* at, double* h", "bias(point(at), h)"}});
 
   const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
   s.why_not = mass.reason;
-  const std::string mass_wrapper =
-      "void c_mass_matrix(const catena_point* at, double* mass) {\n"
-      "  mass_matrix(point(at), mass);\n}\n";
+  const TableFunction mass_entry = {"void", "mass_matrix", "const catena_point* at, double* mass",
+                                    "mass_matrix(point(at), mass)"};
   const std::string acceleration_comment =
       "a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.";
-  const std::string acceleration_wrapper =
-      "int32_t c_acceleration(const catena_point* at, double* a) {\n"
-      "  return acceleration(point(at), a);\n}\n";
+  const TableFunction acceleration_entry = {
+      "int32_t", "acceleration", "const catena_point* at, double* a", "acceleration(point(at), a)"};
   if (!mass.found) {
     Differential along_a(definitions_,
                          [](const std::string& family) { return family + "_inertial"; });
     for (const ex& a : chain_.accelerations()) along_a.set(a, a);
     const auto inertial = each(chain_.residual(), [&](const ex& e) { return along_a.of(e); });
     add("inertial", "M a, of the chain and of every effect.",
-        "void inertial(const Point<T>& at, T* r)", body(from_one("r", inertial), at_), "");
+        "void inertial(const Point<T>& at, T* r)", body(from_one("r", inertial), at_), {});
     add("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
-        "void mass_matrix(const Point<T>& at, T* M)", {}, mass_wrapper,
+        "void mass_matrix(const Point<T>& at, T* M)", {}, {mass_entry},
         in_c() ? "  double unit[kCoordinates], column[kCoordinates];\n"
                  "  for (int j = 0; j < kCoordinates; ++j) unit[j] = 0.0;\n"
                  "  catena_point moving = *at;\n"
                  "  moving.a = unit;\n"
                  "  for (int j = 0; j < kCoordinates; ++j) {\n"
                  "    unit[j] = 1.0;\n"
-                 "    inertial(&moving, column);\n"
+                 "    inertial(context, &moving, column);\n"
                  "    unit[j] = 0.0;\n"
                  "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
                  "  }\n"
@@ -103,11 +100,12 @@ void FunctionBuilder::mass_and_acceleration() {
                  "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
                  "  }\n");
     add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)", {},
-        acceleration_wrapper,
+        {acceleration_entry},
         std::string(in_c() ? "  double" : "  T") +
             " mass[kCoordinates * kCoordinates];\n"
-            "  mass_matrix(at, mass);\n"
-            "  bias(at, a);\n"
+            "  mass_matrix(" +
+            context() + "at, mass);\n  bias(" + context() +
+            "at, a);\n"
             "  for (int i = 0; i < kCoordinates; ++i) a[i] = -a[i];\n" +
             (in_c() ? "  return solve_symmetric(mass, a);\n"
                     : "  return solve_symmetric<kCoordinates>(mass, a);\n"));
@@ -130,7 +128,7 @@ void FunctionBuilder::mass_and_acceleration() {
                              : "  MassMatrix in, *const matrix = &in;\n";
   const std::vector<Output> entries = all_entries(mass, symmetric);
   add("mass_matrix", "M, row by row.", "void mass_matrix(const Point<T>& at, T* M)",
-      body(entries, at_), mass_wrapper, matrix,
+      body(entries, at_), {mass_entry}, matrix,
       in_c() ? "  to_dense(matrix, M);\n" : "  matrix.to_dense(M);\n");
   std::vector<Output> all = entries;
   for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
@@ -142,12 +140,12 @@ void FunctionBuilder::mass_and_acceleration() {
                                           "  if (failed == 0) matrix.solve(a);\n"
                                           "  return failed;\n";
   add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
-      body(all, at_), acceleration_wrapper, matrix, solve);
+      body(all, at_), {acceleration_entry}, matrix, solve);
   if (in_c() || layout_ != Layout::kLoops) return;
   result_.accelerations = "accelerations";
   add("accelerations", "The same, bit for bit, in the order that suits a T of several numbers.",
       "int accelerations(const Point<T>& at, T* a)",
-      function_body(definitions_, all, at_, Layout::kWholeSweeps), "", matrix, solve);
+      function_body(definitions_, all, at_, Layout::kWholeSweeps), {}, matrix, solve);
 }
 
 void FunctionBuilder::newton() {
@@ -166,10 +164,7 @@ void FunctionBuilder::newton() {
   add("newton_matrix", "ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).",
       "void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,\n"
       "                   NewtonMatrix<T>& matrix)",
-      body(all_entries(newton, false), at_),
-      newton_text("  auto& matrix = *reinterpret_cast<NewtonMatrix<double>*>(work);\n",
-                  "const NewtonMatrix<double>& factored(const double* work) {\n"
-                  "  return *reinterpret_cast<const NewtonMatrix<double>*>(work);\n}\n"));
+      body(all_entries(newton, false), at_), {});
 }
 
 }  // namespace catena

@@ -12,14 +12,20 @@ std::vector<std::string> ModelFunctions::table_entries(Language language) const 
   };
   return {"c_residual",
           "c_residual_tangent",
+          maybe(!in_c, "c_residual_tangents"),
+          "c_residual_adjoint",
           "c_residual_term",
           maybe(states, "c_state_rate"),
           maybe(states, "c_state_rate_tangent"),
+          maybe(!in_c && states, "c_state_rate_tangents"),
           "c_mass_matrix",
           "c_bias",
           "c_acceleration",
+          has_batch() ? "c_accelerations" : "c_acceleration",
           maybe(summary.structured, "c_newton_factor"),
           maybe(summary.structured, "c_newton_solve"),
+          maybe(summary.structured, "c_newton_solves"),
+          maybe(summary.structured, "c_newton_solve_transposed"),
           "c_energy",
           "c_positions",
           "c_positions_tangent",
@@ -28,19 +34,10 @@ std::vector<std::string> ModelFunctions::table_entries(Language language) const 
           maybe(observes, "c_observe"),
           maybe(observes, "c_observe_tangent"),
           maybe(observes, "c_clock"),
-          maybe(observes, "c_clock_tangent"),
-          "c_velocities_tangent",
-          "c_energy_tangent",
-          "c_internal_forces_tangent",
-          "c_residual_adjoint",
-          maybe(summary.structured, "c_newton_solve_transposed"),
-          maybe(!in_c, "c_residual_tangents"),
-          maybe(!in_c && states, "c_state_rate_tangents"),
-          maybe(summary.structured, "c_newton_solves"),
-          several_at_once() ? "c_accelerations" : "c_acceleration"};
+          maybe(observes, "c_clock_tangent")};
 }
 
-int ModelFunctions::most_links_at_once() const {
+int ModelFunctions::most_links_of_batch() const {
   return accelerations.empty() ? 0 : summary.mass_structured ? 1000 : 100;
 }
 

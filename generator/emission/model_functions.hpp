@@ -14,6 +14,14 @@
 
 namespace catena {
 
+/// A function behind the table (catena_model.h), in double precision.
+struct TableFunction {
+  std::string result;     ///< "void"
+  std::string name;       ///< in the table: "residual_tangents"
+  std::string arguments;  ///< after the context: "const catena_point* at, double* r"
+  std::string call;       ///< what it does: "residual(point(at), r)"
+};
+
 struct EmittedFunction {
   std::string name;
   std::string comment;    ///< first line of its documentation
@@ -21,7 +29,7 @@ struct EmittedFunction {
   std::string before;     ///< statements around the body
   FunctionBody body;
   std::string after;
-  std::string wrapper;  ///< the double-precision C function in the .cpp, if the table has it
+  std::vector<TableFunction> entries;  ///< of the table, that call it
 };
 
 struct ModelFunctions {
@@ -33,11 +41,11 @@ struct ModelFunctions {
   std::string accelerations;           ///< the function for a T of several numbers; empty: none
   bool uses_time = false, observes = false;
 
-  /// Whether the table has accelerations of several points at once: not where their arrays would
-  /// not fit a thread's stack.
-  bool several_at_once() const { return summary.links <= most_links_at_once(); }
+  /// Whether the table has accelerations of a batch of points: not where their arrays would not fit
+  /// a thread's stack.
+  bool has_batch() const { return summary.links <= most_links_of_batch(); }
   /// Up to how many links they would fit; 0: not made for that.
-  int most_links_at_once() const;
+  int most_links_of_batch() const;
   /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
   std::vector<std::string> table_entries(Language language) const;
 };

@@ -50,25 +50,75 @@ std::string processors_text() {
          "  return {p->t, p->q, p->v, p->a, p->z, p->u, p->p};\n}\n\n";
 }
 
-std::string newton_text(const std::string& matrix, const std::string& factored) {
-  return "int32_t c_newton_factor(const catena_point* at, double ca, double cv, double cq,\n"
-         "                        double* work) {\n" +
-         matrix +
-         "  newton_matrix(point(at), ca, cv, cq, matrix);\n"
-         "  return matrix.factor();\n}\n" +
-         factored +
-         "CATENA_EACH_PROCESSOR void c_newton_solve(const double* work, double* x) {\n"
-         "  factored(work).solve(x);\n}\n"
-         "CATENA_EACH_PROCESSOR void c_newton_solves(const double* work, double* x) {\n"
-         "  factored(work).solve(directions(x));\n}\n"
-         "CATENA_EACH_PROCESSOR void c_newton_solve_transposed(const double* work, double* x) {\n"
-         "  factored(work).solve_transposed(x);\n}\n";
+namespace {
+
+constexpr std::size_t kColumns = 100;
+
+// The arguments of a head behind its name, in lines that end before the margin.
+std::string in_lines(std::string head, const std::string& arguments) {
+  const std::string indent(head.size(), ' ');
+  std::istringstream rest(arguments);
+  std::string text, argument;
+  while (std::getline(rest, argument, ',')) {
+    argument.erase(0, argument.find_first_not_of(' '));
+    const bool more = rest.good();
+    argument += more ? "," : ") {";
+    if (head.size() + argument.size() > kColumns) {
+      head.erase(head.find_last_not_of(' ') + 1);
+      text += head + "\n";
+      head = indent;
+    }
+    head += argument + (more ? " " : "");
+  }
+  return text + head + "\n";
 }
 
-std::string several_at_once_text(const std::string& accelerations) {
-  return "template <int sets>\n"
-         "int32_t several(const catena_point* at, double* a) {\n"
-         "  using Number = Lanes<sets>;\n"
+std::string head(const Context& context, const std::string& result, const std::string& name,
+                 const std::string& arguments) {
+  return in_lines(result + " c_" + name + "(", context.parameter + ", " + arguments);
+}
+
+}  // namespace
+
+std::string table_function_text(const TableFunction& function, const Context& context) {
+  return "CATENA_EACH_PROCESSOR\n" +
+         head(context, function.result, function.name, function.arguments) +
+         (function.result == "void" ? "  " : "  return ") + context.object + function.call +
+         ";\n}\n";
+}
+
+std::string newton_text(const Context& context, const std::string& matrix_type,
+                        const std::string& matrix_in_work) {
+  const std::string each = "CATENA_EACH_PROCESSOR\n", passed = context.argument;
+  const auto solve = [&](const std::string& name, const std::string& call) {
+    return each + head(context, "void", name, "const double* work, double* x") + "  factored(" +
+           passed + "work)." + call + ";\n}\n";
+  };
+  return matrix_type + " matrix_in(" + context.inner_parameter + "double* work) {\n  return " +
+         matrix_in_work + ";\n}\nconst " + matrix_type + " factored(" + context.inner_parameter +
+         "const double* work) {\n  return matrix_in(" + passed +
+         "const_cast<double*>(work));  // solving only reads\n}\n" + each +
+         head(context, "int32_t", "newton_factor",
+              "const catena_point* at, double ca, double cv, double cq, double* work") +
+         "  auto&& matrix = matrix_in(" + passed + "work);\n  " + context.object +
+         "newton_matrix(point(at), ca, cv, cq, matrix);\n  return matrix.factor();\n}\n" +
+         solve("newton_solve", "solve(x)") + solve("newton_solves", "solve(directions(x))") +
+         solve("newton_solve_transposed", "solve_transposed(x)");
+}
+
+std::string batch_text(const Context& context, const std::string& accelerations) {
+  const std::string arguments = context.inner_parameter + "const catena_point* at, double* a";
+  const std::string passed = "(" + context.argument + "at, a)";
+  const auto on = [&](const std::string& processor, const std::string& name,
+                      const std::string& batch) {
+    return "__attribute__((target(\"" + processor + "\"), flatten))\n" +
+           in_lines("int32_t " + name + "(", arguments) + "  return batch_of<" + batch + ">" +
+           passed + ";\n}\n";
+  };
+  const std::string entry =
+      head(context, "int32_t", "accelerations", "const catena_point* at, double* a");
+  return "template <int batch>\n" + in_lines("int32_t batch_of(", arguments) +
+         "  using Number = Lanes<batch>;\n"
          "  const auto numbers = [](const double* first) {\n"
          "    return reinterpret_cast<const Number*>(first);\n"
          "  };\n"
@@ -76,40 +126,36 @@ std::string several_at_once_text(const std::string& accelerations) {
          "numbers(at->a),\n"
          "                             numbers(at->z), numbers(at->u), numbers(at->p)};\n"
          "  return " +
-         accelerations +
+         context.object + accelerations +
          "(points, reinterpret_cast<Number*>(a));\n}\n"
-         "#ifdef CATENA_PROCESSORS\n"
-         "__attribute__((target(\"arch=x86-64-v4\"), flatten)) int32_t eight(const catena_point* "
-         "at,\n"
-         "                                                                double* a) {\n"
-         "  return several<8>(at, a);\n}\n"
-         "__attribute__((target(\"arch=x86-64-v3\"), flatten)) int32_t four(const catena_point* "
-         "at,\n"
-         "                                                               double* a) {\n"
-         "  return several<4>(at, a);\n}\n"
-         "int32_t sets_at_once() {\n"
+         "#ifdef CATENA_PROCESSORS\n" +
+         on("arch=x86-64-v4", "eight", "8") + on("arch=x86-64-v3", "four", "4") +
+         "int32_t batch_size() {\n"
          "  return __builtin_cpu_supports(\"x86-64-v4\")   ? 8\n"
          "         : __builtin_cpu_supports(\"x86-64-v3\") ? 4\n"
-         "                                                 : 2;\n}\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) {\n"
-         "  static const int32_t sets = sets_at_once();\n"
-         "  return sets == 8 ? eight(at, a) : sets == 4 ? four(at, a) : several<2>(at, a);\n}\n"
+         "                                                 : 2;\n}\n" +
+         entry +
+         "  static const int32_t batch = batch_size();\n"
+         "  return batch == 8 ? eight" +
+         passed + " : batch == 4 ? four" + passed + " : batch_of<2>" + passed +
+         ";\n}\n"
          "#elif defined(__GNUC__)\n"
          "#if defined(__AVX512F__)\n"
-         "static constexpr int kSets = 8;\n"
+         "static constexpr int kBatch = 8;\n"
          "#elif defined(__AVX2__)\n"
-         "static constexpr int kSets = 4;\n"
+         "static constexpr int kBatch = 4;\n"
          "#else\n"
-         "static constexpr int kSets = 2;\n"
+         "static constexpr int kBatch = 2;\n"
          "#endif\n"
-         "int32_t sets_at_once() { return kSets; }\n"
-         "CATENA_EACH_PROCESSOR int32_t c_accelerations(const catena_point* at, double* a) {\n"
-         "  return several<kSets>(at, a);\n}\n"
+         "int32_t batch_size() { return kBatch; }\n"
+         "CATENA_EACH_PROCESSOR\n" +
+         entry + "  return batch_of<kBatch>" + passed +
+         ";\n}\n"
          "#else\n"
-         "int32_t sets_at_once() { return 1; }\n"
-         "int32_t c_accelerations(const catena_point* at, double* a) { return c_acceleration(at, "
-         "a); }\n"
-         "#endif\n";
+         "int32_t batch_size() { return 1; }\n" +
+         in_lines("int32_t c_accelerations(",
+                  "const void* context, const catena_point* at, double* a") +
+         "  return c_acceleration(context, at, a);\n}\n#endif\n";
 }
 
 }  // namespace catena

@@ -22,12 +22,29 @@ std::string structure_text(const ModelFunctions& functions);
 /// CATENA_EACH_PROCESSOR and point(): what the functions behind the table begin with.
 std::string processors_text();
 
-/// c_newton_factor, c_newton_solve and its like. `matrix`: a statement that makes the `matrix` to
-/// be factored in `work`; `factored`: a function of that name that gives it back.
-std::string newton_text(const std::string& matrix, const std::string& factored);
+/// How the functions behind a table use its context, as pieces of text.
+struct Context {
+  std::string parameter;        ///< of a function of the table
+  std::string inner_parameter;  ///< of a function that those call, with its comma
+  std::string argument;         ///< for it, with its comma
+  std::string object;           ///< whose members the emitted functions are, with its dot
+};
+/// A model for one number of links is free functions, which need none.
+inline const Context kNoContext{"const void*", "", "", ""};
+/// The model for any number of links is the members of a Chain.
+inline const Context kChainContext{"const void* context", "const void* context, ", "context, ",
+                                   "chain(context)."};
 
-/// sets_at_once() and c_accelerations, which calls `accelerations` with as many points as a
-/// register of the processor holds numbers.
-std::string several_at_once_text(const std::string& accelerations);
+/// c_<name>: a function of the table.
+std::string table_function_text(const TableFunction& function, const Context& context);
+
+/// c_newton_factor, c_newton_solve and its like. `matrix_in_work`: an expression of `matrix_type`
+/// for the matrix whose numbers are in `work`.
+std::string newton_text(const Context& context, const std::string& matrix_type,
+                        const std::string& matrix_in_work);
+
+/// batch_size() and c_accelerations, which calls `accelerations` with as many points as a register
+/// of the processor holds numbers.
+std::string batch_text(const Context& context, const std::string& accelerations);
 
 }  // namespace catena

@@ -71,9 +71,14 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   out << table_arrays(description, functions);
   out << processors_text();
   for (const EmittedFunction& function : functions.functions) {
-    if (!function.wrapper.empty()) out << "CATENA_EACH_PROCESSOR " << function.wrapper;
+    for (const TableFunction& entry : function.entries)
+      out << table_function_text(entry, kNoContext);
   }
-  if (functions.several_at_once()) out << several_at_once_text(functions.accelerations);
+  if (s.structured) {
+    out << newton_text(kNoContext, "NewtonMatrix<double>&",
+                       "*reinterpret_cast<NewtonMatrix<double>*>(work)");
+  }
+  if (functions.has_batch()) out << batch_text(kNoContext, functions.accelerations);
   out << "}  // namespace\n\nconst ::catena_model& table() {\n"
          "  static const ::catena_model model = {\n";
   out << table_entries(description, functions, Language::kCpp);

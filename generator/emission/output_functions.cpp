@@ -37,12 +37,7 @@ void FunctionBuilder::energy() {
   }
   add("energy", "Energies (J) and powers (W), in the order of the table.",
       "void energy(const Point<T>& at, T* e)", body(outputs, at_),
-      "void c_energy(const catena_point* at, double* e) { energy(point(at), e); }\n");
-  add("energy_tangent", "Derivative of the energies and powers along `along`.",
-      "void energy_tangent(const Point<T>& at, const Point<D>& along, D* de)",
-      body(tangents_of(outputs), at_and_along_),
-      "void c_energy_tangent(const catena_point* at, const catena_point* along, double* de) {\n"
-      "  energy_tangent(point(at), point(along), de);\n}\n");
+      {{"void", "energy", "const catena_point* at, double* e", "energy(point(at), e)"}});
 }
 
 void FunctionBuilder::positions() {
@@ -50,27 +45,20 @@ void FunctionBuilder::positions() {
       point_outputs(chain_, "side", "down", [](const ex& e) { return e; });
   add("positions", "Support (0), far end of each link (1..), load (last): side and down, m.",
       "void positions(const Point<T>& at, T* side, T* down)", body(position, at_),
-      "void c_positions(const catena_point* at, double* side, double* down) {\n"
-      "  positions(point(at), side, down);\n}\n");
+      {{"void", "positions", "const catena_point* at, double* side, double* down",
+        "positions(point(at), side, down)"}});
   add("positions_tangent", "Derivative of the positions along `along`.",
       "void positions_tangent(const Point<T>& at, const Point<D>& along, D* dside, D* ddown)",
       body(tangents_of(position), at_and_along_),
-      "void c_positions_tangent(const catena_point* at, const catena_point* along,\n"
-      "                         double* dside, double* ddown) {\n"
-      "  positions_tangent(point(at), point(along), dside, ddown);\n}\n");
+      {{"void", "positions_tangent",
+        "const catena_point* at, const catena_point* along, double* dside, double* ddown",
+        "positions_tangent(point(at), point(along), dside, ddown)"}});
   const std::vector<Output> velocity =
       point_outputs(chain_, "side_rate", "down_rate", [&](const ex& e) { return chain_.rate(e); });
   add("velocities", "Velocities of the same points, m/s.",
       "void velocities(const Point<T>& at, T* side_rate, T* down_rate)", body(velocity, at_),
-      "void c_velocities(const catena_point* at, double* side_rate, double* down_rate) {\n"
-      "  velocities(point(at), side_rate, down_rate);\n}\n");
-  add("velocities_tangent", "Derivative of the velocities along `along`.",
-      "void velocities_tangent(const Point<T>& at, const Point<D>& along, D* dside_rate,\n"
-      "                        D* ddown_rate)",
-      body(tangents_of(velocity), at_and_along_),
-      "void c_velocities_tangent(const catena_point* at, const catena_point* along,\n"
-      "                          double* dside_rate, double* ddown_rate) {\n"
-      "  velocities_tangent(point(at), point(along), dside_rate, ddown_rate);\n}\n");
+      {{"void", "velocities", "const catena_point* at, double* side_rate, double* down_rate",
+        "velocities(point(at), side_rate, down_rate)"}});
 }
 
 void FunctionBuilder::internal_forces() {
@@ -80,16 +68,9 @@ void FunctionBuilder::internal_forces() {
   add("internal_forces", "Joint moments (N m), link tensions (N), curvatures at joints (rad/m).",
       "void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature)",
       body(outputs, at_),
-      "void c_internal_forces(const catena_point* at, double* moment, double* tension,\n"
-      "                       double* curvature) {\n"
-      "  internal_forces(point(at), moment, tension, curvature);\n}\n");
-  add("internal_forces_tangent", "Derivative of moments, tensions and curvatures along `along`.",
-      "void internal_forces_tangent(const Point<T>& at, const Point<D>& along, D* dmoment,\n"
-      "                             D* dtension, D* dcurvature)",
-      body(tangents_of(outputs), at_and_along_),
-      "void c_internal_forces_tangent(const catena_point* at, const catena_point* along,\n"
-      "                               double* dmoment, double* dtension, double* dcurvature) {\n"
-      "  internal_forces_tangent(point(at), point(along), dmoment, dtension, dcurvature);\n}\n");
+      {{"void", "internal_forces",
+        "const catena_point* at, double* moment, double* tension, double* curvature",
+        "internal_forces(point(at), moment, tension, curvature)"}});
 }
 
 void FunctionBuilder::sensor() {
@@ -110,28 +91,29 @@ void FunctionBuilder::sensor() {
       "void observe([[maybe_unused]] const T& t, [[maybe_unused]] const T* p, const T* in, T* "
       "out)",
       body(from_one("out", reported), inputs),
-      "void c_observe(double t, const double* p, const double in[3], double out[3]) {\n"
-      "  observe(t, p, in, out);\n}\n");
+      {{"void", "observe", "double t, const double* p, const double in[3], double out[3]",
+        "observe(t, p, in, out)"}});
   add("observe_tangent", "Its derivative along dp and din.",
       "void observe_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
       "                     [[maybe_unused]] const T* dp, [[maybe_unused]] const T* in,\n"
       "                     const T* din, T* dout)",
       body(from_one("dout", each(reported, [&](const ex& e) { return tangent_.of(e); })), inputs),
-      "void c_observe_tangent(double t, const double* p, const double* dp, const double in[3],\n"
-      "                       const double din[3], double dout[3]) {\n"
-      "  observe_tangent(t, p, dp, in, din, dout);\n}\n");
+      {{"void", "observe_tangent",
+        "double t, const double* p, const double* dp, const double in[3], const double din[3], "
+        "double dout[3]",
+        "observe_tangent(t, p, dp, in, din, dout)"}});
   const std::string before = in_c() ? "  double out;\n" : "  T out;\n";
   const std::string after = "  return out;\n";
   add("clock", "Model time at which what was recorded at t happened, s.",
       "T clock(const T& t, [[maybe_unused]] const T* p)",
       body({{{"", "out", {}}, kNoIndex, {}, sensor.clock}}, inputs),
-      "double c_clock(double t, const double* p) { return clock(t, p); }\n", before, after);
+      {{"double", "clock", "double t, const double* p", "clock(t, p)"}}, before, after);
   add("clock_tangent", "Its derivative along dp.",
       "T clock_tangent([[maybe_unused]] const T& t, [[maybe_unused]] const T* p,\n"
       "                [[maybe_unused]] const T* dp)",
       body({{{"", "out", {}}, kNoIndex, {}, tangent_.of(sensor.clock)}}, inputs),
-      "double c_clock_tangent(double t, const double* p, const double* dp) {\n"
-      "  return clock_tangent(t, p, dp);\n}\n",
+      {{"double", "clock_tangent", "double t, const double* p, const double* dp",
+        "clock_tangent(t, p, dp)"}},
       before, after);
 }
 

@@ -103,19 +103,20 @@ std::string table_entries(const Description& description, const ModelFunctions& 
   const bool c = language == Language::kC;
   std::ostringstream out;
   out << "      CATENA_MODEL_ABI,\n      sizeof(" << (c ? "" : "::") << "catena_model),\n      "
-      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description))) << ",\n"
+      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description)))
+      << ",\n      " << (c ? "NULL" : "nullptr") << ",  // context\n"
       << "      kLinks,\n      kCoordinates,\n      kStates,\n      kSignals,\n      kParameters,\n"
       << "      " << functions.terms.size() << ",  // terms\n      " << functions.energies.size()
       << ",  // energies\n      " << (functions.uses_time ? 1 : 0) << ",  // uses_time\n      "
       << (functions.observes ? 1 : 0) << ",  // observes\n      " << (s.structured ? 1 : 0)
       << ",  // structured\n      "
-      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0")
-      << ",\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
+      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0") << ",\n      "
+      << (functions.has_batch() ? "batch_size()" : "1")
+      << ",  // batch\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
          "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
   for (const std::string& entry : functions.table_entries(language)) {
     out << "      " << (!c ? entry : entry == "nullptr" ? "NULL" : entry.substr(2)) << ",\n";
   }
-  out << "      " << (functions.several_at_once() ? "sets_at_once()" : "1") << ",  // sets\n";
   return out.str();
 }
 

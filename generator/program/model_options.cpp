@@ -2,6 +2,7 @@
 #include "generator/program/model_options.hpp"
 
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "common/sha256.hpp"
 
 namespace catena {
@@ -50,8 +51,9 @@ Description description_of(const ModelOptions& options) {
     throw InputError("no link count: give --links N, or `links = [...]` in the description");
   }
   for (const int n : description.links) {
-    if (n < 1) {
-      throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
+    if (n < 1 || n > kMostLinks) {
+      throw InputError("--links " + std::to_string(n) + ": must be from 1 to " +
+                       std::to_string(kMostLinks));
     }
   }
   return description;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
 #include "generator/program/commands.hpp"
 
@@ -18,8 +19,9 @@ void add_verify_command(CLI::App& app, int& status) {
   command->footer("Exit status 1 if one differs.\nExample: catena verify --links 2 3 4 12 60");
   command->callback([links, &status] {
     for (const int n : *links) {
-      if (n < 1)
-        throw InputError("--links " + std::to_string(n) + ": a chain has at least one link");
+      if (n < 1 || n > kMostLinks)
+        throw InputError("--links " + std::to_string(n) + ": must be from 1 to " +
+                         std::to_string(kMostLinks));
       const auto start = std::chrono::steady_clock::now();
       const std::vector<Proof> proofs = prove_closed_form(n);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

@@ -6,14 +6,13 @@
 #include <set>
 
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
 namespace {
-
-constexpr int kMostLinks = 100'000;  // beyond that, nothing here fits into memory
 
 double positive(const TomlTable& table, std::string_view key, double value) {
   if (!(value > 0) || !std::isfinite(value))
@@ -309,8 +308,8 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   const TomlTable model = file.table("model");
   the_case.links = count(model, "links", 0, 1);
   if (the_case.links > kMostLinks)
-    model.fail("links", std::to_string(the_case.links) + "; more than " +
-                            std::to_string(kMostLinks) + " do not fit into memory");
+    model.fail("links", std::to_string(the_case.links) + "; at most " + std::to_string(kMostLinks) +
+                            " are possible");
   if (const auto description = model.optional_text("description")) {
     the_case.description = directory / *description;
     if (!std::filesystem::is_regular_file(the_case.description))

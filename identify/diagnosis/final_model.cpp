@@ -143,8 +143,8 @@ double largest_difference(const Model& smaller, const Model& larger, unsigned se
     const catena_point at{t,       q.data(), v.data(), a.data(), small_z.data(), small_u.data(),
                           p.data()};
     const catena_point there{t, q.data(), v.data(), a.data(), z.data(), u.data(), larger_p.data()};
-    smaller.table().residual(&at, r.data());
-    larger.table().residual(&there, larger_r.data());
+    smaller.residual(at, r.data());
+    larger.residual(there, larger_r.data());
     worst = std::max(worst, (r - larger_r.head(n)).lpNorm<Eigen::Infinity>());
     size = std::max(size, r.lpNorm<Eigen::Infinity>());
   }
@@ -188,7 +188,7 @@ bool is_special_case(const Candidate& special, const Candidate& general, const M
     const VectorXd* values[3] = {&p, &with_special, &with_general};
     for (int k = 0; k < 3; ++k) {
       const catena_point at{0, q.data(), v.data(), a.data(), z.data(), u.data(), values[k]->data()};
-      both.table().residual(&at, r[k].data());
+      both.residual(at, r[k].data());
     }
     worst = std::max(worst, (r[1] - r[2]).lpNorm<Eigen::Infinity>());
     size = std::max(size, (r[1] - r[0]).lpNorm<Eigen::Infinity>());

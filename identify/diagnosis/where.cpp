@@ -300,10 +300,10 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
       const VectorXd q = path.q.col(j), v = path.v.col(j), z = path.z.col(j);
       if (u.size() > 0) experiment.signals.evaluate(t, u.data());
       catena_point at{t, q.data(), v.data(), a.data(), z.data(), u.data(), parameters.data()};
-      if (equations.table().acceleration(&at, a.data()) != 0) a.setZero();
+      if (equations.acceleration(at, a.data()) != 0) a.setZero();
       const catena_point differential{
           0, dq.data(), dv.data(), da.data(), zero_z.data(), zero_u.data(), zero_p.data()};
-      equations.table().residual_tangent(&at, &differential, dr.data());
+      equations.residual_tangent(at, differential, dr.data());
       double sum = 0;
       for (Index i = n - 1; i >= 0; --i) moment(i, k) = sum += dr[i];
     }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
 #include "identify/models/process.hpp"

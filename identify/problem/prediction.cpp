@@ -38,12 +38,11 @@ struct Clock {
 
 Clock clock_of(const Model& model, const Experiment& experiment, const VectorXd& parameters,
                Index frames) {
-  const catena_model& table = model.table();
   const double start = experiment.spec.start;
   std::vector<double> tau(static_cast<std::size_t>(frames));
   for (std::size_t k = 0; k < tau.size(); ++k) {
     const double t = experiment.recording.time[k];
-    tau[k] = table.observes ? table.clock(t, parameters.data()) : t;
+    tau[k] = model.table().observes ? model.clock(t, parameters.data()) : t;
   }
   Clock clock;
   clock.times = {start};
@@ -74,7 +73,7 @@ class Observer {
   /// `along`: the directions of which derivatives will be asked for.
   Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters,
            const std::vector<Seed>& along)
-      : table_(model.table()),
+      : model_(model),
         experiment_(experiment),
         parameters_(parameters),
         seeds_(along),
@@ -104,13 +103,13 @@ class Observer {
     t_ = t;
     experiment_.signals.evaluate(path.time[static_cast<std::size_t>(column)], signals_.data());
     const catena_point at = point(path, signals_, parameters_);
-    table_.positions(&at, here_.side.data(), here_.down.data());
+    model_.positions(at, here_.side.data(), here_.down.data());
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const Place& place = places_[i];
       const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
       true_[i] = {there.side, there.down, path.q(place.point.link, column)};
-      if (table_.observes)
-        table_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
+      if (model_.table().observes)
+        model_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
       else
         seen_[i] = true_[i];
     }
@@ -121,11 +120,11 @@ class Observer {
     const VectorXd& by_parameter = seeds_[direction].parameters;
     const catena_point at = point(*path_, signals_, parameters_);
     const catena_point along = point(sensitivity, no_signals_, by_parameter);
-    table_.positions_tangent(&at, &along, change_.side.data(), change_.down.data());
+    model_.positions_tangent(at, along, change_.side.data(), change_.down.data());
     double clock_shift = 0;
-    if (table_.observes && !held) {
-      clock_shift = table_.clock_tangent(t_, parameters_.data(), by_parameter.data());
-      table_.velocities(&at, rates_.side.data(), rates_.down.data());
+    if (model_.table().observes && !held) {
+      clock_shift = model_.clock_tangent(t_, parameters_.data(), by_parameter.data());
+      model_.velocities(at, rates_.side.data(), rates_.down.data());
       change_.side += clock_shift * rates_.side;
       change_.down += clock_shift * rates_.down;
     }
@@ -137,8 +136,8 @@ class Observer {
       const Index link = place.point.link;
       const Sight din{change.side, change.down,
                       sensitivity.q(link, column_) + clock_shift * path_->v(link, column_)};
-      if (table_.observes)
-        table_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
+      if (model_.table().observes)
+        model_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
                                din.data(), seen_[i].data());
       else
         seen_[i] = din;
@@ -170,7 +169,7 @@ class Observer {
             p.data()};
   }
 
-  const catena_model& table_;
+  const Model& model_;
   const Experiment& experiment_;
   const VectorXd& parameters_;
   const std::vector<Seed>& seeds_;

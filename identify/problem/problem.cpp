@@ -204,7 +204,7 @@ void Problem::check_start(int experiment) const {
   signals.evaluate(time, signal_values.data());
   const catena_point at{time,           state.q.data(),       state.v.data(),   acceleration.data(),
                         state.z.data(), signal_values.data(), parameters.data()};
-  if (const int pivot = model_.table().acceleration(&at, acceleration.data()))
+  if (const int pivot = model_.acceleration(at, acceleration.data()))
     throw InputError(where + ": cable: the mass matrix is not positive definite (at " +
                      model_.table().coordinate[pivot - 1].name +
                      "); links without mass need a load or neighbours that have some");

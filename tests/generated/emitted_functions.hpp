@@ -51,17 +51,8 @@ void add(Outputs<T>& outputs, const std::string& name, int size, const Function&
     Outputs<T> out;                                                                                \
     add(out, "residual", m::kCoordinates, [&](T* r) { m::residual_tangent(at, along, r); });       \
     std::vector<T> other(static_cast<std::size_t>(n + 2));                                         \
-    std::vector<T> third(static_cast<std::size_t>(n + 2));                                         \
     add(out, "positions", n + 2, [&](T* r) { m::positions_tangent(at, along, r, other.data()); }); \
     out.back().second.insert(out.back().second.end(), other.begin(), other.end());                 \
-    add(out, "velocities", n + 2,                                                                  \
-        [&](T* r) { m::velocities_tangent(at, along, r, other.data()); });                         \
-    out.back().second.insert(out.back().second.end(), other.begin(), other.end());                 \
-    add(out, "energy", m::table().energies, [&](T* r) { m::energy_tangent(at, along, r); });       \
-    add(out, "moments", n,                                                                         \
-        [&](T* r) { m::internal_forces_tangent(at, along, r, other.data(), third.data()); });      \
-    out.emplace_back("tensions", std::vector<T>(other.begin(), other.begin() + n));                \
-    out.emplace_back("curvatures", std::vector<T>(third.begin(), third.begin() + n));              \
     return out;                                                                                    \
   }
 

@@ -60,11 +60,11 @@ TEST_CASE("several directions at once have the bits of one at a time") {
     const auto n = static_cast<std::size_t>(table.coordinates);
     const auto compare = [&](auto several, auto one, std::size_t entries) {
       Several changes(entries);
-      several(&at, &all, numbers(changes));
+      several(table.context, &at, &all, numbers(changes));
       for (std::size_t k = 0; k < kWidth; ++k) {
         std::vector<double> change(entries);
         const catena_point direction = c_point(along[k]);
-        one(&at, &direction, change.data());
+        one(table.context, &at, &direction, change.data());
         for (std::size_t i = 0; i < entries; ++i)
           CHECK(changes[i][static_cast<int>(k)] == change[i]);
       }
@@ -75,12 +75,12 @@ TEST_CASE("several directions at once have the bits of one at a time") {
               static_cast<std::size_t>(table.states));
     if (table.structured == 0) continue;
     std::vector<double> work(static_cast<std::size_t>(table.newton_work));
-    REQUIRE(table.newton_factor(&at, 1, 1e-3, 1e-6, work.data()) == 0);
+    REQUIRE(table.newton_factor(table.context, &at, 1, 1e-3, 1e-6, work.data()) == 0);
     Several solutions = side_by_side(along, &Input<double>::q);
-    table.newton_solves(work.data(), numbers(solutions));
+    table.newton_solves(table.context, work.data(), numbers(solutions));
     for (std::size_t k = 0; k < kWidth; ++k) {
       std::vector<double> solution = along[k].q;
-      table.newton_solve(work.data(), solution.data());
+      table.newton_solve(table.context, work.data(), solution.data());
       for (std::size_t i = 0; i < n; ++i) CHECK(solutions[i][static_cast<int>(k)] == solution[i]);
     }
   }

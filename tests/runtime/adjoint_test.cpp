@@ -88,7 +88,7 @@ struct ByTangents {
     static const catena_model* given = nullptr;
     return given;
   }
-  static void residual_adjoint(const catena_point* at, const double* weight,
+  static void residual_adjoint(const void*, const catena_point* at, const double* weight,
                                const double* rate_weight, double* dq, double* dv, double* dz,
                                double* dp) {
     const catena_model& m = *table();
@@ -100,10 +100,10 @@ struct ByTangents {
         unit[i] = 1.0;
         const catena_point direction{0.0,      q.data(), v.data(), a.data(),
                                      z.data(), u.data(), p.data()};
-        m.residual_tangent(at, &direction, r.data());
+        m.residual_tangent(m.context, at, &direction, r.data());
         out[i] = r.dot(Eigen::Map<const VectorXd>(weight, m.coordinates));
         if (m.states > 0) {
-          m.state_rate_tangent(at, &direction, f.data());
+          m.state_rate_tangent(m.context, at, &direction, f.data());
           out[i] += f.dot(Eigen::Map<const VectorXd>(rate_weight, m.states));
         }
         unit[i] = 0.0;
@@ -131,11 +131,10 @@ TEST_CASE("the emitted gradient is the transpose of the emitted tangent") {
     const VectorXd p = values(model.parameters()), weight = values(n);
     const catena_point at{0.0, q.data(), v.data(), a.data(), nullptr, nullptr, p.data()};
     VectorXd dq(n), dv(n), dp(model.parameters()), tq(n), tv(n), tp(model.parameters());
-    model.table().residual_adjoint(&at, weight.data(), nullptr, dq.data(), dv.data(), nullptr,
-                                   dp.data());
+    model.residual_adjoint(at, weight.data(), nullptr, dq.data(), dv.data(), nullptr, dp.data());
     ByTangents::table() = &model.table();
-    ByTangents::residual_adjoint(&at, weight.data(), nullptr, tq.data(), tv.data(), nullptr,
-                                 tp.data());
+    ByTangents::residual_adjoint(nullptr, &at, weight.data(), nullptr, tq.data(), tv.data(),
+                                 nullptr, tp.data());
     // Sums of some n^2 terms of the size of the largest, in another order.
     const double rounding = 1e-15 * (10 + n * n);
     CHECK((dq - tq).cwiseAbs().maxCoeff() < rounding * tq.cwiseAbs().maxCoeff());
@@ -154,14 +153,14 @@ TEST_CASE("the transposed Newton matrix is solved with the same factors") {
     const VectorXd a = VectorXd::LinSpaced(n, -30.0, 60.0);
     const catena_point at{0.0, q.data(), v.data(), a.data(), nullptr, nullptr, p.data()};
     std::vector<double> work(static_cast<std::size_t>(table.newton_work));
-    REQUIRE(table.newton_factor(&at, 1.0, 0.02, 0.0004, work.data()) == 0);
+    REQUIRE(table.newton_factor(table.context, &at, 1.0, 0.02, 0.0004, work.data()) == 0);
     // x' (N^-1 y) = (N^-T x)' y for every pair of unit vectors
     Eigen::MatrixXd inverse(n, n), transposed(n, n);
     inverse.setIdentity();
     transposed.setIdentity();
     for (int j = 0; j < n; ++j) {
-      table.newton_solve(work.data(), inverse.col(j).data());
-      table.newton_solve_transposed(work.data(), transposed.col(j).data());
+      table.newton_solve(table.context, work.data(), inverse.col(j).data());
+      table.newton_solve_transposed(table.context, work.data(), transposed.col(j).data());
     }
     CHECK((inverse - inverse.transpose()).cwiseAbs().maxCoeff() >
           1e-6 * inverse.cwiseAbs().maxCoeff());

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "common/input_error.hpp"
-#include "generated/any_links.hpp"
+#include "common/most_links.hpp"
 #include "runtime/adjoint.hpp"
 #include "runtime/eight_sets.hpp"
 #include "runtime/rest_states.hpp"
@@ -92,24 +92,25 @@ std::vector<double> everything(const catena_model& table, unsigned seed) {
   const auto keep_status = [&](int count, const auto& fill) {
     keep(count, [&](double* out) { all.push_back(fill(out)); });
   };
-  keep(n, [&](double* r) { table.residual(&at, r); });
-  keep(n, [&](double* dr) { table.residual_tangent(&at, &along, dr); });
-  keep(CATENA_DIRECTIONS * n, [&](double* dr) { table.residual_tangents(&at, &along_all, dr); });
+  keep(n, [&](double* r) { table.residual(table.context, &at, r); });
+  keep(n, [&](double* dr) { table.residual_tangent(table.context, &at, &along, dr); });
+  keep(CATENA_DIRECTIONS * n,
+       [&](double* dr) { table.residual_tangents(table.context, &at, &along_all, dr); });
   for (int term = 0; term < table.terms; ++term)
-    keep(n, [&](double* r) { table.residual_term(&at, term, r); });
-  keep(n * n, [&](double* mass) { table.mass_matrix(&at, mass); });
-  keep(n, [&](double* h) { table.bias(&at, h); });
-  keep_status(n, [&](double* a) { return table.acceleration(&at, a); });
-  keep_status(table.sets * n, [&](double* a) {
+    keep(n, [&](double* r) { table.residual_term(table.context, &at, term, r); });
+  keep(n * n, [&](double* mass) { table.mass_matrix(table.context, &at, mass); });
+  keep(n, [&](double* h) { table.bias(table.context, &at, h); });
+  keep_status(n, [&](double* a) { return table.acceleration(table.context, &at, a); });
+  keep_status(table.batch * n, [&](double* a) {
     Random other(seed + 100);
     struct alignas(64) Set {
       double of[8];
     };
     const auto aligned = [&](int count, double low, double high) {
-      const Numbers values = other.numbers(table.sets * count, low, high);
-      std::vector<Set> packed(static_cast<std::size_t>(table.sets * count / 8 + 1));
+      const Numbers values = other.numbers(table.batch * count, low, high);
+      std::vector<Set> packed(static_cast<std::size_t>(table.batch * count / 8 + 1));
       std::memcpy(packed.data(), values.data(),
-                  static_cast<std::size_t>(table.sets * count) * sizeof(double));
+                  static_cast<std::size_t>(table.batch * count) * sizeof(double));
       return packed;
     };
     const auto q = aligned(n, -3.2, 3.2), v = aligned(n, -5.0, 5.0),
@@ -117,32 +118,31 @@ std::vector<double> everything(const catena_model& table, unsigned seed) {
     auto result = aligned(n, 0.0, 0.0);
     const catena_point sets{0.0,     q.data()->of, v.data()->of, nullptr,
                             nullptr, nullptr,      p.data()->of};
-    const int failed = table.accelerations(&sets, result.data()->of);
-    std::memcpy(a, result.data(), static_cast<std::size_t>(table.sets * n) * sizeof(double));
+    const int failed = table.accelerations(table.context, &sets, result.data()->of);
+    std::memcpy(a, result.data(), static_cast<std::size_t>(table.batch * n) * sizeof(double));
     return failed;
   });
   std::vector<double> work(static_cast<std::size_t>(table.newton_work));
-  all.push_back(table.newton_factor(&at, 1.0, 3e-3, 9e-6, work.data()));
+  all.push_back(table.newton_factor(table.context, &at, 1.0, 3e-3, 9e-6, work.data()));
   const auto keep_solution = [&](const Numbers& right, int count, const auto& solve) {
     keep(count, [&](double* x) {
       std::copy_n(right.data(), count, x);
-      solve(work.data(), x);
+      solve(table.context, work.data(), x);
     });
   };
   keep_solution(place.a, n, table.newton_solve);
   keep_solution(place.a, n, table.newton_solve_transposed);
   keep_solution(directions.a, CATENA_DIRECTIONS * n, table.newton_solves);
-  keep(table.energies, [&](double* e) { table.energy(&at, e); });
-  keep(table.energies, [&](double* de) { table.energy_tangent(&at, &along, de); });
+  keep(table.energies, [&](double* e) { table.energy(table.context, &at, e); });
   const int points = n + 2;
-  keep(2 * points, [&](double* x) { table.positions(&at, x, x + points); });
-  keep(2 * points, [&](double* x) { table.positions_tangent(&at, &along, x, x + points); });
-  keep(2 * points, [&](double* x) { table.velocities(&at, x, x + points); });
-  keep(2 * points, [&](double* x) { table.velocities_tangent(&at, &along, x, x + points); });
-  keep(3 * n, [&](double* x) { table.internal_forces(&at, x, x + n, x + 2 * n); });
-  keep(3 * n, [&](double* x) { table.internal_forces_tangent(&at, &along, x, x + n, x + 2 * n); });
+  keep(2 * points, [&](double* x) { table.positions(table.context, &at, x, x + points); });
+  keep(2 * points,
+       [&](double* x) { table.positions_tangent(table.context, &at, &along, x, x + points); });
+  keep(2 * points, [&](double* x) { table.velocities(table.context, &at, x, x + points); });
+  keep(3 * n, [&](double* x) { table.internal_forces(table.context, &at, x, x + n, x + 2 * n); });
   keep(2 * n + table.parameters, [&](double* x) {
-    table.residual_adjoint(&at, weights.data(), nullptr, x, x + n, nullptr, x + 2 * n);
+    table.residual_adjoint(table.context, &at, weights.data(), nullptr, x, x + n, nullptr,
+                           x + 2 * n);
   });
   return all;
 }
@@ -175,7 +175,7 @@ TEST_CASE("so do the table's counts and names") {
          {&catena_model::links, &catena_model::coordinates, &catena_model::states,
           &catena_model::signals, &catena_model::parameters, &catena_model::terms,
           &catena_model::energies, &catena_model::uses_time, &catena_model::observes,
-          &catena_model::structured, &catena_model::sets})
+          &catena_model::structured, &catena_model::batch})
       CHECK(a.*count == b.*count);
     for (int i = 0; i < b.coordinates; ++i) {
       CHECK(std::string(a.coordinate[i].name) == b.coordinate[i].name);
@@ -238,7 +238,7 @@ TEST_CASE("eight sets at once, where they fit") {
   for (const int n : {7, 1000, 1001}) {
     CAPTURE(n);
     const Model model = any_links_model(n);
-    CHECK((model.table().sets == 1) == (n > 1000 || any_links_model(7).table().sets == 1));
+    CHECK((model.table().batch == 1) == (n > 1000 || any_links_model(7).table().batch == 1));
     catena::EightSets sets(model);
     const VectorXd p = catena::testing::cable_parameters(model, 20.0, 0.1);
     for (int k = 0; k < catena::EightSets::kSets; ++k) {
@@ -251,7 +251,7 @@ TEST_CASE("eight sets at once, where they fit") {
       for (int i = 0; i < n; ++i) q[i] = 0.1 * k + 0.001 * i;
       const VectorXd zero = VectorXd::Zero(n);
       const catena_point at{0.0, q.data(), zero.data(), nullptr, nullptr, nullptr, p.data()};
-      REQUIRE(model.table().acceleration(&at, a.data()) == 0);
+      REQUIRE(model.acceleration(at, a.data()) == 0);
       for (int i = 0; i < n; ++i) {
         const double together = sets.acceleration(k, i);
         REQUIRE(same_bits(&together, &a[i], 1));
@@ -270,9 +270,9 @@ TEST_CASE("a mass matrix without a pivot is reported at the same place") {
     p.segment(2 * n, n).setZero();      // inertias
     const VectorXd q = VectorXd::Constant(n, 0.3);
     const catena_point at{0.0, q.data(), q.data(), q.data(), nullptr, nullptr, p.data()};
-    const int row = single.table().acceleration(&at, a.data());
+    const int row = single.acceleration(at, a.data());
     CHECK(row > 0);
-    CHECK(any.table().acceleration(&at, a.data()) == row);
+    CHECK(any.acceleration(at, a.data()) == row);
   }
 }
 
@@ -288,13 +288,14 @@ TEST_CASE("the largest fits the stack of a thread, and goes through a simulation
     Numbers out(static_cast<std::size_t>(10 * n));
     double* x = out.data();
     const catena_model& table = model.table();
-    table.residual_tangents(&at, &along, x);
+    table.residual_tangents(table.context, &at, &along, x);
     CHECK(std::isfinite(x[CATENA_DIRECTIONS * n - 1]));
-    table.residual_adjoint(&at, weights.data(), nullptr, x, x + n, nullptr, x + 2 * n);
+    table.residual_adjoint(table.context, &at, weights.data(), nullptr, x, x + n, nullptr,
+                           x + 2 * n);
     CHECK(std::isfinite(x[2 * n + 6 * n + 1]));
-    table.internal_forces_tangent(&at, &at, x, x + n, x + 2 * n);
+    table.internal_forces(table.context, &at, x, x + n, x + 2 * n);
     CHECK(std::isfinite(x[3 * n - 1]));
-    REQUIRE(table.acceleration(&at, x) == 0);
+    REQUIRE(table.acceleration(table.context, &at, x) == 0);
     CHECK(std::isfinite(x[n - 1]));
   }).join();
   catena::SimulationOptions options;
@@ -312,28 +313,51 @@ TEST_CASE("few links are built in, and more than can be are refused") {
                        "a model of 10001 links: at most 10000 are possible", catena::InputError);
 }
 
-TEST_CASE("as many numbers of links as there are places, each its own") {
+/// Height of the load under the support, hanging straight: the sum of the lengths.
+double hanging_length(const Model& model) {
+  const int n = model.links();
+  const VectorXd p = catena::testing::cable_parameters(model, 20.0, 0.1);
+  const VectorXd q = VectorXd::Zero(n);
+  VectorXd side(n + 2), down = VectorXd::Constant(n + 3, -1.0);
+  const catena_point at{0.0, q.data(), q.data(), q.data(), nullptr, nullptr, p.data()};
+  model.positions(at, side.data(), down.data());
+  CHECK(down[n + 1] == doctest::Approx(p.head(n).sum()));
+  CHECK(down[n + 2] == -1.0);  // written no further
+  return down[n + 1];
+}
+
+TEST_CASE("two models of different numbers of links live and work side by side") {
+  const Model few = any_links_model(7), many = any_links_model(31);
+  const auto motion = [](const Model& model) {
+    return catena::simulate(model, catena::testing::cable_parameters(model, 20.0, 0.1),
+                            catena::straight(model, 0.6), {0.0, 0.05, 0.1});
+  };
+  const MatrixXd few_alone = motion(few).trajectory.q, many_alone = motion(many).trajectory.q;
+  REQUIRE(few_alone.rows() == 7);
+  REQUIRE(many_alone.rows() == 31);
+  MatrixXd few_beside, many_beside;
+  std::thread other([&] { many_beside = motion(many).trajectory.q; });
+  few_beside = motion(few).trajectory.q;
+  other.join();
+  CHECK(same_bits(few_beside, few_alone));
+  CHECK(same_bits(many_beside, many_alone));
+}
+
+TEST_CASE("a thousand models live at once, each its own") {
   std::vector<Model> held;
-  for (int k = 0; k < catena::kPlaces; ++k) held.push_back(any_links_model(100 + k));
-  CHECK_THROWS_WITH_AS(any_links_model(99),
-                       "a model of 99 links: models of 64 other numbers of links are in use, which "
-                       "is the most; let one go",
-                       catena::InputError);
-  CHECK(&any_links_model(100).table() == &held.front().table());  // one that is there
-  for (const Model& model : held) {
-    const VectorXd p = catena::testing::cable_parameters(model, 20.0, 0.1);
-    const int n = model.links();
-    const VectorXd q = VectorXd::Zero(n);
-    VectorXd side(n + 2), down = VectorXd::Constant(n + 3, -1.0);
-    const catena_point at{0.0, q.data(), q.data(), q.data(), nullptr, nullptr, p.data()};
-    model.table().positions(&at, side.data(), down.data());
-    CHECK(down[n + 1] == doctest::Approx(p.head(n).sum()));
-    CHECK(down[n + 2] == -1.0);
+  for (int k = 0; k < 1000; ++k) held.push_back(any_links_model(5 + k));
+  for (int k = 0; k < 1000; ++k) {
+    const Model& model = held[static_cast<std::size_t>(k)];
+    CAPTURE(k);
+    REQUIRE(model.links() == 5 + k);
+    CHECK(hanging_length(model) > 0.0);
   }
-  held.erase(held.begin() + 20);
-  CHECK(any_links_model(99).links() == 99);  // and gone again
-  held.push_back(any_links_model(98));
-  CHECK_THROWS_AS(any_links_model(99), catena::InputError);
+  const Model twice = any_links_model(100);  // one number of links may be there more than once
+  CHECK(twice.table().context != held[95].table().context);
+  const Model kept = held.back();
+  held.clear();  // the others go, this one stays
+  CHECK(kept.links() == 1004);
+  CHECK(hanging_length(kept) > 0.0);
 }
 
 TEST_CASE("threads ask for models at the same time") {
@@ -348,7 +372,7 @@ TEST_CASE("threads ask for models at the same time") {
         VectorXd side(n + 2), down(n + 2);
         const catena_point at{0.0,     zero.data(), zero.data(), zero.data(),
                               nullptr, nullptr,     p.data()};
-        model.table().positions(&at, side.data(), down.data());
+        model.positions(at, side.data(), down.data());
         if (down[n + 1] != n) ++wrong[t];
       }
     });

@@ -20,36 +20,38 @@ struct DrivenModel {
   }
 
  private:
-  static void residual(const catena_point* at, double* r) {
-    base()->residual(at, r);
+  static void residual(const void*, const catena_point* at, double* r) {
+    base()->residual(base()->context, at, r);
     r[0] += at->z[0];
     r[1] -= at->u[0];
   }
-  static void residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
-    base()->residual_tangent(at, along, dr);
+  static void residual_tangent(const void*, const catena_point* at, const catena_point* along,
+                               double* dr) {
+    base()->residual_tangent(base()->context, at, along, dr);
     dr[0] += along->z[0];
     dr[1] -= along->u[0];
   }
-  static void bias(const catena_point* at, double* h) {
-    base()->bias(at, h);
+  static void bias(const void*, const catena_point* at, double* h) {
+    base()->bias(base()->context, at, h);
     h[0] += at->z[0];
     h[1] -= at->u[0];
   }
-  static int32_t acceleration(const catena_point* at, double* a) {
+  static int32_t acceleration(const void* context, const catena_point* at, double* a) {
     std::vector<double> mass(4);
-    base()->mass_matrix(at, mass.data());
-    bias(at, a);
+    base()->mass_matrix(base()->context, at, mass.data());
+    bias(context, at, a);
     a[0] = -a[0];
     a[1] = -a[1];
     if (const int bad = reference_model_detail::factor(mass, 2, true)) return bad;
     reference_model_detail::solve(mass.data(), 2, a);
     return 0;
   }
-  static void state_rate(const catena_point* at, double* zdot) {
+  static void state_rate(const void*, const catena_point* at, double* zdot) {
     zdot[0] = kMaxwellStiffness * at->v[0] - at->z[0] / kRelaxationTime;
   }
-  static void state_rate_tangent(const catena_point*, const catena_point* along, double* dzdot) {
-    state_rate(along, dzdot);  // linear
+  static void state_rate_tangent(const void* context, const catena_point*,
+                                 const catena_point* along, double* dzdot) {
+    state_rate(context, along, dzdot);  // linear
   }
 
   static const catena_model* base() { return reference_model<2>(false); }

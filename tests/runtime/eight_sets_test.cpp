@@ -53,7 +53,7 @@ TEST_CASE("eight sets have the bits of eight calls") {
       Eigen::VectorXd a(n);
       const catena_point at{0.0,     states[set].q.data(),  states[set].v.data(), nullptr, nullptr,
                             nullptr, parameters[set].data()};
-      REQUIRE(model.table().acceleration(&at, a.data()) == 0);
+      REQUIRE(model.acceleration(at, a.data()) == 0);
       for (int i = 0; i < n; ++i) {
         const double together = sets.acceleration(k, i);
         CHECK(std::memcmp(&together, &a[i], sizeof together) == 0);
@@ -82,7 +82,7 @@ TEST_CASE("a mass matrix without a pivot is reported") {
 /// In place of accelerations, sums in which every entry of every array shows; arrays lie as
 /// catena_model.h has them for `sets` at once. Coordinate 2 fails where its velocity is negative.
 template <int sets>
-int32_t sums(const catena_point* at, double* a) {
+int32_t sums(const void*, const catena_point* at, double* a) {
   for (int k = 0; k < sets; ++k) {
     const auto of = [&](const double* array, int i) { return array[i * sets + k]; };
     if (of(at->v, 1) < 0) return 2;
@@ -94,17 +94,18 @@ int32_t sums(const catena_point* at, double* a) {
 }
 
 TEST_CASE("eight sets are handed on in groups of as many as the processor takes") {
-  using Sums = int32_t (*)(const catena_point*, double*);
+  using Sums = int32_t (*)(const void*, const catena_point*, double*);
   for (const auto& [at_once, function] :
        {std::pair<int, Sums>{1, sums<1>}, {2, sums<2>}, {4, sums<4>}, {8, sums<8>}}) {
     CAPTURE(at_once);
     catena_model table = Model::built_in(2).table();
     table.states = 1;
-    table.state_rate = [](const catena_point*, double*) {};
-    table.state_rate_tangent = [](const catena_point*, const catena_point*, double*) {};
+    table.state_rate = [](const void*, const catena_point*, double*) {};
+    table.state_rate_tangent = [](const void*, const catena_point*, const catena_point*, double*) {
+    };
     table.signals = 1;
     table.accelerations = function;
-    table.sets = at_once;
+    table.batch = at_once;
     const Model model(&table);
     EightSets sets(model);
     for (int k = 0; k < EightSets::kSets; ++k) {

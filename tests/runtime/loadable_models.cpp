@@ -9,7 +9,7 @@ extern "C" const catena_model* some_other_name() { return nullptr; }
 extern "C" const catena_model* catena_model_table() {
   static catena_model model = *catena::testing::reference_model<3>();
 #if defined(LOADABLE_MODEL_OTHER_ABI)
-  model.abi = CATENA_MODEL_ABI + 1;
+  model.abi = 1;
 #elif defined(LOADABLE_MODEL_SHORT)
   model.size = 64;
 #elif defined(LOADABLE_MODEL_INCOMPLETE)

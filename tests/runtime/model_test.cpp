@@ -74,7 +74,8 @@ TEST_CASE("what cannot be loaded is named with the reason") {
       {"no/such/file.so", "no such file"},
       {std::filesystem::path(CATENA_SOURCE_DIR) / "CMakeLists.txt", "cannot be loaded"},
       {LOADABLE_WITHOUT_ENTRY, "does not export catena_model_table"},
-      {LOADABLE_OTHER_ABI, "interface version 2, this program needs version 1"},
+      {LOADABLE_OTHER_ABI,
+       "interface version 1, this program needs version 2; derive and compile it again"},
       {LOADABLE_SHORT, "its table has 64 bytes"},
       {LOADABLE_INCOMPLETE, "functions are missing"},
   };

@@ -140,38 +140,39 @@ inline void solve(const double* lower_upper, std::size_t n, double* x) {
 
 template <int n>
 struct Functions {
-  static void residual(const catena_point* at, double* r) {
+  static void residual(const void*, const catena_point* at, double* r) {
     const auto result = reference_model_detail::residual(plain<n>(at));
     for (std::size_t i = 0; i < n; ++i) r[i] = result[i];
   }
-  static void residual_tangent(const catena_point* at, const catena_point* along, double* dr) {
+  static void residual_tangent(const void*, const catena_point* at, const catena_point* along,
+                               double* dr) {
     const auto result = reference_model_detail::residual(along_direction<n>(at, along));
     for (std::size_t i = 0; i < n; ++i) dr[i] = result[i].derivative;
   }
-  static void residual_term(const catena_point* at, int32_t term, double* r) {
+  static void residual_term(const void*, const catena_point* at, int32_t term, double* r) {
     const auto result = terms(plain<n>(at))[static_cast<std::size_t>(term)];
     for (std::size_t i = 0; i < n; ++i) r[i] = result[i];
   }
-  static void mass_matrix(const catena_point* at, double* mass) {
+  static void mass_matrix(const void*, const catena_point* at, double* mass) {
     const auto point = plain<n>(at, false, false);
     const auto matrix = reference::mass_matrix(point.parameters.chain, point.q);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) mass[i * n + j] = matrix[i][j];
   }
-  static void bias(const catena_point* at, double* h) {
+  static void bias(const void*, const catena_point* at, double* h) {
     const auto result = reference_model_detail::residual(plain<n>(at, true, false));
     for (std::size_t i = 0; i < n; ++i) h[i] = result[i];
   }
-  static int32_t acceleration(const catena_point* at, double* a) {
+  static int32_t acceleration(const void*, const catena_point* at, double* a) {
     std::vector<double> matrix(n * n);
-    mass_matrix(at, matrix.data());
+    mass_matrix(nullptr, at, matrix.data());
     if (const int bad = factor(matrix, n, true)) return bad;
-    bias(at, a);
+    bias(nullptr, at, a);
     for (int i = 0; i < n; ++i) a[i] = -a[i];
     solve(matrix.data(), n, a);
     return 0;
   }
-  static int32_t newton_factor(const catena_point* at, double ca, double cv, double cq,
+  static int32_t newton_factor(const void*, const catena_point* at, double ca, double cv, double cq,
                                double* work) {
     std::vector<double> matrix(n * n), zero(6 * n + 2), column(n);
     for (std::size_t j = 0; j < n; ++j) {
@@ -180,15 +181,15 @@ struct Functions {
       dv[j] = cv;
       da[j] = ca;
       const catena_point along{0.0, dq.data(), dv.data(), da.data(), nullptr, nullptr, zero.data()};
-      residual_tangent(at, &along, column.data());
+      residual_tangent(nullptr, at, &along, column.data());
       for (std::size_t i = 0; i < n; ++i) matrix[i * n + j] = column[i];
     }
     const int bad = factor(matrix, n, false);
     for (std::size_t i = 0; i < n * n; ++i) work[i] = matrix[i];
     return bad;
   }
-  static void newton_solve(const double* work, double* x) { solve(work, n, x); }
-  static void energy(const catena_point* at, double* e) {
+  static void newton_solve(const void*, const double* work, double* x) { solve(work, n, x); }
+  static void energy(const void*, const catena_point* at, double* e) {
     const auto point = plain<n>(at, true, false);
     const auto& chain = point.parameters.chain;
     const auto momentum = product(reference::mass_matrix(chain, point.q), point.v);
@@ -205,15 +206,15 @@ struct Functions {
       e[4] += point.v[i] * point.parameters.torque[i];
     }
   }
-  static void positions(const catena_point* at, double* side, double* down) {
+  static void positions(const void*, const catena_point* at, double* side, double* down) {
     const auto result = reference_model_detail::positions(plain<n>(at, false, false));
     for (std::size_t i = 0; i < n + 2; ++i) {
       side[i] = result[0][i];
       down[i] = result[1][i];
     }
   }
-  static void positions_tangent(const catena_point* at, const catena_point* along, double* dside,
-                                double* ddown) {
+  static void positions_tangent(const void*, const catena_point* at, const catena_point* along,
+                                double* dside, double* ddown) {
     auto point = along_direction<n>(at, along);
     const auto result = reference_model_detail::positions(point);
     for (std::size_t i = 0; i < n + 2; ++i) {
@@ -221,15 +222,19 @@ struct Functions {
       ddown[i] = result[1][i].derivative;
     }
   }
-  static void velocities(const catena_point* at, double* side_rate, double* down_rate) {
+  static void velocities(const void*, const catena_point* at, double* side_rate,
+                         double* down_rate) {
     const std::vector<double> zero(6 * n + 2);
     const catena_point along{0.0, at->v, zero.data(), zero.data(), nullptr, nullptr, zero.data()};
     catena_point here = *at;
     here.a = zero.data();
-    positions_tangent(&here, &along, side_rate, down_rate);
+    positions_tangent(nullptr, &here, &along, side_rate, down_rate);
   }
-  static double clock(double t, const double*) { return t; }
-  static double clock_tangent(double, const double*, const double*) { return 0.0; }
+  /// No closed form is known here: not a number, which no test can take for a result.
+  static void internal_forces(const void*, const catena_point*, double* moment, double* tension,
+                              double* curvature) {
+    for (int i = 0; i < n; ++i) moment[i] = tension[i] = curvature[i] = std::nan("");
+  }
 };
 
 /// Names must outlive the table.
@@ -305,15 +310,14 @@ const catena_model* reference_model(bool structured = true) {
     model.bias = &F::bias;
     model.acceleration = &F::acceleration;
     model.accelerations = &F::acceleration;
-    model.sets = 1;
+    model.batch = 1;
     model.newton_factor = with_newton ? &F::newton_factor : nullptr;
     model.newton_solve = with_newton ? &F::newton_solve : nullptr;
     model.energy = &F::energy;
     model.positions = &F::positions;
     model.positions_tangent = &F::positions_tangent;
     model.velocities = &F::velocities;
-    model.clock = &F::clock;
-    model.clock_tangent = &F::clock_tangent;
+    model.internal_forces = &F::internal_forces;
     return model;
   };
   static const catena_model with_structure = make(true);

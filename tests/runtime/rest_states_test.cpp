@@ -141,7 +141,7 @@ TEST_CASE("hanging equilibrium: straight down, or where torques balance gravity"
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3);
   const catena_point at{0.0,     hanging.state.q.data(), zero.data(), zero.data(), nullptr, nullptr,
                         p.data()};
-  model.table().residual(&at, residual.data());
+  model.residual(at, residual.data());
   CHECK(residual.cwiseAbs().maxCoeff() < 1e-11);  // N m, of some 10
 }
 

@@ -168,8 +168,8 @@ State runge_kutta(const catena_model& table, const Eigen::VectorXd& p, const Sta
                           u.data(), p.data()};
     Eigen::VectorXd result(size);
     result.head(n) = at_y.segment(n, n);
-    REQUIRE(table.acceleration(&at, result.data() + n) == 0);
-    if (table.states > 0) table.state_rate(&at, result.data() + 2 * n);
+    REQUIRE(table.acceleration(table.context, &at, result.data() + n) == 0);
+    if (table.states > 0) table.state_rate(table.context, &at, result.data() + 2 * n);
     return result;
   };
   const double h = last / steps;
@@ -249,23 +249,30 @@ struct Failure {
 };
 
 void prepare_not_finite() {
-  broken.residual = [](const catena_point* at, double* r) {
-    two_links()->residual(at, r);
+  broken.residual = [](const void*, const catena_point* at, double* r) {
+    two_links()->residual(two_links()->context, at, r);
     if (at->t > 0.5) r[1] = std::nan("");
   };
 }
 
+void prepare_overflow() {
+  broken.residual = [](const void*, const catena_point* at, double* r) {
+    two_links()->residual(two_links()->context, at, r);
+    if (at->t > 0.5) r[1] += 1e305;  // finite, but the square of the change is not
+  };
+}
+
 void prepare_no_solution() {
-  broken.residual = [](const catena_point* at, double* r) {
-    two_links()->residual(at, r);
+  broken.residual = [](const void*, const catena_point* at, double* r) {
+    two_links()->residual(two_links()->context, at, r);
     // no acceleration whatever makes this vanish
     r[0] += 1e9 * (1.0 + (at->a[0] / 1e9) * (at->a[0] / 1e9));
   };
 }
 
 void prepare_rough_force() {
-  broken.residual = [](const catena_point* at, double* r) {
-    two_links()->residual(at, r);
+  broken.residual = [](const void*, const catena_point* at, double* r) {
+    two_links()->residual(two_links()->context, at, r);
     // no two times see the same torque, and no step is short enough not to feel it
     if (at->t > 0.5) r[0] += 1e20 * std::sin(1e15 * at->t);
   };
@@ -274,6 +281,8 @@ void prepare_rough_force() {
 TEST_CASE("failures are statuses that name the state and the time") {
   const Failure failures[] = {
       {"equations not finite", prepare_not_finite, Status::kNotFinite, "theta_2 at t = 0.5"},
+      {"a correction too large for a number", prepare_overflow, Status::kNotFinite,
+       "theta_2 at t = 0.5"},
       {"Newton's method diverges", prepare_no_solution, Status::kNoConvergence, "theta_"},
       {"a force without any smoothness", prepare_rough_force, Status::kStepFailure,
        "_rate at t = 0.5"},

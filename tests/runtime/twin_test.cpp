@@ -131,7 +131,7 @@ MatrixXd columns(const catena_model& model, Term term, Sample s, VectorXd Sample
     (s.*argument).setZero();
     (s.*argument)[j] = 1.0;
     const catena_point at = s.at();
-    model.residual_term(&at, term, result.col(j).data());
+    model.residual_term(model.context, &at, term, result.col(j).data());
   }
   return result;
 }
@@ -139,7 +139,7 @@ MatrixXd columns(const catena_model& model, Term term, Sample s, VectorXd Sample
 VectorXd term(const catena_model& model, Term which, const Sample& s) {
   VectorXd result(model.coordinates);
   const catena_point at = s.at();
-  model.residual_term(&at, which, result.data());
+  model.residual_term(model.context, &at, which, result.data());
   return result;
 }
 
@@ -148,8 +148,8 @@ void compare_matrices(const catena_model& emitted, const catena_model& closed, c
   const Scale bound(s);
   const catena_point at = s.at();
   MatrixXd mass(n, n), expected(n, n);
-  emitted.mass_matrix(&at, mass.data());
-  closed.mass_matrix(&at, expected.data());
+  emitted.mass_matrix(emitted.context, &at, mass.data());
+  closed.mass_matrix(closed.context, &at, expected.data());
   const MatrixXd stiffness = columns(emitted, kElastic, s, &Sample::q),
                  expected_stiffness = columns(closed, kElastic, s, &Sample::q),
                  damping = columns(emitted, kFriction, s, &Sample::v),
@@ -172,10 +172,10 @@ void compare_vectors(const catena_model& emitted, const catena_model& closed, co
   const VectorXd inertia = term(emitted, kInertia, s), coriolis = term(emitted, kCoriolis, s),
                  gravity = term(emitted, kGravity, s), torque = term(emitted, kTorque, s);
   VectorXd residual(n), bias(n), expected_residual(n), expected_bias(n);
-  emitted.residual(&at, residual.data());
-  closed.residual(&at, expected_residual.data());
-  emitted.bias(&at, bias.data());
-  closed.bias(&at, expected_bias.data());
+  emitted.residual(emitted.context, &at, residual.data());
+  closed.residual(closed.context, &at, expected_residual.data());
+  emitted.bias(emitted.context, &at, bias.data());
+  closed.bias(closed.context, &at, expected_bias.data());
   for (int i = 0; i < n; ++i) {
     CAPTURE(i);
     CHECK_NEAR(coriolis[i], term(closed, kCoriolis, s)[i], bound.coriolis(i, s.v));
@@ -194,10 +194,10 @@ void compare_solutions(const catena_model& emitted, const catena_model& closed, 
   const Scale bound(s);
   Sample solved = s;
   const catena_point at = s.at();
-  REQUIRE(emitted.acceleration(&at, solved.a.data()) == 0);
+  REQUIRE(emitted.acceleration(emitted.context, &at, solved.a.data()) == 0);
   VectorXd left_over(n);
   const catena_point at_solution = solved.at();
-  closed.residual(&at_solution, left_over.data());
+  closed.residual(closed.context, &at_solution, left_over.data());
   for (int i = 0; i < n; ++i) {
     CAPTURE(i);
     // Elimination without row exchanges of a positive definite matrix: n steps, each as exact.
@@ -207,16 +207,16 @@ void compare_solutions(const catena_model& emitted, const catena_model& closed, 
   if (emitted.structured == 0) return;
   std::vector<double> work(static_cast<std::size_t>(emitted.newton_work));
   const double gamma = 1e-3;
-  REQUIRE(emitted.newton_factor(&at, 1.0, gamma, gamma * gamma, work.data()) == 0);
+  REQUIRE(emitted.newton_factor(emitted.context, &at, 1.0, gamma, gamma * gamma, work.data()) == 0);
   VectorXd x = s.da;
-  emitted.newton_solve(work.data(), x.data());
+  emitted.newton_solve(emitted.context, work.data(), x.data());
   Sample direction = s;
   direction.da = x;
   direction.dv = gamma * x;
   direction.dq = gamma * gamma * x;
   direction.dp.setZero();
   const catena_point along = direction.along();
-  closed.residual_tangent(&at, &along, left_over.data());
+  closed.residual_tangent(closed.context, &at, &along, left_over.data());
   for (int i = 0; i < n; ++i) {
     CAPTURE(i);
     const double rows =
@@ -235,8 +235,8 @@ void compare_tangent(const catena_model& emitted, const catena_model& closed, co
   const Scale bound(s);
   const catena_point at = s.at(), along = s.along();
   VectorXd tangent(n), expected(n);
-  emitted.residual_tangent(&at, &along, tangent.data());
-  closed.residual_tangent(&at, &along, expected.data());
+  emitted.residual_tangent(emitted.context, &at, &along, tangent.data());
+  closed.residual_tangent(closed.context, &at, &along, expected.data());
   // A derivative of a product is a sum of products with one factor replaced; relative changes of
   // parameters reach 1000 (a length of 1e-4 changed at rate one).
   double relative = 2.0;
@@ -262,19 +262,19 @@ void compare_geometry(const catena_model& emitted, const catena_model& closed, c
       CHECK_NEAR(down[i], expected_down[i], scale);
     }
   };
-  emitted.positions(&at, side.data(), down.data());
-  closed.positions(&at, expected_side.data(), expected_down.data());
+  emitted.positions(emitted.context, &at, side.data(), down.data());
+  closed.positions(closed.context, &at, expected_side.data(), expected_down.data());
   compare(reach);
-  emitted.velocities(&at, side.data(), down.data());
-  closed.velocities(&at, expected_side.data(), expected_down.data());
+  emitted.velocities(emitted.context, &at, side.data(), down.data());
+  closed.velocities(closed.context, &at, expected_side.data(), expected_down.data());
   compare(speed);
-  emitted.positions_tangent(&at, &along, side.data(), down.data());
-  closed.positions_tangent(&at, &along, expected_side.data(), expected_down.data());
+  emitted.positions_tangent(emitted.context, &at, &along, side.data(), down.data());
+  closed.positions_tangent(closed.context, &at, &along, expected_side.data(), expected_down.data());
   compare(change);
 
   VectorXd energy(emitted.energies), expected(closed.energies);
-  emitted.energy(&at, energy.data());
-  closed.energy(&at, expected.data());
+  emitted.energy(emitted.context, &at, energy.data());
+  closed.energy(closed.context, &at, expected.data());
   double kinetic = 0.0, height = 0.0, elastic = 0.0, damping = 0.0;
   for (int i = 0; i < n; ++i) {
     kinetic += std::abs(s.v[i]) * bound.m_times(i, s.v);
@@ -292,8 +292,8 @@ void compare_geometry(const catena_model& emitted, const catena_model& closed, c
   other.q += s.dq;
   const catena_point at_other = other.at();
   VectorXd energy_other(emitted.energies), expected_other(closed.energies);
-  emitted.energy(&at_other, energy_other.data());
-  closed.energy(&at_other, expected_other.data());
+  emitted.energy(emitted.context, &at_other, energy_other.data());
+  closed.energy(closed.context, &at_other, expected_other.data());
   CHECK_NEAR(energy_other[1] - energy[1], expected_other[1] - expected[1], 2.0 * height);
 }
 
@@ -305,7 +305,7 @@ void compare_internal_forces(const catena_model& emitted, const Sample& s) {
   const Scale bound(s);
   const catena_point at = s.at();
   VectorXd moment(n), tension(n), curvature(n);
-  emitted.internal_forces(&at, moment.data(), tension.data(), curvature.data());
+  emitted.internal_forces(emitted.context, &at, moment.data(), tension.data(), curvature.data());
   const auto parameter = [&](int family, int i) { return s.p[family * n + i]; };
   const double load = s.p[6 * n], gravity = s.p[6 * n + 1];
   VectorXd side(n), down(n);  // forces that link i and the load ask for: m (a - g)

@@ -36,7 +36,7 @@ TEST_CASE("wrong derivations are refused with line, column and what was expected
       {"links 2\nL = if 1 < 2 then 3", "2:20", "expected 'else'"},
       {"links 2\nidentity \"x: 1 = 1", "2:10", "no closing quote"},
       {"L = 1", "1:1", "expected first 'links N'"},
-      {"links 0\nL = 1", "1:1", "must be from 1 to 1000"},
+      {"links 0\nL = 1", "1:1", "must be from 1 to 10000"},
       {"links 1.5\nL = 1", "1:7", "must be an integer"},
       {"links 2\nlinks 3", "2:1", "already set"},
       {"links 2\nL = m_3", "2:5", "m[3]: the index 3 is not in 1..2"},
