@@ -11,8 +11,8 @@
 #include <cstring>
 #include <string>
 
-#include "benchmarks/cable.hpp"
 #include "benchmarks/interleaved.hpp"
+#include "benchmarks/table_6_1_cable.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/simulation.hpp"
 

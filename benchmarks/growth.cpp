@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-#include "benchmarks/cable.hpp"
+#include "benchmarks/table_6_1_cable.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/simulation.hpp"
 

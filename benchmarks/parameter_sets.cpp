@@ -9,8 +9,8 @@
 #include <cstring>
 #include <vector>
 
-#include "benchmarks/cable.hpp"
 #include "benchmarks/interleaved.hpp"
+#include "benchmarks/table_6_1_cable.hpp"
 #include "generated/chain_12.hpp"
 #include "generated/chain_2.hpp"
 #include "generated/chain_3.hpp"

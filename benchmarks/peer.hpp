@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "benchmarks/cable.hpp"
+#include "benchmarks/table_6_1_cable.hpp"
 
 namespace catena::benchmark {
 

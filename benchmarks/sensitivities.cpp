@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "benchmarks/cable.hpp"
+#include "benchmarks/table_6_1_cable.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 

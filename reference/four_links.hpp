@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 
-/// Four links, (3.10)-(3.14), typed from section 3.4 term by term: a witness apart from the generic
-/// algorithms. Symbols as printed; the vectors of the chain must have four entries.
+/// Four links, (3.10)-(3.14), typed from section 3.4 term by term, independently of the generic
+/// algorithms. Symbols are as printed. The vectors of the chain must have four entries.
 namespace catena::reference::four_links {
 
 /// L = T - V (J), (3.10).

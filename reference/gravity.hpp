@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 
 namespace catena::reference {
 

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 
 namespace catena::reference {
 
-/// Inertia matrix I (kg m^2), symmetric, links x links; theta in rad.
-/// Dissertation (4.3) and (4.4). It gives the upper triangle; the lower one follows from symmetry.
+/// Mass matrix M (kg m^2), symmetric, links x links; theta in rad. Dissertation (4.3) and (4.4),
+/// which call it I and give the upper triangle; the lower one follows from symmetry.
 template <class T>
 Matrix<T> mass_matrix(const Chain<T>& chain, const Vector<T>& theta) {
   using std::cos;

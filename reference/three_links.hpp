@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 
-/// Three links, (3.6)-(3.9), typed from section 3.3 term by term: a witness apart from the generic
-/// algorithms. Symbols as printed; the vectors of the chain must have three entries.
+/// Three links, (3.6)-(3.9), typed from section 3.3 term by term, independently of the generic
+/// algorithms. Symbols are as printed. The vectors of the chain must have three entries.
 namespace catena::reference::three_links {
 
 /// L = T - V (J), (3.6).

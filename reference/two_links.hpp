@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 
-/// Two links, (3.1)-(3.5), typed from section 3.2 term by term: a witness apart from the generic
-/// algorithms. Symbols as printed; the vectors of the chain must have two entries.
+/// Two links, (3.1)-(3.5), typed from section 3.2 term by term, independently of the generic
+/// algorithms. Symbols are as printed. The vectors of the chain must have two entries.
 namespace catena::reference::two_links {
 
 /// L = T - V (J), (3.1).

@@ -154,7 +154,7 @@ State catenary(const Model& model, const Eigen::VectorXd& parameters, const Cabl
   if (!end.allFinite())
     throw std::invalid_argument("held point (side " + number_text(held.side) + " m, down " +
                                 number_text(held.down) + " m) must be finite");
-  // A relative 1e-12 forgives the rounding of lengths that were meant to add up to the distance.
+  // A relative 1e-12 allows for the rounding of lengths that add up to the distance.
   if (end.norm() > lengths.sum() * (1.0 + 1e-12))
     throw std::invalid_argument("held point (side " + number_text(held.side) + " m, down " +
                                 number_text(held.down) + " m) is " + number_text(end.norm()) +
@@ -195,7 +195,7 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
       result.message = "the stiffness of the chain at rest is singular: no isolated equilibrium";
       return result;
     }
-    // Newton's step, shortened to half a radian, where the linear picture ends.
+    // Newton's step, shortened to half a radian: farther away the linearisation says little.
     const double longest = step.cwiseAbs().maxCoeff();
     q += step * std::min(1.0, 0.5 / longest);
     if (longest <= 1e-13 * (1.0 + q.cwiseAbs().maxCoeff())) {

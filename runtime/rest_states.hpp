@@ -16,8 +16,7 @@ namespace catena {
 ///
 ///     const Model model = Model::built_in(12);
 ///     const State askew = straight(model, 0.6);                      // every link at 0.6 rad
-///     Eigen::VectorXd parameters = model.default_parameters();       // NaN where there is none
-///     parameters.head(12).setConstant(0.2);                          // m, length_1 .. length_12
+///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.2);
 ///     const State held = catenary(model, parameters, {1.2, 1.8});    // side, down of the end, m
 
 /// Every link at `angle` (rad) from the downward vertical.
@@ -41,13 +40,14 @@ enum class CatenaryFit {
 /// `held` (m), where the free end is held. Link lengths are those of `parameters` (one entry per
 /// parameter of the model); other parameters are not used, as (2.53) is a uniform cable without
 /// stiffness. If the held point is below the support, the cable goes straight down and up again.
-/// Throws std::invalid_argument if the held point is farther away than the cable is long or is not
+/// Throws std::invalid_argument on parameters that
+/// the model refuses, if the held point is farther away than the cable is long or is not
 /// finite, and if kEndHeld finds no neighbouring catenary (few links).
 State catenary(const Model& model, const Eigen::VectorXd& parameters, const CablePoint& held,
                CatenaryFit fit = CatenaryFit::kEndHeld);
 
 struct Equilibrium {
-  Status status = Status::kNotRun;  ///< kSuccess, kNoConvergence, kNotFinite or kSingular
+  Status status = Status::kNotRun;  ///< kSuccess, kNoConvergence or kSingular
   std::string message;              ///< empty on success
   State state;                      ///< at rest
 };

@@ -17,7 +17,7 @@ using GiNaC::ex;
 using GiNaC::numeric;
 using Values = std::vector<double>;
 
-constexpr double kGrowth = 10;  // of a Newton matrix's entries in elimination; no bound holds above
+constexpr double kGrowth = 10;  // most growth of the entries of N in elimination that is measured
 
 constexpr int kDigits = 50;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
@@ -126,7 +126,7 @@ class Measurement {
     }
   }
 
-  // Along a direction the gradient is the slope of what it is the gradient of.
+  // The product of the gradient with a direction is the derivative along this direction.
   void adjoint() {
     const catena_point here = point_.at();
     RandomPoint along = direction_;
@@ -163,7 +163,7 @@ class Measurement {
     Values mass(at(n * n));
     table_.mass_matrix(table_.context, &here, mass.data());
     const double size = largest(mass);
-    // M x for one x tells of every entry; the product of the doubles is taken exactly.
+    // M x for one x depends on every entry. The product of the doubles is exact.
     const auto inputs = exact_inputs(table_, point_);
     std::map<std::string, numeric> x;
     for (int j = 0; j < n; ++j) {
@@ -208,7 +208,7 @@ class Measurement {
     const int n = table_.coordinates;
     double cv = 0.5 + static_cast<double>(generator() % 64);
     Values matrix = newton_matrix(cv);
-    // As an integrator, which takes a shorter step where N has no good pivots; with cv = 0 it is M.
+    // An integrator shortens its step where the pivots of N are small. With cv = 0 N is M.
     for (; elimination_growth(matrix) > kGrowth; matrix = newton_matrix(cv)) cv /= 2;
     const double ca = 1.0, cq = cv * cv, size_of_matrix = largest(matrix);
     Values work(at(table_.newton_work)), x(at(n));
@@ -266,7 +266,7 @@ class Measurement {
     return matrix;
   }
 
-  // By how much the entries grow as rows are eliminated from the last up, without exchanges.
+  // Growth of the entries when rows are eliminated from the last to the first, without exchanges.
   static double elimination_growth(Values matrix) {
     const double before = largest(matrix);
     const auto n = static_cast<int>(std::lround(std::sqrt(matrix.size())));
@@ -284,7 +284,7 @@ class Measurement {
     return met / before;
   }
 
-  // along.z as the rest of `along` moves it in N: cv (1 - cv df/dz)^-1 (df/dv dv + df/dq dq)
+  // along.z that follows from the rest of `along` in N: cv (1 - cv df/dz)^-1 (df/dv dv + df/dq dq)
   void eliminate_states(RandomPoint& along, double cv) {
     if (table_.states == 0) return;
     const catena_point here = point_.at();
@@ -452,7 +452,7 @@ std::vector<FunctionAccuracy> measure_accuracy(const Description& description, i
                                                const catena_model& table, int points,
                                                unsigned seed) {
   const long digits_before = GiNaC::Digits;
-  GiNaC::Digits = kDigits + 20;  // the differences' step of 1e-18 costs digits
+  GiNaC::Digits = kDigits + 20;  // differences with a step of 1e-18 lose digits
   Measurement measurement(description, links, table);
   std::mt19937_64 generator(seed);
   for (int k = 0; k < points; ++k) measurement.add_point(generator);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How exactly an emitted model computes: every function of its table, at seeded random points in
-// double precision, against the derivation evaluated at the same points in 50 digits.
+// Accuracy of an emitted model: every function of its table, in double precision at seeded random
+// points, is compared with the derivation, evaluated at the same points with 50 digits.
 //
-// Errors are in units of rounding, 2.2e-16 times the size of what is added up in the result:
+// Errors are in units of rounding: 2.2e-16 times a size that depends on the function.
 //   residual, bias, residual_tangent   the largest sum of the sizes of r's terms over its rows
 //   mass_matrix                        its largest entry
 //   acceleration                       backward: |r(a)| over the same size, a the one returned
 //   newton_solve                       backward: |N x - b| over |N| |x|; its transpose likewise;
-//                                      the step as short as elimination without exchanges asks for
+//                                      the step so short that elimination needs no row exchanges
 //   residual_adjoint                   along a direction, over the sizes of what is added up there
 //   energy                             for each stored energy the sum of the sizes of its parts
 //   power                              the sum of the sizes of all powers, v.r included
@@ -16,7 +16,7 @@
 //   internal_forces                    the largest force, moment and curvature
 //   their tangents                     the same, plus the size of the derivative
 //   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers
-// Derivatives are held against central differences of the 50-digit values, step 1e-18.
+// Derivatives are compared with central differences of the 50-digit values, step 1e-18.
 #pragma once
 
 #include <string>
@@ -32,8 +32,8 @@ struct FunctionAccuracy {
   double worst = 0;      ///< units of rounding; NaN if a value is not finite
 };
 
-/// `table` is the compiled model of the description with so many links. The same seed gives the
-/// same points on every machine.
+/// `table` is the compiled model of `description` with `links` links. The same seed gives the same
+/// points on every machine.
 std::vector<FunctionAccuracy> measure_accuracy(const Description& description, int links,
                                                const catena_model& table, int points,
                                                unsigned seed);

@@ -27,15 +27,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kPoints = 3;
 constexpr unsigned kSeed = 1;
-// Measured are up to 3 roundings of what is summed up, and little more with more links. Other
-// compilers and mathematical libraries may round otherwise; a wrong digit anywhere costs thousands.
+// Measured errors are up to 3 roundings, and little more with more links. Other compilers and
+// mathematical libraries may round differently. A wrong digit anywhere gives thousands of
+// roundings.
 constexpr double kTolerance = 30;
-// The eigenvalue solver loses the condition of M, about n^4 for the frequencies that matter least.
+// The eigenvalue solver loses accuracy with the condition of M, about n^4 for the highest
+// frequencies.
 constexpr double kFrequencyTolerance = 1e-9;
 constexpr const char* kFrequencyKinds[] = {"natural_frequencies",
                                            "natural_frequencies_with_effects"};
 
-// L = T - V as the derivation holds it: each part and every definition it needs, in order.
+// L = T - V as in the derivation: each part and every definition that it needs, in order.
 std::string lagrangian_text(Chain& chain) {
   const Definitions& definitions = chain.definitions();
   std::vector<int> needed;
@@ -61,7 +63,7 @@ std::string lagrangian_text(Chain& chain) {
   return text;
 }
 
-// `not_provable` is told what cannot be had.
+// What cannot be proved is added to `not_provable`.
 Json proofs(const Description& description, int links, const Json& summary, Json& not_provable) {
   Json list = Json::array();
   const auto add = [&](const std::string& what, bool proved) {
@@ -81,7 +83,7 @@ Json proofs(const Description& description, int links, const Json& summary, Json
   if (!neutral.why_not.empty()) {
     not_provable.push_back("the plain chain at neutral values: " + neutral.why_not);
   }
-  // What the emitted code exploits it does only where it is proved; what is not, is not claimed.
+  // The emitted code uses only structure that is proved; other structure is not listed.
   const Json& structure = summary.at("structure");
   if (structure.at("mass_matrix").at("symmetric")) add("M symmetric", true);
   if (structure.at("mass_matrix").at("semiseparable")) add("M semiseparable", true);
@@ -96,14 +98,14 @@ Json proofs(const Description& description, int links, const Json& summary, Json
   return list;
 }
 
-// Three digits are enough to compare, and to read.
+// Three digits are enough for a comparison.
 double rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return std::stod(text);
 }
 
-// Counts are whole until they are too large to be.
+// Counts are whole numbers as long as a double holds them.
 Json count(double operations) {
   if (operations < 0x1p53) return static_cast<std::int64_t>(operations);
   return rounded(operations);
@@ -133,14 +135,14 @@ Json hashes(const std::string& model, const EmittedFiles& files) {
   return result;
 }
 
-// What the 50 digits themselves leave (near 1e-62) depends on the order of a sum, which is not the
-// same in every run.
+// Errors of the 50-digit values themselves (near 1e-62) depend on the order of a sum, which differs
+// from run to run.
 constexpr double kExact = 1e-9;
 
 Json worst(const std::vector<FunctionAccuracy>& accuracies) {
   Json result;
   for (const FunctionAccuracy& accuracy : accuracies) {
-    // NaN has no place in JSON; an error that cannot be stated is infinite.
+    // JSON has no NaN; such an error counts as infinite.
     result[accuracy.function] = !std::isfinite(accuracy.worst) ? 1e300
                                 : accuracy.worst < kExact      ? 0.0
                                                                : rounded(accuracy.worst);
@@ -148,7 +150,7 @@ Json worst(const std::vector<FunctionAccuracy>& accuracies) {
   return result;
 }
 
-// With the effects at work; without effects there is nothing that natural_frequencies leaves out.
+// With effects that are not at their neutral values. Without effects natural_frequencies is enough.
 Json frequencies_with_effects(const Description& description, int links,
                               const catena_model& table) {
   const RestFrequencies frequencies = rest_frequencies(description, links, table, kSeed);

@@ -21,7 +21,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Runs a program, its error output into a file. Returns its exit status, -1 if it did not exit.
+// Runs a program with its error output in a file. Returns its exit status, -1 if it was killed.
 int run(const std::vector<std::string>& command, const std::filesystem::path& errors) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));

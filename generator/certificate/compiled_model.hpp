@@ -9,13 +9,13 @@
 
 namespace catena {
 
-/// One emitted model, compiled as users compile it (-O2 -ffp-contract=off; C as -std=c99) and
-/// loaded. Everything it wrote is gone when it is.
+/// One emitted model, compiled as users compile it (-O2 -ffp-contract=off; C with -std=c99) and
+/// loaded. The destructor deletes all files.
 class CompiledModel {
  public:
-  /// `files` as emit_files gives them, `name` the model's ("chain_12"). The compiler is $CXX or
-  /// c++, of C $CC or cc. Throws std::runtime_error with what the compiler said if it cannot be
-  /// compiled.
+  /// `files`: those of emit_files. `name`: of the model, "chain_12". The compiler is $CXX or c++,
+  /// for C $CC or cc. Throws std::runtime_error with the messages of the compiler if compiling
+  /// fails.
   CompiledModel(const EmittedFiles& files, const std::string& name, Language language);
   ~CompiledModel();
   CompiledModel(const CompiledModel&) = delete;

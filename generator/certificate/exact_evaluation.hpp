@@ -12,11 +12,11 @@
 
 namespace catena {
 
-/// Values of a derivation's definitions at one point, to GiNaC::Digits digits. It computes from the
-/// definitions, not from emitted text.
+/// Values of the definitions of a derivation at one point, with GiNaC::Digits digits. They are
+/// computed from the definitions, not from emitted text.
 class ExactEvaluation {
  public:
-  /// Gives the value of an input, "theta[2]", "load_mass"; never asked for "pi".
+  /// Returns the value of an input, "theta[2]" or "load_mass". It is not called for "pi".
   using Inputs = std::function<GiNaC::ex(const std::string& name)>;
 
   ExactEvaluation(const Definitions& definitions, Inputs inputs);

@@ -9,9 +9,9 @@
 
 namespace catena {
 
-/// Operations (additions, multiplications, divisions, functions) that the expressions would take if
-/// every definition were written out where it is used: what the equations cost before sharing.
-/// Counted in double, as it grows beyond any integer.
+/// Number of operations (additions, multiplications, divisions, functions) of the expressions if
+/// every definition were written out where it is used: the cost of the equations before sharing. A
+/// double, since the number may exceed every integer type.
 double operations_written_out(const Definitions& definitions, const std::vector<GiNaC::ex>& values);
 
 }  // namespace catena

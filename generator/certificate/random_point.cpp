@@ -14,7 +14,7 @@ namespace {
 
 using GiNaC::numeric;
 
-// Between low and high; not std::uniform_real_distribution, which differs between libraries.
+// Between low and high. std::uniform_real_distribution differs between libraries.
 double uniform(std::mt19937_64& generator, double low, double high) {
   return low + (high - low) * (static_cast<double>(generator() >> 11) * 0x1p-53);
 }
@@ -59,12 +59,12 @@ RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) 
   RandomPoint point;
   point.t = uniform(generator, 0, 2);
   point.q = uniform_list(table.coordinates, 1.5, generator);
-  // Further coordinates (strains) are small beside the lengths they change.
+  // Further coordinates (strains) are small compared with 1.
   for (int i = table.links; i < table.coordinates; ++i) point.q[static_cast<std::size_t>(i)] /= 5;
   point.v = uniform_list(table.coordinates, 3, generator);
   point.a = uniform_list(table.coordinates, 5, generator);
-  // Extra states (slips) stay below what makes a joint give way: beyond it no motion leads, and
-  // Newton matrices, factored without exchanges of rows, need not have pivots.
+  // Extra states (slips) stay within the range that motions reach. Outside of it Newton matrices,
+  // which are factored without row exchanges, may have no pivots.
   point.z = uniform_list(table.states, 0.2, generator);
   point.u = uniform_list(3 * table.signals, 1, generator);
   for (int i = 0; i < table.parameters; ++i) {

@@ -24,7 +24,7 @@ using GiNaC::numeric;
 using Eigenvalues = std::vector<std::complex<double>>;
 
 constexpr int kDigits = 70;
-// The differences take about 8 n^2 evaluations in 70 digits: ten seconds for as many.
+// The differences take about 8 n^2 evaluations in 70 digits: ten seconds for so many coordinates.
 constexpr int kMostCoordinates = 24;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -63,7 +63,7 @@ RandomPoint still(const catena_model& table) {
   return point;
 }
 
-// dr/dq as emitted
+// dr/dq by the emitted code
 MatrixXd emitted_stiffness(const catena_model& table, const RandomPoint& point) {
   MatrixXd stiffness(table.coordinates, table.coordinates);
   const catena_point here = point.at();
@@ -77,7 +77,7 @@ MatrixXd emitted_stiffness(const catena_model& table, const RandomPoint& point) 
   return stiffness;
 }
 
-// Moves the point to where the residual vanishes; false if that is not reached.
+// Moves the point to the equilibrium; false if none is reached.
 bool come_to_rest(const catena_model& table, RandomPoint& point) {
   constexpr int kMostSteps = 200;
   constexpr double kLongestStep = 0.3, kShortestStep = 1e-12;
@@ -149,7 +149,7 @@ class FromEnergies {
     return sum;
   }
 
-  // What leaves the chain; the support's force does no work while it rests.
+  // The power that leaves the chain. The force of a fixed support does no work.
   numeric power(const ExactEvaluation::Inputs& inputs) {
     ExactEvaluation evaluation(chain_.definitions(), inputs);
     numeric sum = 0;
@@ -203,7 +203,7 @@ RestFrequencies rest_frequencies(const Description& description, int links,
   RandomPoint rest = still(table);
   rest.p = parameters(description, table, seed);
   if (!come_to_rest(table, rest)) {
-    result.why_not = "no rest was found from hanging straight";
+    result.why_not = "no equilibrium was found from the straight chain";
     return result;
   }
   MatrixXd mass(table.coordinates, table.coordinates);

@@ -24,7 +24,7 @@ constexpr Real kRounding = std::numeric_limits<double>::epsilon();
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// The parameters of a chain as they lie in p: families of one entry a link, load, gravity.
+// The parameters of a chain in the order of p: families with one entry per link, load, gravity.
 template <class T>
 reference::Chain<T> reference_chain(const catena_model& table, const std::vector<double>& p) {
   const auto family = [&](int k) {
@@ -139,7 +139,7 @@ std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int p
 Frequencies natural_frequencies(const catena_model& table) {
   Frequencies result;
   if (table.coordinates != table.links) {
-    result.why_not = "the model has coordinates beside the angles";
+    result.why_not = "the model has coordinates other than the angles";
     return result;
   }
   RandomPoint rest;
@@ -148,7 +148,7 @@ Frequencies natural_frequencies(const catena_model& table) {
   rest.z.assign(at(table.states), 0.0);
   rest.u.assign(at(3 * table.signals), 0.0);
   if (std::any_of(rest.p.begin(), rest.p.end(), [](double p) { return !std::isfinite(p); })) {
-    result.why_not = "an effect of the model vanishes only in a limit";
+    result.why_not = "an effect of the model vanishes in a limit only";
     return result;
   }
   const int n = table.links;

@@ -11,18 +11,19 @@
 
 namespace catena {
 
-/// M, F, G, K theta, C thetadot of the plain chain, each against its closed form in long double, at
-/// seeded random points; units as in accuracy.hpp. Only for models without effects.
+/// Compares M, F, G, K theta and C thetadot of the plain chain with the closed forms in long
+/// double, at seeded random points. Units are those of accuracy.hpp. Only for models without
+/// effects.
 std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int points,
                                                 unsigned seed);
 
-/// The parameters, in the order of the table, of the 3.39 m cable of chapter 6 (0.1424 kg/m, load
-/// 1.47 kg, k_i = 47.448 N m/rad) without damping or torque; every effect's at its neutral value,
-/// or its default where it has none.
+/// Parameters, in the order of the table, of the 3.39 m cable of chapter 6 (0.1424 kg/m, load 1.47
+/// kg, k_i = 47.448 N m/rad) without damping and torque. Those of effects have their neutral
+/// values, or their defaults where there is no neutral value.
 std::vector<double> cable_parameters(const catena_model& table);
 
-/// Undamped natural frequencies, rad/s, ascending, of cable_parameters' cable hanging at
-/// rest.
+/// Undamped natural frequencies (rad/s, ascending) of the cable of cable_parameters about its
+/// equilibrium.
 struct Frequencies {
   bool applicable = false;
   std::string why_not;            ///< if not applicable

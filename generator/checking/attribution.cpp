@@ -14,7 +14,7 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-/// Whose terms they are: the symbol they are linear in, and whether they are weights.
+/// The source of terms: the symbol in which they are linear, and whether they are weights.
 using Source = std::pair<SymbolOrder, bool>;
 
 struct Piece {
@@ -116,7 +116,7 @@ class Attribution {
     return result;
   }
 
-  /// Says so if all of the model's entry is there, only with another factor.
+  /// A sentence if the whole entry is the model's times a factor.
   std::optional<std::string> whole_entry(const Fraction& difference, const Contributions& parts) {
     const Fraction model = form_(total(parts));
     if (parts.size() < 2 || model.denominator != 1 || difference.denominator != 1)

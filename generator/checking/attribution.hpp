@@ -10,10 +10,10 @@
 
 namespace catena::checking {
 
-/// Says where a difference (by hand minus model) comes from, one sentence a source: which parts of
-/// the model's `parts` are missing, carry the wrong sign or factor, or differ otherwise. Every term
-/// of the chain's equations is linear in exactly one mass, inertia, stiffness, damping or torque,
-/// which names its source; terms that are not are reported as belonging nowhere.
+/// The sources of a difference (by hand minus model), one sentence each: which of the model's
+/// `parts` are missing, have the wrong sign or factor, or differ otherwise. Every term of the
+/// chain's equations is linear in exactly one mass, inertia, stiffness, damping or torque, which is
+/// its source. Other terms are reported as belonging to no source.
 std::vector<std::string> origins_of(const Fraction& difference, const Contributions& parts,
                                     const ChainSymbols& chain, NormalForm& form);
 

@@ -7,8 +7,8 @@
 
 namespace catena::checking {
 
-/// The symbols in which a chain of n links is written. Vectors are indexed 1..n; entry 0 stands for
-/// the fixed support: angle[0], rate[0] and acceleration[0] are 0, the others unused.
+/// The symbols of a chain of n links. Vectors are indexed 1..n. Entry 0 is that of the support:
+/// angle[0], rate[0] and acceleration[0] are 0, the others are not used.
 struct ChainSymbols {
   explicit ChainSymbols(int links);
 
@@ -25,8 +25,8 @@ struct ChainSymbols {
   GiNaC::ex load_mass;                  ///< m_c, kg
   GiNaC::ex gravity;                    ///< g, m/s^2
 
-  /// d/dt of an expression in these symbols, angles and rates being functions of time. Throws
-  /// std::invalid_argument if it contains an acceleration (no third derivatives here) .
+  /// d/dt of an expression in these symbols, where angles and rates are functions of time. Throws
+  /// std::invalid_argument if it contains an acceleration: there are no third derivatives.
   [[nodiscard]] GiNaC::ex time_derivative(const GiNaC::ex& expression) const;
 
   /// True if angles, rates and accelerations do not occur in the expression.

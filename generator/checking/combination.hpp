@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an equation of motion stated by hand may be: not only one of the chain's equations r_j = 0,
-// but a sum of several, each times a factor, or the equations solved for an acceleration.
+// An equation of motion stated by hand may be one of the chain's equations r_j = 0, a sum of
+// several, each times a factor, or the equations solved for an acceleration.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -14,19 +14,19 @@
 
 namespace catena::checking {
 
-/// divisor h = sum_j factor_j r_j, h being the stated equation with everything on its left side.
+/// divisor h = sum_j factor_j r_j, where h = 0 is the stated equation.
 struct Combination {
   std::map<int, GiNaC::ex> factors;  ///< by number of the equation; those that are not zero
   GiNaC::ex divisor = 1;
 };
 
-/// What h may be, to be proved or refuted by the caller: read off where only r_j has a symbol (T_j,
-/// I_j thetaddot_j), where r_j and r_{j-1} share it (c_j, k_j), and for up to kMostSolvedLinks
-/// links from the accelerations, M f = dh/dthetaddot.
+/// Candidates for h, which the caller proves or refutes. The factors are found from symbols that
+/// only r_j has (T_j, I_j thetaddot_j), from symbols that r_j and r_{j-1} share (c_j, k_j), and for
+/// up to kMostSolvedLinks links from the accelerations, M f = dh/dthetaddot.
 std::vector<Combination> possible_combinations(const GiNaC::ex& hand, const ChainSymbols& chain,
                                                const FlatDerivation& model);
 
-/// More links make the determinant of M too long for proofs.
+/// With more links the determinant of M is too long for proofs.
 inline constexpr int kMostSolvedLinks = 3;
 
 }  // namespace catena::checking

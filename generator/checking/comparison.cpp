@@ -26,10 +26,10 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-// Equations that are not proved are held against the motion of so many links at most.
+// Most links for which equations that are not proved are compared with the motion.
 constexpr int kMostCompared = 12;
 
-// Proofs that would take more products than this, which is a few seconds, are left to evaluation.
+// Proofs of more products than this, a few seconds, are replaced by evaluation.
 constexpr double kMostExpanded = 5.5e5;
 
 // The difference of an equation of more products than this is not written out.
@@ -187,13 +187,13 @@ class Comparison {
   }
 
   /// An equation of motion may be stated with a factor, as a sum of several with factors, or solved
-  /// for an acceleration. It is judged as the combination of the chain's equations that it is.
+  /// for an acceleration. It is compared with that combination of the chain's equations.
   Finding of_equation(const Entry& entry) {
     const ex hand = given(entry.value - entry.right);
     if (says_nothing(hand)) {
       Finding finding;
       finding.verdict = Verdict::kDifferent;
-      finding.remark = "it says nothing: both sides are the same for every motion";
+      finding.remark = "it states nothing: both sides are the same for every motion";
       return finding;
     }
     const int solved = solved_for(hand);
@@ -213,7 +213,7 @@ class Comparison {
     }
     if (std::optional<Finding> finding = by_motion(hand, solved, fraction.denominator))
       return *finding;
-    // Whichever combination leaves least is how it was meant.
+    // The combination with the shortest difference is taken as the intended one.
     std::optional<Finding> best;
     for (const Combination& candidate : candidates) {
       if (!has_constant_factors(candidate)) continue;
@@ -291,7 +291,7 @@ class Comparison {
                [&](const auto& entry) { return derivation_.chain->is_constant(entry.second); });
   }
 
-  /// Saves proofs that must fail.
+  /// Avoids proofs that must fail.
   bool differs_somewhere(const ex& excess) const {
     for (std::uint64_t attempt = 0; attempt < kStates; ++attempt) {
       const std::optional<numeric> value =
@@ -349,8 +349,8 @@ class Comparison {
     return random_state(symbols_in(all), seed_);
   }
 
-  /// What is not proved is held against the chain's motion. Nothing is said of equations that do
-  /// not hold and whose difference is worth writing out.
+  /// Compares an equation that is not proved with the chain's motion. Returns nothing for equations
+  /// that do not hold and whose difference is short enough to be written out.
   std::optional<Finding> by_motion(const ex& hand, int solved, const ex& denominator) {
     const ChainSymbols& chain = *derivation_.chain;
     const bool must_be_judged =

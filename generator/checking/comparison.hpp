@@ -14,11 +14,11 @@ namespace catena::checking {
 
 enum class Verdict {
   kEqual,      ///< proved, or by evaluation
-  kDifferent,  ///< disproved, or beyond what is decided but different at a state to many digits
-  kUndecided   ///< beyond what is decided, and equal at every state tried
+  kDifferent,  ///< disproved, or not decided by algebra but different at a state
+  kUndecided   ///< not decided by algebra, and equal at every state tried
 };
 
-/// What is known about one entry.
+/// The result for one entry.
 struct Finding {
   Verdict verdict = Verdict::kUndecided;
   bool by_evaluation = false;        ///< equal at a random point, exactly: exact_form.hpp
@@ -27,18 +27,17 @@ struct Finding {
   std::string simplest;              ///< the shortest term of a long difference, else empty
   std::size_t terms = 0;             ///< of the difference
   std::vector<std::string> origins;  ///< where the difference comes from
-  std::vector<std::string> state;    ///< "theta_1 = 0.73" ...: where the two values below stand
+  std::vector<std::string> state;    ///< "theta_1 = 0.73" ...: of the two values below
   std::string value;                 ///< by hand, or left side, 12 digits
   std::string expected;              ///< the model's, or right side
   std::map<int, GiNaC::numeric> combination;  ///< of an equation that holds: its factors at a state
 };
 
-/// One finding for each entry of the derivation, in its order. The chain's side is derived afresh
-/// from its energies (FlatDerivation). `seed` selects the states in numbers and the points of
-/// evaluations.
+/// One finding for each entry of the derivation, in its order. The chain's side is derived from its
+/// energies (FlatDerivation). `seed` selects the states and the points of evaluations.
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
 
-/// How many of the equations found to hold are independent of one another (at a random state).
+/// How many of the equations that hold are independent of one another, at a random state.
 int independent_equations(const std::vector<Finding>& findings, int links);
 
 }  // namespace catena::checking

@@ -12,7 +12,7 @@
 
 namespace catena::checking {
 
-/// What a hand derivation can state about the chain; kIdentity stands alone.
+/// What a hand derivation can state about the chain. kIdentity needs no chain.
 enum class Quantity {
   kLagrangian,
   kKinetic,
@@ -27,7 +27,7 @@ enum class Quantity {
   kIdentity
 };
 
-/// How the quantity is written, e.g. M, equation.
+/// The name of the quantity in a derivation: "M", "equation".
 std::string name_of(Quantity quantity);
 
 /// One statement to be checked, evaluated.
@@ -38,16 +38,16 @@ struct Entry {
   std::string label;                  ///< "M[1,2]", "equation 1" or the identity's own label
   GiNaC::ex value;                    ///< as derived by hand; left side of an equation or identity
   GiNaC::ex right = 0;                ///< right side of an equation or identity
-  Location at;                        ///< where it got this value
-  std::vector<Location> overwritten;  ///< where it had got values before
+  Location at;                        ///< where this value was assigned
+  std::vector<Location> overwritten;  ///< where values were assigned before
 };
 
-/// A hand derivation with its loops run and its sums written out.
+/// A hand derivation after its loops and sums have been evaluated.
 struct Derivation {
   std::unique_ptr<ChainSymbols> chain;  ///< null for a scalar derivation
   GiNaC::exmap given;                   ///< parameter -> value, holds on both sides
   std::vector<Entry> entries;           ///< in the order of Quantity, then of indices
-  std::vector<std::string> notes;       ///< worth knowing, no errors
+  std::vector<std::string> notes;       ///< remarks that are not errors
 };
 
 }  // namespace catena::checking

@@ -187,7 +187,7 @@ class Evaluator {
         (name == "m_c" || name == "g" || name == "n" ||
          (families().count(name) != 0 && !(name == "T" && reference.indices.empty())));
     if (parameter && name == "I" && reference.indices.size() == 2)
-      fail(target.at, "the matrix of inertia is called M here; I_i is the inertia of link i");
+      fail(target.at, "the mass matrix is called M; I_i is the inertia of link i");
     if (parameter)
       fail(target.at, "'" + reference.text() +
                           "' is a symbol of the chain and cannot be assigned; to state a value "

@@ -8,9 +8,9 @@
 
 namespace catena::checking {
 
-/// Runs a derivation. `links` replaces the number the derivation states. Throws InputError with
-/// file, line and column for unknown names, indices out of range, divisions by zero and the like,
-/// and if there is nothing to check.
+/// Evaluates a derivation. `links` replaces the number of links that the derivation states. Throws
+/// InputError with file, line and column for unknown names, indices out of range, divisions by zero
+/// and similar errors, and if there is nothing to check.
 Derivation evaluate(const Program& program, const std::string& file,
                     std::optional<int> links = std::nullopt);
 

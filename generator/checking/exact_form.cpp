@@ -31,7 +31,7 @@ GiNaC::exset variables_in(const std::vector<ex>& expressions) {
   return found;
 }
 
-/// From 1 to 2^bits. A name gives the same number in every order of drawing.
+/// From 1 to 2^bits. The number depends on the name, not on the order of calls.
 numeric random_integer(const std::string& name, int bits, std::uint64_t seed) {
   std::vector<std::uint32_t> material(name.begin(), name.end());
   material.push_back(static_cast<std::uint32_t>(seed));

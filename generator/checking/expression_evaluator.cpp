@@ -88,7 +88,7 @@ ex ExpressionEvaluator::family_member(Location at, const Reference& reference,
                                       Family family) const {
   if (reference.indices.size() != 1)
     fail(at, reference.text() + ": expected one index" +
-                 (reference.name == "I" ? "; the matrix of inertia is called M here" : ""));
+                 (reference.name == "I" ? "; the mass matrix is called M" : ""));
   const bool state = reference.name.rfind("theta", 0) == 0;  // theta_0 = 0, as in (2.9)
   check_range(at, reference, reference.indices[0], state ? 0 : 1);
   return ((*scope_.chain).*family)[static_cast<std::size_t>(reference.indices[0])];

@@ -11,22 +11,21 @@
 
 namespace catena::checking {
 
-/// Gives expressions their values in a scope. Sums bind their index in the scope while they run;
-/// reading an entry that is not set yet leaves a note there. Throws InputError with file, line,
-/// column.
+/// Evaluates expressions in a scope. A sum binds its index in the scope. Reading an entry that is
+/// not set yet adds a note to the scope. Throws InputError with file, line and column.
 class ExpressionEvaluator {
  public:
   explicit ExpressionEvaluator(Scope& scope) : scope_(scope) {}
 
   GiNaC::ex evaluate(const Expression& expression);
-  /// `what` is what messages call the number.
+  /// `what` names the number in messages.
   int integer(const Expression& expression, const std::string& what);
   /// Whether a condition between numbers holds.
   bool holds(const Expression& condition);
 
   /// A name with its subscripts evaluated: both theta_i and theta[i] are theta with one index.
   Reference resolve(const Expression& name);
-  /// What a name stands for.
+  /// The value of a name.
   GiNaC::ex read(const Expression& name);
   /// Fails unless lowest <= index <= links.
   void check_range(Location at, const Reference& reference, int index, int lowest) const;

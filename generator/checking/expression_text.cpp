@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 11> kFamilies = {
     "g", "l", "m", "m_c", "I", "k", "c", "T", "theta", "thetadot", "thetaddot"};
 constexpr int kFirstState = 8;
 
-// Products of more sines and cosines than this are left as they are: 2^k terms would come of them.
+// Products of more sines and cosines than this stay products: they would become 2^k terms.
 constexpr int kMostTrigonometricFactors = 6;
 
 /// Symbols with their exponents, in reading order.

@@ -10,8 +10,8 @@
 
 namespace catena::checking {
 
-/// Where a name stands in text: parameters before angles before rates, then by index, then by name.
-/// GiNaC's own order changes from run to run and never decides a text.
+/// The order of names in text: parameters, angles, rates; then by index, then by name. GiNaC's own
+/// order changes from run to run.
 struct SymbolOrder {
   explicit SymbolOrder(const std::string& name);
   int family;
@@ -22,7 +22,7 @@ struct SymbolOrder {
   [[nodiscard]] bool is_state() const;
 };
 
-/// An expanded polynomial as a sum of products to be read: products of sines and cosines become
+/// An expanded polynomial as a sum of products for readers: products of sines and cosines become
 /// sines and cosines of sums of angles, and parameters with the same factor are collected in
 /// brackets. Each part starts with its sign unless that is +; parts are in a fixed order.
 std::vector<std::string> readable_parts(const GiNaC::ex& numerator, const NormalForm& form);
@@ -30,7 +30,7 @@ std::vector<std::string> readable_parts(const GiNaC::ex& numerator, const Normal
 /// The whole fraction as one line.
 std::string text_of(const Fraction& fraction, const NormalForm& form);
 
-/// A number as it would be written by hand: 3, -1/2.
+/// A number as written by hand: 3, -1/2.
 std::string text_of(const GiNaC::numeric& number);
 
 /// Parts joined by their signs.

@@ -13,7 +13,7 @@ Contributions joined(Contributions first, const Contributions& second) {
   return first;
 }
 
-/// Applies an operation to every part and drops those it leaves nothing of.
+/// Applies an operation to every part and drops parts that become zero.
 Contributions each(const Contributions& parts, const std::function<ex(const ex&)>& operation) {
   Contributions result;
   for (const Contribution& part : parts) {

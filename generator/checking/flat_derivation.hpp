@@ -11,7 +11,7 @@
 
 namespace catena::checking {
 
-/// A part of a quantity and the piece of the chain it comes from, e.g. "kinetic energy of link 3".
+/// A part of a quantity and its origin in the chain, such as "kinetic energy of link 3".
 struct Contribution {
   std::string origin;
   GiNaC::ex scale;  ///< the mass, inertia, stiffness, damping or torque in which the part is linear
@@ -23,13 +23,12 @@ using Contributions = std::vector<Contribution>;
 /// The sum of the parts.
 GiNaC::ex total(const Contributions& parts);
 
-/// The chain's equations straight from its energies: kinematics (2.24)-(2.27), energies (2.3)-(2.9)
-/// with the load's potential m_c g h_c that (2.9) leaves out, Rayleigh dissipation, and
+/// The chain's equations from its energies: kinematics (2.24)-(2.27), energies (2.3)-(2.9) with the
+/// load's potential m_c g h_c, which (2.9) leaves out, Rayleigh dissipation, and
 ///   d/dt(dL/dthetadot_i) - dL/dtheta_i + dD/dthetadot_i - T_i = 0.
-/// Nothing is simplified and nothing is known in advance about the result; every part keeps the
-/// body, joint or torque it comes from. Indices run from 1 to n. Heights are above the hanging
-/// rest: (2.7). Each call costs about n^2 terms, so single entries of chains of many links are
-/// cheap.
+/// Nothing is simplified or assumed about the result. Every part keeps its body, joint or torque.
+/// Indices run from 1 to n. Heights are measured from the straight chain (2.7). A call costs about
+/// n^2 terms, so single entries of chains of many links are cheap.
 class FlatDerivation {
  public:
   explicit FlatDerivation(const ChainSymbols& symbols);
@@ -44,7 +43,7 @@ class FlatDerivation {
   [[nodiscard]] Contributions stiffness(int i, int j) const;  ///< K_ij, factor of theta_j
   [[nodiscard]] Contributions coriolis(int i) const;          ///< F_i, N m
   [[nodiscard]] Contributions gravity(int i) const;           ///< G_i, N m
-  /// Left side of equation i with everything on it: M a + C w + K theta + F + G - T, N m.
+  /// Left side of equation i, whose right side is 0: M a + C w + K theta + F + G - T, N m.
   [[nodiscard]] Contributions equation(int i) const;
 
  private:
@@ -53,7 +52,7 @@ class FlatDerivation {
   [[nodiscard]] const Contributions& momentum(int i) const;  ///< dT/dthetadot_i
 
   const ChainSymbols& symbols_;
-  mutable std::map<int, Contributions> momenta_;  // as far as asked for; M takes a row of each
+  mutable std::map<int, Contributions> momenta_;  // those computed so far; M uses each n times
   Contributions kinetic_, gravity_potential_, elastic_potential_, dissipation_;
 };
 

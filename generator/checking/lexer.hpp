@@ -17,7 +17,7 @@ struct Token {
   Location at;
 };
 
-/// InputError with the place in front: "FILE:LINE:COLUMN: error: MESSAGE".
+/// An InputError "FILE:LINE:COLUMN: error: MESSAGE".
 [[nodiscard]] InputError error_at(const std::string& file, Location at, const std::string& message);
 
 /// How a message names a token: 'x', end of line, end of file.

@@ -97,7 +97,7 @@ Motion::Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiN
   std::vector<ex> stated = all;
   for (const ex& h : equations) stated.push_back(at_rest(h));
   symbols_ = symbols_in(stated);
-  for (const ex& h : equations)  // one that is beyond the exact form must not spoil the others
+  for (const ex& h : equations)  // one without an exact form must not affect the others
     if (ExactForm({h})(h)) all.push_back(h);
   ExactForm exact(all);
   for (const ex& expression : all) {

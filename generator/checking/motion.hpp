@@ -16,33 +16,31 @@
 
 namespace catena::checking {
 
-/// The chain's motion in numbers: the accelerations a that solve M a + rest = 0 at a point. Nothing
-/// is eliminated in symbols, which has too many terms from four links on. M is regular: it is the
-/// matrix of the kinetic energy, which is positive for any rates but zero, as all masses and
-/// lengths are. (What is given may make it singular; then there are no accelerations.)
+/// The chain's motion in numbers: the accelerations a that solve M a + rest = 0 at a point.
+/// Elimination in symbols would have too many terms from four links on. M is regular, since the
+/// kinetic energy is positive for all rates other than zero if masses and lengths are positive.
+/// Values of `given` may make it singular; then there are no accelerations.
 class Motion {
  public:
   using Vector = std::vector<GiNaC::numeric>;
 
-  /// `equations`: the h of those h = 0 that is_obeyed will be asked about. What is `given` is
-  /// replaced in them already.
+  /// `equations`: all h that is_obeyed will be called with, after replacement of what is `given`.
   Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiNaC::exmap& given,
          const std::vector<GiNaC::ex>& equations, std::uint64_t seed);
 
   /// Whether h = 0 for every motion of the chain, by its exact value at a random point
-  /// (exact_form.hpp): "no" is proved, "yes" is wrong with a chance below 2^-kCertainty. Nothing
-  /// where h is not rational in independent quantities or M is singular.
+  /// (exact_form.hpp). "No" is proved; "yes" is wrong with a probability below 2^-kCertainty.
+  /// Nothing if h is not rational in independent quantities or M is singular.
   std::optional<bool> is_obeyed(const GiNaC::ex& h);
 
   /// thetaddot_1..n at a state.
   const std::optional<Vector>& accelerations(const NumericState& state);
 
-  /// The f_j that are not 0, of h = sum_j f_j (equation j), at a state: M f = slope =
-  /// dh/dthetaddot.
+  /// The f_j other than 0 in h = sum_j f_j (equation j), at a state: M f = slope = dh/dthetaddot.
   [[nodiscard]] std::map<int, GiNaC::numeric> factors(const Vector& slope,
                                                       const GiNaC::exmap& values) const;
 
-  /// All that stands in the chain's equations and those stated, but accelerations.
+  /// The symbols of the chain's equations and of those stated, without accelerations.
   [[nodiscard]] const std::vector<GiNaC::ex>& symbols() const { return symbols_; }
 
  private:
@@ -58,7 +56,7 @@ class Motion {
   System system_;
   std::optional<ExactForm> exact_;
   System rational_;                  // system_ in the generators of exact_
-  std::vector<GiNaC::ex> variable_;  // whatever stands in it and in the equations
+  std::vector<GiNaC::ex> variable_;  // its symbols and those of the equations
   Degree solution_;                  // of an acceleration
   std::vector<GiNaC::ex> symbols_;
   std::map<std::vector<std::string>, std::optional<Vector>> motions_;  // by assignments

@@ -15,7 +15,7 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-/// The sources of which each alone, taken away from a state, makes something agree.
+/// The sources each of which, set to zero in a state, makes both sides agree.
 std::vector<std::string> sources_without_which(
     const ChainSymbols& chain, const NumericState& state,
     const std::function<bool(const NumericState&)>& agrees) {

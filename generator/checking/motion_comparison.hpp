@@ -11,9 +11,9 @@
 
 namespace catena::checking {
 
-/// What an expression that should be thetaddot_k (k = 0: that should be 0) comes to along the
-/// chain's motion. Completes a finding with a state where it differs, both values there and where
-/// the difference comes from; where none does, with a remark.
+/// Compares an expression that should be thetaddot_k (or 0, if k = 0) with the chain's motion. Adds
+/// to `finding` a state where they differ, both values there and the source of the difference; or a
+/// remark if they differ at no state.
 void compare_with_motion(const GiNaC::ex& expression, int k, Motion& motion,
                          const ChainSymbols& chain, std::uint64_t seed, Finding& finding);
 

@@ -15,7 +15,7 @@
 
 namespace catena::checking {
 
-/// A quantity of the chain that a derivation may state by assigning it.
+/// A quantity of the chain that a derivation may assign.
 struct Target {
   std::string_view name;
   Quantity quantity;

@@ -21,10 +21,10 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 
-// sin(k x) is a polynomial of degree k; beyond this it is left alone.
+// sin(k x) is a polynomial of degree k. Beyond this k it is not expanded.
 constexpr int kGreatestMultiple = 64;
 
-// Trial divisors; what remains of a number below the square of this is prime.
+// Largest trial divisor: the rest of a number below its square is prime.
 constexpr int kLargestTrialDivisor = 100000;
 
 const std::set<std::string> kCircular = {"sin", "cos", "tan"};
@@ -271,8 +271,8 @@ std::optional<ex> NormalForm::logarithm(const Fraction& argument) const {
 }
 
 Fraction NormalForm::root(const Fraction& radicand, int degree) {
-  // Draw what is manifestly positive: (f^m rest)^(1/q) = f^(m div q) (f^(m mod q) rest)^(1/q), f >
-  // 0.
+  // Take positive factors out of the root:
+  // (f^m rest)^(1/q) = f^(m div q) (f^(m mod q) rest)^(1/q), f > 0.
   const ex both = (radicand.numerator / radicand.denominator).normal().numer_denom();
   Fraction drawn{1, 1};
   Fraction rest{1, 1};

@@ -20,16 +20,17 @@ struct Fraction {
 /// Rewrites expressions as fractions of polynomials in independent generators, so that an
 /// expression is zero if its numerator is.
 ///
-/// Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic
-/// angles b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1 with s_b at most to the
-/// first power; exp, sinh, cosh and tanh become powers of exp(b); roots of positive rational
-/// numbers become products of p^(1/d), p prime, d common to all; other roots become generators r
-/// with r^q = radicand, perfect powers of manifestly positive radicands are drawn. Everything else
-/// (log, abs,
-/// ...) is a generator of its own.
+///   - Sines, cosines and tangents of sums of angles become polynomials in s_b and c_b of the basic
+///     angles b (half angles where halves occur), modulo s_b^2 + c_b^2 = 1, with s_b at most to the
+///     first power.
+///   - exp, sinh, cosh and tanh become powers of exp(b).
+///   - Roots of positive rational numbers become products of p^(1/d), p prime, d common to all.
+///   - Other roots become generators r with r^q = radicand. Perfect powers of radicands that are
+///     positive by their form are taken out of the root.
+///   - Everything else (log, abs, ...) is a generator of its own.
 ///
-/// A zero numerator always proves equality. A non-zero one disproves it as long as `decides()`: the
-/// generators met are then algebraically independent but for the relations above.
+/// A zero numerator always proves equality. A non-zero numerator disproves it if `decides()`: then
+/// the generators are algebraically independent except for the relations above.
 class NormalForm {
  public:
   enum class Role { kPlain, kSine, kCosine, kExponential, kOther };
@@ -37,13 +38,13 @@ class NormalForm {
     Role role = Role::kPlain;
     GiNaC::ex base;  ///< sine, cosine, exponential: of base / divisor
     int divisor = 1;
-    std::string text;  ///< kOther: how it reads
+    std::string text;  ///< kOther: for messages
   };
 
-  /// All expressions that will be compared, so that half and third angles are known from the start.
+  /// `expressions`: all that will be compared; half and third angles are found in them.
   explicit NormalForm(const std::vector<GiNaC::ex>& expressions);
 
-  /// Throws std::domain_error where a denominator is identically zero.
+  /// Throws std::domain_error if a denominator is identically zero.
   Fraction operator()(const GiNaC::ex& expression);
 
   [[nodiscard]] bool decides() const { return decides_; }

@@ -43,7 +43,7 @@ NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t s
   NumericState state;
   for (const GiNaC::ex& symbol : symbols) {
     const bool positive = symbol.info(GiNaC::info_flags::positive);
-    // Hundredths; never 0, where too much is equal by accident.
+    // Hundredths; never 0, where different expressions are often equal.
     const int size = 10 + static_cast<int>(random() % 291U);
     const int hundredths = !positive && random() % 2U == 1U ? -size : size;
     state.values[symbol] = GiNaC::numeric(hundredths, 100);

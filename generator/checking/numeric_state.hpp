@@ -14,10 +14,10 @@ namespace catena::checking {
 /// Working precision of evaluate_at, decimal digits.
 inline constexpr int kStateDigits = 60;
 
-/// kStateDigits less what cancellation may eat: values closer than this count as equal at a state.
+/// Relative difference below which values count as equal at a state: it allows for cancellation.
 const GiNaC::numeric& closeness();
 
-/// States tried before two sides that are not proved different count as numerically equal.
+/// Number of states at which two sides must agree to count as numerically equal.
 inline constexpr int kStates = 24;
 
 /// Values for symbols at which two expressions are compared.
@@ -33,12 +33,12 @@ std::vector<GiNaC::ex> symbols_in(const std::vector<GiNaC::ex>& expressions);
 /// seed and symbols give the same state.
 NumericState random_state(const std::vector<GiNaC::ex>& symbols, std::uint64_t seed);
 
-/// Values of expressions at one point, each distinct part computed once: rational operations of
-/// rational values exactly, functions to kStateDigits.
+/// Values of expressions at one point. Each distinct part is computed once. Rational operations of
+/// rational values are exact; functions have kStateDigits digits.
 class Evaluation {
  public:
   explicit Evaluation(GiNaC::exmap values) : values_(std::move(values)) {}
-  /// Nothing at a pole, outside a domain and for symbols without a value.
+  /// The value; nothing at a pole, outside a domain, and for symbols without a value.
   std::optional<GiNaC::numeric> operator()(const GiNaC::ex& expression);
 
  private:
@@ -46,10 +46,10 @@ class Evaluation {
   GiNaC::exmap values_;
 };
 
-/// The value to kStateDigits, or nothing where it is not a real number.
+/// The value with kStateDigits digits; nothing if it is not a real number.
 std::optional<GiNaC::numeric> evaluate_at(const GiNaC::ex& expression, const NumericState& state);
 
-/// For a reader.
+/// For messages.
 std::string twelve_digits(const GiNaC::numeric& value);
 
 }  // namespace catena::checking

@@ -8,7 +8,7 @@
 
 namespace catena::checking {
 
-/// Reads a derivation; the grammar stands in docs/checking.md. `file` is what messages call it.
+/// Reads a derivation; docs/checking.md has the grammar. `file` is its name in messages.
 /// Throws InputError with file, line, column and what was expected.
 Program parse_derivation(std::string_view text, const std::string& file);
 

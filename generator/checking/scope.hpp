@@ -15,7 +15,7 @@
 
 namespace catena::checking {
 
-/// What names mean at a point of a derivation.
+/// The meaning of names at a place of a derivation.
 struct Scope {
   struct Stored {
     GiNaC::ex value;
@@ -26,9 +26,9 @@ struct Scope {
   std::string file;
   std::unique_ptr<ChainSymbols> chain;            ///< null in a scalar derivation
   std::map<std::string, GiNaC::ex> free_symbols;  ///< of a scalar derivation
-  std::map<std::string, int> indices;             ///< of the loops and sums around
+  std::map<std::string, int> indices;             ///< of the enclosing loops and sums
   std::map<Reference, Stored> values;             ///< assigned so far
-  std::vector<std::string> notes;                 ///< worth telling, no errors
+  std::vector<std::string> notes;                 ///< remarks that are not errors
   std::set<std::pair<int, int>> noted;            ///< places (line, column) that have their note
 
   [[nodiscard]] int links() const { return chain ? chain->links : 0; }

@@ -13,7 +13,7 @@ namespace {
 
 using GiNaC::ex;
 
-/// What makes an expression other than rational.
+/// Whether the expression is a function or a root.
 bool is_transcendental(const ex& e) {
   return GiNaC::is_a<GiNaC::function>(e) ||
          (GiNaC::is_a<GiNaC::power>(e) && !e.op(1).info(GiNaC::info_flags::integer));

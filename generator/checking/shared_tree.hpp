@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Walks over expressions that hold the same parts many times, as eliminations by hand do: written
-// out they double with every step, but each distinct part is visited once here.
+// Traverses expressions that contain the same parts many times, as eliminations by hand do. Written
+// out they double with every step; here each distinct part is visited once.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -16,10 +16,10 @@ namespace catena::checking {
 /// are not entered.
 void for_each_part(const GiNaC::ex& expression, const std::function<bool(const GiNaC::ex&)>& visit);
 
-/// The functions and roots of which the rest of the expressions is rational.
+/// The functions and roots in the expressions, which are rational in them.
 std::vector<GiNaC::ex> transcendental_parts(const std::vector<GiNaC::ex>& expressions);
 
-/// The expression with parts replaced, whole parts before what is in them.
+/// Replaces parts of expressions; a part is replaced before the parts inside it.
 class Replacement {
  public:
   explicit Replacement(GiNaC::exmap replaced) : known_(std::move(replaced)) {}
@@ -29,15 +29,15 @@ class Replacement {
   GiNaC::exmap known_;
 };
 
-/// numerator / denominator, nothing expanded and common factors of denominators taken once.
+/// numerator / denominator, not expanded; common factors of denominators are taken once.
 struct Quotient {
   GiNaC::ex numerator;
   GiNaC::ex denominator;
 };
 Quotient cleared(const GiNaC::ex& expression);
 
-/// About how many products appear on the way when the expression is expanded, its sines and cosines
-/// of sums too, and its denominators are cleared.
+/// Approximate number of products when the expression is expanded, with sines and cosines of sums
+/// written out and denominators cleared.
 double expanded_size(const GiNaC::ex& expression);
 
 }  // namespace catena::checking

@@ -21,8 +21,8 @@ std::string rate_family(const std::string& family) {
   return family + velocity;
 }
 
-// The covector of a variable, by the name of what it is in mechanics.
-std::string covector_family(const std::string& family) {
+// The family of the generalised force of a variable, by its name in mechanics.
+std::string force_family(const std::string& family) {
   if (family == "joint_side") return "cut_force_side";
   if (family == "joint_down") return "cut_force_down";
   if (family == "joint_angle") return "joint_moment";
@@ -30,7 +30,7 @@ std::string covector_family(const std::string& family) {
 }
 
 // A cut force is counted by the link below the cut.
-int covector_index(const Symbol& variable) {
+int force_index(const Symbol& variable) {
   const bool joint = variable.family == "joint_side" || variable.family == "joint_down";
   return joint ? variable.index + 1 : variable.index;
 }
@@ -142,7 +142,7 @@ ex Chain::define_variable(const std::string& family, int index, const ex& value)
   return variable;
 }
 
-// (2.24)-(2.27), with what effects change of them
+// (2.24)-(2.27), with the changes that effects make
 void Chain::make_kinematics() {
   ex support_side = 0, support_down = 0;
   for (const Effect& effect : description_.effects) {
@@ -203,8 +203,8 @@ void Chain::make_kinematics() {
   point_down_.push_back(load_down_);
 }
 
-void Chain::add_covector(const ex& variable, const ex& covector) {
-  covector_[definitions_.number_of(variable)] += covector;
+void Chain::add_generalised_force(const ex& variable, const ex& force) {
+  generalised_force_[definitions_.number_of(variable)] += force;
 }
 
 void Chain::add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part) {
@@ -224,12 +224,12 @@ void Chain::add_kinetic(const std::string& item, const ex& energy) {
     const Symbol symbol = definitions_[number];
     const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
     const auto rate = variable_of_rate_.find(number);
-    if (rate != variable_of_rate_.end()) covector_[rate->second] += time_.of(derivative);
-    if (variables_.count(number)) covector_[number] -= derivative;
+    if (rate != variable_of_rate_.end()) generalised_force_[rate->second] += time_.of(derivative);
+    if (variables_.count(number)) generalised_force_[number] -= derivative;
     if (symbol.family == "sine") {
-      add_covector(theta_[symbol.index], -derivative * cosine_[symbol.index]);
+      add_generalised_force(theta_[symbol.index], -derivative * cosine_[symbol.index]);
     } else if (symbol.family == "cosine") {
-      add_covector(theta_[symbol.index], derivative * sine_[symbol.index]);
+      add_generalised_force(theta_[symbol.index], derivative * sine_[symbol.index]);
     }
   }
 }
@@ -240,11 +240,11 @@ void Chain::add_potential(const std::string& item, const ex& energy) {
   for (const int number : definitions_.symbols_of(energy)) {
     const Symbol symbol = definitions_[number];
     const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
-    if (variables_.count(number)) covector_[number] += derivative;
+    if (variables_.count(number)) generalised_force_[number] += derivative;
     if (symbol.family == "sine") {
-      add_covector(theta_[symbol.index], derivative * cosine_[symbol.index]);
+      add_generalised_force(theta_[symbol.index], derivative * cosine_[symbol.index]);
     } else if (symbol.family == "cosine") {
-      add_covector(theta_[symbol.index], -derivative * sine_[symbol.index]);
+      add_generalised_force(theta_[symbol.index], -derivative * sine_[symbol.index]);
     }
   }
 }
@@ -257,19 +257,19 @@ void Chain::add_dissipation(const std::string& item, const ex& function) {
     if (rate == variable_of_rate_.end()) continue;
     const ex symbol = definitions_[number].symbol;
     const ex derivative = function.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
-    covector_[rate->second] += derivative;
+    generalised_force_[rate->second] += derivative;
     power += symbol * derivative;
   }
   add_energy(item, EnergyItem::kDissipated, power);
 }
 
-// Virtual work: forces times the variations of their variables. Their powers are one part of the
-// energy, so that a link has one, not as many as a force has components: sums over links are loops.
+// Virtual work: forces times the variations of their variables. The powers of all components are
+// one part of the energy: with one part per link, sums over links become loops.
 void Chain::add_force(const std::string& item, const std::vector<Component>& components) {
   ex power = 0;
   for (const auto& [variable, force] : components) {
     if (force.is_zero()) continue;
-    add_covector(variable, -force);
+    add_generalised_force(variable, -force);
     power += force * time_.of(variable);
   }
   if (!power.is_zero()) add_energy(item, EnergyItem::kSupplied, power);
@@ -311,40 +311,40 @@ void Chain::add_chain_terms() {
   }
 }
 
-// The length of cable whose bending joint i stands for.
+// The length of cable that bends in joint i.
 ex Chain::spacing(Link i) const { return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2; }
 
 void Chain::pull_back() {
   std::vector<ex> cut_side(static_cast<size_t>(links_) + 2), cut_down(cut_side);
   std::vector<ex> moment(cut_side);
   const auto keep = [&](std::vector<ex>& where, const ex& variable, int index) {
-    const auto found = covector_.find(definitions_.number_of(variable));
-    where[static_cast<size_t>(index)] = found == covector_.end() ? ex(0) : found->second;
+    const auto found = generalised_force_.find(definitions_.number_of(variable));
+    where[static_cast<size_t>(index)] = found == generalised_force_.end() ? ex(0) : found->second;
   };
-  // Later variables are functions of earlier ones: go from the last back to the coordinates.
+  // Later variables are functions of earlier ones, so the last one comes first.
   for (auto variable = variables_.rbegin(); variable != variables_.rend(); ++variable) {
     const int number = *variable;
-    const auto found = covector_.find(number);
-    if (definitions_[number].is_input || found == covector_.end()) continue;
+    const auto found = generalised_force_.find(number);
+    if (definitions_[number].is_input || found == generalised_force_.end()) continue;
     const Symbol symbol = definitions_[number];
-    const ex covector =
-        definitions_.define(covector_family(symbol.family), covector_index(symbol), found->second);
-    found->second = covector;
+    const ex force =
+        definitions_.define(force_family(symbol.family), force_index(symbol), found->second);
+    found->second = force;
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       const Symbol below = definitions_[argument];
       const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(below.symbol));
       if (variables_.count(argument)) {
-        covector_[argument] += covector * partial;
+        generalised_force_[argument] += force * partial;
       } else if (below.family == "sine") {
-        add_covector(theta_[below.index], covector * partial * cosine_[below.index]);
+        add_generalised_force(theta_[below.index], force * partial * cosine_[below.index]);
       } else if (below.family == "cosine") {
-        add_covector(theta_[below.index], -covector * partial * sine_[below.index]);
+        add_generalised_force(theta_[below.index], -force * partial * sine_[below.index]);
       }
     }
   }
   for (const ex& q : coordinates_) {
     const Symbol symbol = definitions_[definitions_.number_of(q)];
-    residual_.push_back(definitions_.named(covector_[definitions_.number_of(q)],
+    residual_.push_back(definitions_.named(generalised_force_[definitions_.number_of(q)],
                                            "residual_" + symbol.family, symbol.index));
   }
   for (Link i = 1; i <= links_; ++i) {

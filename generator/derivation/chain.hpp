@@ -5,16 +5,17 @@
 //
 //     r_i = d/dt(dL/dqdot_i) - dL/dq_i + dD/dqdot_i - Q_i = 0,     L = T - V.
 //
-// How. T, V and D are written in variables y (positions of link centres and joints, joint angles)
-// that are functions of the coordinates q, y = y(q, t). The Euler-Lagrange expression is covariant
-// under such a change of variables,
+// T, V and D are written in variables y (positions of link centres and joints, joint angles) that
+// are functions of the coordinates q, y = y(q, t). The Euler-Lagrange expression is covariant under
+// such a change of variables,
 //
 //     d/dt(dL/dqdot_i) - dL/dq_i = sum_y [d/dt(dL/dydot) - dL/dy] dy/dq_i,
 //
-// as virtual work is. So each energy is differentiated in the few variables it is written in, and
-// what comes out is pulled back through the definitions of y, from the free end to the support, by
-// the chain rule. What arrives at the position of a joint on the way is the force that the upper
-// part of the chain exerts on the part below it: the cut force.
+// as virtual work is. So each energy is differentiated with respect to the few variables it is
+// written in. This gives the generalised forces of the variables. The chain rule carries them
+// through the definitions of y to the coordinates, from the free end to the support. The
+// generalised force of the position of a joint is the cut force: the force of the upper part of the
+// chain on the part below the joint.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -40,17 +41,18 @@ struct EnergyItem {
 
 class Chain {
  public:
-  /// Derives the equations. `only_term`: empty for all terms, else the one to keep ("kinetic",
-  /// "gravity", "elastic", "friction", "torque", or an effect's id).
+  /// Derives the equations. `only_term` is empty for all terms; otherwise it names the only one
+  /// that is kept: "kinetic", "gravity", "elastic", "friction", "torque" or the id of an effect.
   Chain(const Description& description, int links, const std::string& only_term = "");
 
   Definitions& definitions() { return definitions_; }
   int links() const { return links_; }
 
-  /// Terms that the residual has: "kinetic", "gravity", "elastic", "friction", "torque", effects'.
+  /// The terms of the residual: "kinetic", "gravity", "elastic", "friction", "torque", and the ids
+  /// of the effects that add one.
   static std::vector<std::string> term_names(const Description& description);
 
-  /// r, one entry a coordinate.
+  /// r, one entry per coordinate.
   const std::vector<GiNaC::ex>& residual() const { return residual_; }
   const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }
   const std::vector<GiNaC::ex>& rates() const { return rates_; }
@@ -70,7 +72,7 @@ class Chain {
   const std::vector<GiNaC::ex>& tensions() const { return tensions_; }
   const std::vector<GiNaC::ex>& curvatures() const { return curvatures_; }
 
-  /// Sensor effects: what is reported of the inputs side, down, angle, and the clock.
+  /// Sensor effects: the reported side, down and angle of a point, and the clock.
   struct Sensor {
     GiNaC::ex side, down, angle, clock;
     bool given = false;
@@ -98,13 +100,14 @@ class Chain {
   };
   void add_force(const std::string& item, const std::vector<Component>& components);
   void add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part);
-  void add_covector(const ex& variable, const ex& covector);
+  void add_generalised_force(const ex& variable, const ex& force);
   ex spacing(Link i) const;
   ex define_variable(const std::string& family, int index, const ex& value);
 
-  /// What can be said of link or joint i (see docs): its shape alone, or its motion too.
+  /// The symbols that an expression at link or joint i may use (docs/effects.md): those of the
+  /// shape, or those of the motion too.
   enum Knowledge { kShape, kMotion };
-  /// Sum of what all effects say for one kinematic quantity, at link or joint i.
+  /// Sum over all effects of one kinematic quantity, at link or joint i.
   ex kinematic(Expression Kinematics::*quantity, const char* unit, Place place, Link i);
   ex evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge, Place place,
               Link i, const char* unit);
@@ -138,7 +141,7 @@ class Chain {
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y
-  std::map<int, ex> covector_;           ///< number of y -> what belongs to it
+  std::map<int, ex> generalised_force_;  ///< number of y -> its generalised force
 };
 
 }  // namespace catena

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an effect's declared physics adds to the chain: its expressions are parsed with the symbols
-// of the place they stand at, and enter as potentials, dissipation functions, forces and torques
-// (virtual work), kinetic energies, extra states and sensor expressions.
+// Adds the terms of effects to the chain. Expressions are parsed with the symbols of their place.
+// They become potentials, dissipation functions, forces and torques (virtual work), kinetic
+// energies, extra states and sensor expressions.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -28,7 +28,7 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
   add("time", time_symbol_, "s");
   add("gravity", gravity_, "m/s^2");
   for (const EffectParameter& parameter : effect.parameters) {
-    // A parameter of each joint or link means nothing at the load or the support.
+    // A parameter per joint or link has no value at the load and at the support.
     if (parameter.scope != Scope::kModel && i == 0) continue;
     add(parameter.name, effect_parameter(effect, parameter, i), parameter.unit);
   }
@@ -192,7 +192,7 @@ void Chain::add_effect_terms(const Effect& effect) {
   }
 }
 
-// Sensor effects act one after the other, in the description's order; the clock's offsets add up.
+// Sensor effects act one after the other, in the order of the description. Clock offsets are added.
 void Chain::add_sensors() {
   sensor_.side = definitions_.input("side");
   sensor_.down = definitions_.input("down");

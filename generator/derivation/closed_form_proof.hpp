@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact comparison with the closed forms of chapter 4 (reference), all symbols kept: the
-// difference of each entry, with sines and cosines of differences written out, expands to zero.
+// Exact comparison with the closed forms of chapter 4 (reference), with all symbols: the difference
+// of each entry, with sines and cosines of differences written out, must expand to zero.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -11,13 +11,13 @@
 
 namespace catena {
 
-/// What a model says of a plain chain, in symbols: M row by row; each term of r.
+/// A plain chain as a model gives it, in symbols: M row by row, and each term of r.
 struct ChainInSymbols {
   std::vector<GiNaC::ex> mass_matrix;
   std::vector<GiNaC::ex> coriolis, gravity, elastic, friction, torque;
 };
 
-/// The symbols in which both sides are written; links entries each.
+/// The symbols of both sides. Each vector has one entry per link.
 struct ChainSymbols {
   explicit ChainSymbols(int links);
   std::vector<GiNaC::ex> theta, rate, acceleration;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Single-assignment definitions: the form in which a derivation is kept.
+// Single-assignment definitions, the form of a derivation.
 //
-// A cable of many links has equations that are long when written out and short when shared terms
-// have names. Each definition is a named expression over inputs and earlier definitions; GiNaC
-// differentiates, expands and compares their right-hand sides, which stay a few terms long for any
+// The equations of many links are long when they are written out and short when shared terms have
+// names. Each definition is a named expression of inputs and earlier definitions. GiNaC
+// differentiates, expands and compares their right-hand sides, which have a few terms for any
 // number of links.
 //
-// GiNaC orders its terms by hashes of addresses, so nothing here may depend on that order: families
-// and symbols are numbered in the order of their creation, and every traversal that creates
-// something goes by those numbers.
+// GiNaC orders its terms by hashes of addresses, so nothing here may depend on that order. Families
+// and symbols are numbered in the order of their creation, and every traversal that creates symbols
+// follows those numbers.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -28,7 +28,7 @@ struct Symbol {
   std::string family;  ///< "joint_side_velocity"
   int index;           ///< link it belongs to, or kNoIndex
   int family_rank;     ///< order of the family's first appearance
-  bool is_input;       ///< given from outside: no right-hand side
+  bool is_input;       ///< has no right-hand side
   GiNaC::ex symbol;
   GiNaC::ex value;  ///< polynomial in symbols (negative powers of symbols allowed), or one function
                     ///< of a symbol
@@ -36,15 +36,16 @@ struct Symbol {
 
 class Definitions {
  public:
-  /// The symbol of an input, made at the first call.
+  /// The symbol of an input. The first call makes it.
   GiNaC::ex input(const std::string& family, int index = kNoIndex);
 
-  /// Names an expression. Functions, roots and quotients of sums inside it get definitions of their
-  /// own ("<family>_<what>"), so that what remains is a polynomial in symbols. A value that is a
-  /// number or a symbol, or that has a name already, is returned as it is.
+  /// Names an expression and returns the name. Functions, roots and quotients of sums inside it get
+  /// definitions of their own ("<family>_<what>"), so that the value is a polynomial in symbols. A
+  /// value that is a number or a symbol is returned unchanged; for a value that has a name already,
+  /// that name is returned.
   GiNaC::ex define(const std::string& family, int index, const GiNaC::ex& value);
 
-  /// The same, but under a name of its own even where the value is a number, a symbol or named.
+  /// The same, but the value always gets a name of its own.
   GiNaC::ex define_always(const std::string& family, int index, const GiNaC::ex& value);
 
   /// The expression with functions, roots and quotients named, expanded; family and index name
@@ -73,9 +74,8 @@ class Definitions {
   std::unordered_map<std::string, GiNaC::ex> by_value_;
 };
 
-/// Derivatives of expressions along a rule that says what the differential of each input is; the
-/// differentials of definitions become definitions ("<family><suffix>") themselves, so that a
-/// derivative costs no more than a small multiple of what it is the derivative of.
+/// Derivatives of expressions, given the differential of each input. Differentials of definitions
+/// become definitions too, so that a derivative costs a small multiple of the expression.
 class Differential {
  public:
   /// family_name maps a family to the name of its differential's family.
@@ -91,7 +91,7 @@ class Differential {
   std::map<int, GiNaC::ex> known_;
 };
 
-/// Expressions with some symbols replaced; definitions that contain them are defined anew
+/// Replaces symbols in expressions. Definitions that contain them get new definitions
 /// ("<family><suffix>").
 class Substitution {
  public:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The expressions of effect files (grammar: description/expression_syntax.hpp), checked
-// and turned into GiNaC's. Numbers are exact: 0.1 is one tenth. `pi` is a number; every other name
-// must be a symbol of the place the expression stands at. An exponent must come out as a rational
-// number p/q. Units are checked on the text as written, before GiNaC may reorder or cancel
-// anything: terms of a sum have one unit, arguments of functions (sqrt aside) and exponents none. A
-// term written as 0 has any unit. Radians are no unit.
+// Expressions of effect files (grammar: description/expression_syntax.hpp) as GiNaC expressions.
+//
+// Numbers are exact: 0.1 is one tenth. `pi` is a number. Every other name must be a symbol of the
+// place of the expression. The value of an exponent must be a rational number p/q. Units are
+// checked on the text as written, before GiNaC reorders or cancels terms: the terms of a sum have
+// the same unit; arguments of functions other than sqrt, and exponents, are dimensionless. A term
+// written as 0 has any unit. The radian is dimensionless.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -19,7 +20,7 @@
 
 namespace catena {
 
-/// The symbols that have a meaning where an expression stands.
+/// The symbols at the place of an expression, with their values and units.
 struct ExpressionContext {
   std::map<std::string, std::pair<GiNaC::ex, Unit>> symbols;
 
@@ -33,11 +34,11 @@ struct ExpressionContext {
 GiNaC::ex parse_expression(const Expression& expression, const ExpressionContext& context,
                            const Unit& expected);
 
-/// The same with whatever unit the expression has.
+/// The same, but returns the unit instead of checking it.
 std::pair<GiNaC::ex, Unit> parse_expression(const Expression& expression,
                                             const ExpressionContext& context);
 
-/// Parses the definition with the symbols known so far and adds its name to them.
+/// Parses the definition with the symbols of the context and adds its name to them.
 void add_definition(const Definition& definition, ExpressionContext& context);
 
 /// "0.1" as 1/10. The text is a decimal number as Constant::text has it. Throws std::out_of_range

@@ -16,7 +16,7 @@ using GiNaC::ex;
 
 namespace {
 
-// The model's expressions with neutral values put in, in the symbols of the plain chain.
+// The expressions of the model with neutral values inserted, in the symbols of the plain chain.
 class AtNeutral {
  public:
   AtNeutral(const Description& description, Chain& model, Chain& plain)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What an effect must not do: with its parameters at their neutral values a model is the plain
-// chain.
+// Proves that a model whose parameters have their neutral values is the plain chain.
 #pragma once
 
 #include <string>
@@ -13,14 +12,14 @@
 namespace catena {
 
 struct NeutralProofs {
-  std::vector<Proof> proofs;  ///< the residual, each energy, what sensors report
-  std::string why_not;        ///< nothing is proved, because ...; else empty
+  std::vector<Proof> proofs;  ///< of the residual, each energy and each sensor
+  std::string why_not;        ///< why nothing can be proved; else empty
 };
 
-/// Derives the model and the plain chain, puts the neutral values in and compares, all other
-/// symbols kept (parameters without a neutral value, states and signals too). With the closed forms
-/// of the plain chain that proves those of the model. Not to be had where a neutral value is a
-/// limit, or where there are coordinates that the plain chain does not have.
+/// Derives the model and the plain chain, inserts the neutral values and compares. All other
+/// symbols stay: parameters without a neutral value, states and signals. Together with the closed
+/// forms of the plain chain this proves those of the model. No proof is possible if a neutral value
+/// is infinite, or if the model has coordinates that the plain chain does not have.
 NeutralProofs prove_neutral(const Description& description, int links);
 
 }  // namespace catena

@@ -59,7 +59,7 @@ class Linearisation {
     for (const auto& family : down_) {
       if (up_.count(family)) throw NotOfThisForm(family + " depends on both neighbouring links");
     }
-    // From the first on: a sum along thousands of links, asked for at its end, would overflow the
+    // From the first link on. Recursion from the last of thousands of links would overflow the
     // stack.
     for (const int k : reached_) change_of_symbol(k);
   }
@@ -179,14 +179,14 @@ class Linearisation {
     } else if (!symbol.is_input) {
       const Form inner = change_of(symbol.value);
       if (inner.empty()) {
-        // does not change
+        // no change
       } else if (down_.count(symbol.family)) {
         form[{Basis::kCarriedDown, symbol.family, symbol.index}] = 1;
       } else if (up_.count(symbol.family)) {
         form[{Basis::kCarriedUp, symbol.family, symbol.index}] = 1;
       } else {
         for (const auto& [basis, coefficient] : inner) {
-          // Functions and roots in derivatives get names, as everywhere.
+          // Functions and roots in derivatives get names too.
           add(form, basis, definitions_.named(coefficient, symbol.family + "_slope", symbol.index));
         }
       }
@@ -199,7 +199,7 @@ class Linearisation {
   Form change_of_state(int number) {
     if (weights_.velocity.is_zero()) return {};
     const Basis itself{Basis::kPerturbation, "", -1};
-    // What depends on z here is not what depends on it outside.
+    // Within a rate, other definitions depend on z than outside.
     std::map<int, Form> outside{{number, {{itself, 1}}}};
     known_.swap(outside);
     Form rate = change_of(state_rates_.at(number));
@@ -305,7 +305,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       }
     }
   }
-  // Rows and columns of the two triangles; what is zero for every link is left out.
+  // Rows and columns of the two triangles, without those that are zero for every link.
   auto P = table(down.size()), V = table(up.size());
   std::vector<bool> keep_lower(down.size()), keep_upper(up.size());
   result.diagonal.resize(links);
@@ -320,7 +320,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       D[i] += below_here * B[i][f];
       D_written_out += below_here * B_value[i][f];
     }
-    // Written out, sin^2 + cos^2 = 1 may make it shorter.
+    // sin^2 + cos^2 = 1 may make the written-out form shorter.
     D_written_out = without_sine_squares(definitions, D_written_out);
     if (length_of(D_written_out) <= length_of(D[i].expand())) D[i] = D_written_out;
     for (size_t g = 0; g < up.size(); ++g) {
@@ -357,7 +357,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       result.upper_column[i].push_back(named(V[i][g], "upper_column", i));
     }
     result.diagonal[i] = named(D[i], "diagonal", i);
-    // Symmetric if rows and columns of the triangles are each other's, coefficient by coefficient.
+    // Symmetric if the rows of each triangle are the columns of the other, coefficient by
+    // coefficient.
     GiNaC::exmap values;
     for (size_t f = 0; f < down.size(); ++f) {
       if (GiNaC::is_a<GiNaC::symbol>(B[i][f])) values[B[i][f]] = B_value[i][f];

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Finds the structure of the matrices of a chain from its definitions, and proves it.
+// Finds and proves the structure of the matrices of a chain, from its definitions.
 //
 // A perturbation of the links, delta q_j = wq u_j, delta v_j = wv u_j, delta a_j = wa u_j, changes
-// the residual by N u, N = wa dr/da + wv dr/dv + wq dr/dq. Definitions that refer to themselves at
-// the link above (positions and their rates) carry it down the chain, those that refer to
-// themselves at the link below (cut forces) carry it up. If every one of them passes on what it
-// receives unchanged, as sums do,
+// the residual by N u, N = wa dr/da + wv dr/dv + wq dr/dq. Definitions that use themselves at the
+// link above (positions and their rates) carry the change down the chain. Definitions that use
+// themselves at the link below (cut forces) carry it up. If each of them carries it unchanged, as
+// sums do,
 //
 //     delta X_i = delta X_{i-1} + B_i u_i
 //     delta Y_i = delta Y_{i+1} + F_i delta X_{i-1} + G_i u_i
@@ -18,12 +18,13 @@
 //     N_ii = D_i + Hy_i S_{i+1} B_i
 //     N_ij = (Hx_i + Hy_i S_{i+1}) B_j          j < i - 1
 //
-// and e_i, f_i on the two neighbouring diagonals besides: tridiagonal plus semiseparable. Whether
-// the definitions are of this form is decided exactly, coefficient by coefficient, for each link.
+// and e_i, f_i are added on the two neighbouring diagonals: N is tridiagonal plus semiseparable.
+// Whether the definitions have this form is decided exactly, coefficient by coefficient, for each
+// link.
 //
-// Extra states with rates f(q, v, z), each of which depends on no other state, change with the
-// links as an implicit step makes them, delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv
-// df/dz) with wa = 1: they are eliminated, and N is what is left.
+// Extra states have rates f(q, v, z); the rate of a state must not depend on another state. In an
+// implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
+// 1. They are eliminated, and N is the rest.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -38,7 +39,7 @@ namespace catena {
 /// N = T + (upper part of U V') + (lower part of P Q'), T tridiagonal; links are counted from 1.
 struct Quasiseparable {
   bool found = false;
-  std::string reason;      ///< if not found: what stands in the way
+  std::string reason;      ///< why it was not found
   bool symmetric = false;  ///< proved: P = V, Q = U, e = f
   int upper_rank = 0, lower_rank = 0;
   // entry [i][r], i = 1..links (entry 0 unused)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The joints' own matrices: K, the derivative of the elastic forces by the angles, and C, that of
-// the friction by their rates (4.12), (4.13).
+// The stiffness matrix K, the derivative of the elastic moments by the angles, and the damping
+// matrix C, that of the damping moments by the rates (4.11).
 #pragma once
 
 #include <ginac/ginac.h>
@@ -12,9 +12,9 @@
 
 namespace catena {
 
-/// Whether the derivative of the chain's residual by `variables` (its coordinates or its rates) is
-/// proved, entry by entry, to be symmetric, tridiagonal and made of stiffnesses and dampings alone.
-/// `chain`: one that has the elastic or the friction term alone.
+/// Whether the derivative of the residual of `chain` by `variables` (its coordinates or its rates)
+/// is proved, entry by entry, to be symmetric, tridiagonal and a function of stiffnesses and
+/// dampings only. `chain` must have only the elastic or only the friction term.
 bool is_constant_tridiagonal(Chain& chain, const std::vector<GiNaC::ex>& variables);
 
 }  // namespace catena

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Definitions undone: expressions as exact comparisons need them.
+// Expressions without definitions, for exact comparisons.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -11,7 +11,7 @@
 
 namespace catena {
 
-/// Writes out every definition but functions of inputs, which stand as functions; expanded.
+/// Replaces every definition by its value and expands. Functions of inputs stay functions.
 class WrittenOut {
  public:
   explicit WrittenOut(const Definitions& definitions) : definitions_(definitions) {}

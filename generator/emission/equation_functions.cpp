@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <set>
 
-#include "generator/derivation/adjoint.hpp"
 #include "generator/derivation/tridiagonal.hpp"
+#include "generator/derivation/weighted_gradient.hpp"
 #include "generator/emission/function_builder.hpp"
 
 namespace catena {
@@ -86,7 +86,7 @@ void FunctionBuilder::state_rates() {
 
 // The gradient of weight . r + rate_weight . zdot.
 void FunctionBuilder::adjoint() {
-  Adjoint gradient(definitions_, "adjoint_");
+  WeightedGradient gradient(definitions_, "adjoint_");
   const auto add_all = [&](const std::vector<ex>& values, const std::string& weight) {
     for (size_t i = 0; i < values.size(); ++i) {
       const int link = static_cast<int>(i) + 1;

@@ -14,8 +14,8 @@
 #include "common/input_error.hpp"
 #include "generator/checking/comparison.hpp"
 #include "generator/checking/evaluator.hpp"
+#include "generator/checking/findings_text.hpp"
 #include "generator/checking/parser.hpp"
-#include "generator/checking/report.hpp"
 #include "generator/program/commands.hpp"
 
 namespace catena {
@@ -41,7 +41,7 @@ int check(const CheckOptions& options) {
   const Derivation derivation = evaluate(parse_derivation(contents_of(options.file), options.file),
                                          options.file, options.links);
   const std::vector<Finding> findings = compare(derivation, options.seed);
-  std::cout << report(options.file, derivation, findings) << std::flush;
+  std::cout << findings_text(options.file, derivation, findings) << std::flush;
   if (!std::cout) throw std::runtime_error("the report cannot be written to standard output");
   return std::all_of(findings.begin(), findings.end(),
                      [](const Finding& finding) { return finding.verdict == Verdict::kEqual; })

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "generated/catena_model.h"
-#include "reference/chain.hpp"
+#include "reference/chain_constants.hpp"
 #include "reference/coriolis.hpp"
 #include "reference/gravity.hpp"
 #include "reference/joint_matrix.hpp"

@@ -89,7 +89,7 @@ TEST_CASE("an equation of motion may be multiplied by what is not zero") {
   }
   const Finding nothing = with("0");
   CHECK(nothing.verdict == Verdict::kDifferent);
-  CHECK(nothing.remark == "it says nothing: both sides are the same for every motion");
+  CHECK(nothing.remark == "it states nothing: both sides are the same for every motion");
 }
 
 TEST_CASE("combinations of the equations of motion are named") {
@@ -143,8 +143,7 @@ TEST_CASE("equations solved for accelerations are proved, and what is wrong in t
   CHECK(wrong.of("thetaddot[2]").verdict == Verdict::kDifferent);
 }
 
-TEST_CASE(
-    "without torques an equation solved for an acceleration is proved by the matrix of inertia") {
+TEST_CASE("without torques an equation solved for an acceleration is proved by the mass matrix") {
   const Checked result = checked(
       "links 2\ngiven T_i = 0 for i = 1..2\ngiven k_i = 0 for i = 1..2\n"
       "given c_i = 0 for i = 1..2\n"
@@ -191,7 +190,7 @@ TEST_CASE("an equation too long to be expanded that says nothing is told") {
   CHECK(result.count(Verdict::kEqual) == 4);
   CHECK(result.findings.back().verdict == Verdict::kDifferent);
   CHECK(result.findings.back().remark ==
-        "it says nothing: both sides are the same for every motion");
+        "it states nothing: both sides are the same for every motion");
 }
 
 TEST_CASE("true equations that do not determine the motion are told") {

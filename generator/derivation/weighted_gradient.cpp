@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "generator/derivation/adjoint.hpp"
+#include "generator/derivation/weighted_gradient.hpp"
 
 #include <utility>
 
@@ -7,14 +7,14 @@ namespace catena {
 
 using GiNaC::ex;
 
-Adjoint::Adjoint(Definitions& definitions, std::string prefix)
+WeightedGradient::WeightedGradient(Definitions& definitions, std::string prefix)
     : definitions_(definitions), prefix_(std::move(prefix)) {}
 
-void Adjoint::add(const ex& expression, const ex& weight, int link) {
+void WeightedGradient::add(const ex& expression, const ex& weight, int link) {
   pass_on(expression, weight, link);
 }
 
-void Adjoint::accumulate() {
+void WeightedGradient::accumulate() {
   while (!open_.empty()) {
     const auto [number, parts] = *open_.begin();
     open_.erase(open_.begin());
@@ -23,7 +23,7 @@ void Adjoint::accumulate() {
     done_[number] = arrived;
     if (symbol.is_input) continue;
     if (symbol.family == "sine" || symbol.family == "cosine") {
-      // Each is the other's derivative, by name.
+      // The derivatives of sine and cosine have names already.
       const bool sine = symbol.family == "sine";
       const ex angle = symbol.value.op(0);
       const ex other = sine ? ex(definitions_.define("cosine", symbol.index, GiNaC::cos(angle)))
@@ -36,20 +36,21 @@ void Adjoint::accumulate() {
   }
 }
 
-ex Adjoint::of(const ex& symbol) const {
+ex WeightedGradient::of(const ex& symbol) const {
   const auto found = done_.find(definitions_.number_of(symbol));
   return found == done_.end() ? ex(0) : found->second;
 }
 
-void Adjoint::pass_on(const ex& expression, const ex& arrived, int link) {
+void WeightedGradient::pass_on(const ex& expression, const ex& arrived, int link) {
   for (const int number : definitions_.symbols_of(expression)) {
     const auto& symbol = GiNaC::ex_to<GiNaC::symbol>(definitions_[number].symbol);
     open_[number][link] += arrived * expression.diff(symbol);
   }
 }
 
-// What belongs to no link has parts from all: their sum goes link by link, as a loop does.
-ex Adjoint::total(int number, const std::map<int, ex>& parts) {
+// A symbol that belongs to no link has parts from all links. They are summed link by link, as in a
+// loop.
+ex WeightedGradient::total(int number, const std::map<int, ex>& parts) {
   const Symbol symbol = definitions_[number];
   const bool link_by_link = symbol.index == kNoIndex && parts.size() > 1;
   ex sum = 0, of_no_link = 0;

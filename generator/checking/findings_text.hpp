@@ -11,7 +11,7 @@ namespace catena::checking {
 
 /// The answer of `catena check` for a reader: one paragraph an entry, then remarks on whole
 /// matrices, notes, and the count.
-std::string report(const std::string& file, const Derivation& derivation,
-                   const std::vector<Finding>& findings);
+std::string findings_text(const std::string& file, const Derivation& derivation,
+                          const std::vector<Finding>& findings);
 
 }  // namespace catena::checking

@@ -4,19 +4,19 @@
 #include <cstddef>
 #include <vector>
 
-/// The equations of the dissertation, coded from its text and from nothing else: the independent
-/// twin against which emitted models are held. Templates on the scalar T, which needs + - * /, a
-/// conversion from small integers, and sin and cos found by argument-dependent look-up (double,
-/// long double, a dual number, a computer-algebra expression). Clarity before speed.
+/// The equations of the dissertation, coded from its text only. Emitted models are compared with
+/// them. They are templates on the scalar T, which needs + - * /, a conversion from small integers,
+/// and sin and cos found by argument-dependent look-up: double, long double, a dual number, a GiNaC
+/// expression. They are written for clarity, not for speed.
 ///
-/// Indices: the dissertation counts links from 1, arrays here from 0. Link i of the text is [i -
-/// 1].
+/// Indices: the dissertation counts links from 1, arrays count from 0. Link i of the text is entry
+/// i - 1.
 namespace catena::reference {
 
 template <class T>
 using Vector = std::vector<T>;
 
-/// Row by row: matrix[i][j].
+/// A matrix by rows: matrix[i][j].
 template <class T>
 using Matrix = std::vector<std::vector<T>>;
 
@@ -40,7 +40,7 @@ struct Chain {
   std::size_t links() const { return length.size(); }
 };
 
-/// m_c + sum_{k > j} m_k (kg): the mass that hangs beyond link j, j counted from 0.
+/// m_c + sum_{k > j} m_k (kg): the mass below link j, counted from 0.
 template <class T>
 T mass_beyond(const Chain<T>& chain, std::size_t j) {
   T sum = chain.load_mass;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "generator/checking/report.hpp"
+#include "generator/checking/findings_text.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -55,7 +55,7 @@ std::string paragraph(const Entry& entry, const Finding& finding, std::size_t wi
   return text;
 }
 
-/// What stands out of a matrix as a whole.
+/// Remarks on a whole matrix.
 std::string matrix_remarks(const Derivation& derivation, const std::vector<Finding>& findings,
                            Quantity quantity) {
   const int n = derivation.chain->links;
@@ -90,7 +90,7 @@ std::string matrix_remarks(const Derivation& derivation, const std::vector<Findi
   return text;
 }
 
-/// Several true equations need not say all: the same one twice, or a sum of two beside both.
+/// True equations may be too few: the same one twice, or two and their sum.
 std::string equations_remark(const Derivation& derivation, const std::vector<Finding>& findings) {
   const auto hold = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
     return !finding.combination.empty();
@@ -105,8 +105,8 @@ std::string equations_remark(const Derivation& derivation, const std::vector<Fin
 
 }  // namespace
 
-std::string report(const std::string& file, const Derivation& derivation,
-                   const std::vector<Finding>& findings) {
+std::string findings_text(const std::string& file, const Derivation& derivation,
+                          const std::vector<Finding>& findings) {
   std::string text = file;
   if (derivation.chain)
     text += ": " + std::to_string(derivation.chain->links) +

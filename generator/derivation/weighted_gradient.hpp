@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The gradient of a sum of weighted expressions with respect to everything they are made of, by
-// reverse accumulation: each definition passes what arrives at it on to the symbols in its value,
-// so that all derivatives together cost a small multiple of the expressions.
+// The gradient of a sum of weighted expressions with respect to all their symbols, by reverse
+// accumulation: each definition passes its derivative on to the symbols in its value. All
+// derivatives together cost a small multiple of the expressions.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@
 
 namespace catena {
 
-class Adjoint {
+class WeightedGradient {
  public:
   /// `prefix` starts the names of the families it defines.
-  Adjoint(Definitions& definitions, std::string prefix);
+  WeightedGradient(Definitions& definitions, std::string prefix);
 
-  /// Adds weight times expression, which belongs to a link, to the sum.
+  /// Adds weight times expression to the sum. The expression belongs to link `link`.
   void add(const GiNaC::ex& expression, const GiNaC::ex& weight, int link);
-  /// Passes on everything added, once.
+  /// Computes the derivatives. Call it once, after the last add().
   void accumulate();
   /// The derivative of the sum with respect to a symbol, after accumulate().
   GiNaC::ex of(const GiNaC::ex& symbol) const;
@@ -31,8 +31,8 @@ class Adjoint {
 
   Definitions& definitions_;
   std::string prefix_;
-  // Number of a symbol -> link -> what arrives from there; the latest symbols first, since a
-  // symbol's users come after it.
+  // Number of a symbol -> link -> derivative that comes from there. The latest symbols come first,
+  // since the users of a symbol come after it.
   std::map<int, std::map<int, GiNaC::ex>, std::greater<>> open_;
   std::map<int, GiNaC::ex> done_;
 };
