@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The model for any number of links against those compiled for one number: functions, and 3 s of
-// the cable from the smooth start at tolerance 1e-6. Results are compared bit for bit first.
+// The model for any number of links compared with those compiled for one number: its functions, and
+// 3 s of the cable from the smooth start at tolerance 1e-6. Results must first agree bit for bit.
 //
 //   any_links [--model N library.so]...  >  file.csv
 #include "runtime/any_links.hpp"

@@ -5,7 +5,7 @@
 
 namespace catena::benchmark {
 
-/// The obvious way: CVODE's BDF on ydot = (v, a) with a from the dense mass matrix by Cholesky, and
+/// The usual way: CVODE's BDF on ydot = (v, a) with a from the dense mass matrix by Cholesky, and
 /// CVODE's own dense linear solver with its difference-quotient Jacobian.
 Solution simulate_cvode_dense(const Cable& cable, double rest_angle,
                               const std::vector<double>& times, double relative_tolerance);

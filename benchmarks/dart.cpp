@@ -29,8 +29,8 @@ class DartPeer : public Peer {
       parent = skeleton_->createJointAndBodyNodePair<RevoluteJoint>(parent, joint, body).second;
     }
     skeleton_->setGravity(Eigen::Vector3d(0, -cable.gravity, 0));
-    // Its joint springs are implicit over one time step: a step of nothing leaves the plain
-    // dynamics.
+    // Its joint springs are implicit over one time step. With a time step of zero the dynamics are
+    // the plain ones.
     skeleton_->setTimeStep(1e-14);
   }
   const char* name() const override { return "DART"; }

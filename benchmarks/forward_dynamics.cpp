@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Forward dynamics per call, against general engines: the same chain, the same states. Results are
-// compared first; a peer that disagrees is reported and not timed.
+// Time of one call of the forward dynamics, compared with general engines on the same chain and
+// states. Results are compared first; an engine that disagrees is reported and not timed.
 //
 //   forward_dynamics [--model N library.so]... [Google Benchmark's options]
 #include <benchmark/benchmark.h>

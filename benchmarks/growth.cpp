@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Time per step against the number of links, the physical cable being the same: 0.02 s from the
-// smooth start at tolerance 1e-6.
+// Time per step as a function of the number of links of the same cable: 0.02 s from the smooth
+// start at tolerance 1e-6.
 //
 //   growth [--model N library.so]...  >  file.csv
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace catena::benchmark {
 
-/// A general engine with the same chain in it. All of them have relative angles as coordinates.
+/// A general engine with the same chain. Its coordinates are relative angles.
 class Peer {
  public:
   virtual ~Peer() = default;

@@ -31,8 +31,8 @@ class Pinocchio : public Peer {
       model_.appendBodyToJoint(parent, pin::Inertia(link.mass, Eigen::Vector3d(0, 0, -link.centre),
                                                     link.inertia * Eigen::Matrix3d::Identity()));
     }
-    // Data holds the second derivatives of the torques whether they are asked for or not, and fills
-    // them with zeros: without room for them the system would end the program.
+    // Data always allocates the second derivatives of the torques. If they do not fit into memory,
+    // the system would end the program.
     const double room = 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                         static_cast<double>(sysconf(_SC_PAGESIZE));
     const double tensors = 4 * std::pow(cable.links, 3) * sizeof(double);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Simbody's CPodes in a process of its own: it brings an old copy of SUNDIALS, whose names collide
-// with those of the library that catena uses.
+// Simbody's CPodes in a process of its own: it contains an old copy of SUNDIALS, whose symbols
+// conflict with those of the SUNDIALS that catena uses.
 //
-//   simbody_simulation REST_ANGLE ACCURACY  ->  the CPU seconds, then the angles time by time
+//   simbody_simulation REST_ANGLE ACCURACY  ->  CPU seconds, then the angles, one line per time
 #include <cstdio>
 #include <cstdlib>
 

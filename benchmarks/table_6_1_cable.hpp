@@ -41,7 +41,7 @@ struct Cable {
   double load = 1.47, gravity = 9.81;
 };
 
-/// Link i, from 0, as an engine wants it: the load is part of the last.
+/// Link i, from 0, for an engine: the load is part of the last link.
 struct RigidLink {
   RigidLink(const Cable& cable, int i) {
     const double load = i + 1 == cable.links ? cable.load : 0.0;

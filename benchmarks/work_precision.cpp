@@ -4,9 +4,10 @@
 //
 //   work_precision [smooth|rough] [repetitions]  >  file.csv
 //
-// "smooth": joint 1's rest angle equals its start; "rough": it is zero, as given, which puts a jump
-// into joint 1 and excites fast modes. Error: largest difference of any angle at any of thirty
-// times from a reference at tolerance 1e-13, whose own error is estimated by another at 1e-12.
+// "smooth": the rest angle of joint 1 is its start angle. "rough": it is zero, as in the source;
+// the moment in joint 1 then jumps and excites fast modes. Error: the largest difference of any
+// angle at any of thirty times from a reference at tolerance 1e-13. Another reference at 1e-12
+// estimates its error.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

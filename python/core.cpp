@@ -173,8 +173,7 @@ void add_model(py::module_& module) {
       "An emitted model of a chain of links. Model(12) is the plain chain of 12 links.")
       .def(py::init(&Model::built_in), "links"_a)
       .def_static("load", &Model::load, "shared_library"_a, "A model compiled as a shared library.")
-      .def_static("built_in_links", &Model::built_in_links,
-                  "The link counts for which Model(links) works without a compiler.")
+      .def_static("built_in_links", &Model::built_in_links, "Numbers of links that are built in.")
       .def_property_readonly("links", &Model::links)
       .def_property_readonly("coordinates", &Model::coordinates)
       .def_property_readonly("states", &Model::states)
@@ -226,7 +225,7 @@ void add_simulation(py::module_& module) {
       .def_property_readonly("z", view_of(&Trajectory::z), "Extra states.")
       .def_property_readonly("energy", view_of(&Trajectory::energy),
                              "J, one column per entry of Model.energy_names.");
-  py::class_<Statistics>(module, "Statistics", "What the integrator did.")
+  py::class_<Statistics>(module, "Statistics", "Statistics of the integration.")
       .def_readonly("steps", &Statistics::steps)
       .def_readonly("residual_evaluations", &Statistics::residual_evaluations)
       .def_readonly("jacobian_evaluations", &Statistics::jacobian_evaluations)
@@ -288,7 +287,7 @@ PYBIND11_MODULE(_core, module) {
   });
   add_model(module);
   add_simulation(module);
-  add_studies(module);
+  add_cases(module);
   add_diagnoses(module);
 }
 

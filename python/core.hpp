@@ -9,14 +9,14 @@
 
 namespace catena::python {
 
-/// A computation failed; the message is the program's.
+/// A failed computation; the message is that of the program.
 class ComputationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Asked often by a long computation without the interpreter's lock: whether to go on. After a
-/// Ctrl-C the answer stays no, and rethrow() raises KeyboardInterrupt.
+/// Whether a long computation, which runs without the interpreter's lock, may continue. After
+/// Ctrl-C the answer is no, and rethrow() raises KeyboardInterrupt.
 class SignalCheck {
  public:
   bool operator()();
@@ -27,15 +27,15 @@ class SignalCheck {
   bool raised_ = false;
 };
 
-/// The array, which Python may then not write to.
+/// Marks the array as read-only for Python and returns it.
 pybind11::array read_only(pybind11::array array);
 
 /// A view of a matrix with one column per time as an array with one row per time; `owner` keeps the
 /// memory alive.
 pybind11::array rows_per_time(const Eigen::MatrixXd& matrix, pybind11::handle owner);
 
-/// Cases and identify (studies.cpp).
-void add_studies(pybind11::module_& module);
+/// Cases and identify (cases.cpp).
+void add_cases(pybind11::module_& module);
 /// diagnose (diagnoses.cpp).
 void add_diagnoses(pybind11::module_& module);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the studies of the dissertation's chapters share: runs of catena, tables, figures."""
+"""Common to the studies of the dissertation's chapters: runs of catena, tables, figures."""
 import concurrent.futures
 import csv
 import json
@@ -34,7 +34,7 @@ def folders(study):
 
 
 class Failed(Exception):
-    """A command and what it printed; one that nobody catches ends the study."""
+    """Runs a command and returns its output; a failure ends the study."""
 
 
 def run(*command):
@@ -69,7 +69,7 @@ class Fit:
         return float(re.search(r"([\d.]+) s of a core", printed)[1])
 
     def measure(self):
-        """Of a short fit, which anything disturbs, the time becomes the median of seven runs."""
+        """Measures a short fit seven times; its time becomes the median."""
         if self.cpu_seconds < 0.2:
             self.cpu_seconds = sorted(self.run() for _ in range(7))[3]
 

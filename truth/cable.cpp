@@ -8,8 +8,8 @@
 //   angle i:      n_i . ( l_i sum_{k>i} R_k + b_i R_i ) + torques        = 0
 //   extension i:  t_i . ( sum_{k>i} R_k + R_i b_i / l_i ) - e_i / (l_i compliance) = 0
 //
-// with R_k = F_k - m_k acc_k the force a link (or the load) is short of, b_i the distance of the
-// link's mass centre from its upper end.
+// R_k = F_k - m_k acc_k is the force that a link (or the load) lacks, b_i the distance of the mass
+// centre of the link from its upper end.
 //
 // Implicit midpoint rule: q' = v, with everything taken at the middle of the step; the unknown is
 // the middle velocity. Newton's matrix is made by differences and kept while it converges.
@@ -35,7 +35,7 @@ Vector operator*(double s, Vector a) { return {s * a.side, s * a.down}; }
 double dot(Vector a, Vector b) { return a.side * b.side + a.down * b.down; }
 double norm(Vector a) { return std::sqrt(dot(a, a)); }
 
-/// The sign of a rate (rad/s), rounded below 0.008 rad/s: sharper than any rate of interest.
+/// The sign of a rate (rad/s), smooth below 0.008 rad/s, which is below all rates of interest.
 double rounded_sign(double rate) { return std::tanh(rate / 0.008); }
 
 class Chain {
@@ -51,8 +51,8 @@ class Chain {
   int unknowns() const { return unknowns_; }
   int links() const { return n_; }
 
-  /// What Newton's equations lack at (t, q, v, a); `memory` is the hysteretic part of each joint's
-  /// angle at the same moment.
+  /// Residual of Newton's equations at (t, q, v, a). `memory`: the hysteretic part of each joint
+  /// angle.
   void residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
                 const VectorXd& memory, VectorXd& r) const;
 
@@ -107,7 +107,7 @@ Vector Chain::load_force(double t, Vector at, Vector velocity) const {
     force = force + (h.magnet / (distance2 * std::sqrt(distance2))) * away;
   }
   if (h.carried != 0 && t < 1.0) {
-    const double c = std::cos(std::numbers::pi * t / 2);  // the hand lets go softly
+    const double c = std::cos(std::numbers::pi * t / 2);  // the hand releases the load smoothly
     force = force - Vector{0, h.carried * cable_.load_mass * cable_.gravity * c * c};
   }
   return force;
@@ -138,7 +138,7 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
   harmonic(h.support_down_amplitude, h.support_down_phase, end.position.down, end.velocity.down,
            end.acceleration.down);
 
-  // Down the chain: positions, velocities, accelerations, and what each link is short of.
+  // Down the chain: positions, velocities, accelerations and the force that each link lacks.
   for (int i = 0; i < n_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     along[k] = {std::sin(q[i]), std::cos(q[i])};
@@ -276,7 +276,7 @@ class Midpoint {
   }
 
  private:
-  /// With a matrix that is kept for many steps.
+  /// Newton's method with a matrix that is kept for many steps.
   bool newton(VectorXd& middle, VectorXd& r) {
     if (age_ > 40) age_ = 0;
     double before = 1e300;
@@ -293,8 +293,8 @@ class Midpoint {
     return false;
   }
 
-  /// With a fresh matrix each time, and no further than what is short shrinks: where dry friction
-  /// is about to let go or to hold, a full step jumps from one side to the other for ever.
+  /// Newton's method with a new matrix in each iteration and steps that reduce the residual. With
+  /// dry friction near zero rate, full steps would alternate between the two signs.
   bool careful_newton(VectorXd& middle, VectorXd& r) {
     VectorXd r_new(r.size());
     lack(middle, r);
@@ -370,7 +370,7 @@ VectorXd start_state(const Cable& cable, const Hidden& hidden, const Chain& chai
     throw std::invalid_argument("start_angles: one angle per link is needed");
   VectorXd q = VectorXd::Zero(chain.unknowns());
   for (int i = 0; i < cable.links; ++i) q[i] = angles[static_cast<std::size_t>(i)];
-  // an extensible cable starts stretched by the load's weight, not slack
+  // an extensible cable starts stretched by the weight of the load
   if (chain.unknowns() > cable.links)
     q.tail(cable.links)
         .setConstant(chain.link() * cable.load_mass * cable.gravity / hidden.axial_stiffness);

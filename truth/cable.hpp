@@ -7,10 +7,9 @@
 
 namespace truth {
 
-/// A cable in the plane, cut finer than the models that are to explain it, and its motion from
-/// rest. Written apart from generator/, generated/ and runtime/ on purpose: the equations are
-/// Newton's for each link, swept from tip to support, and the integrator is the implicit midpoint
-/// rule.
+/// A cable in the plane and its motion from rest, with more links than the models that are fitted
+/// to it. It is independent of generator/, generated/ and runtime/: the equations are Newton's for
+/// each link, from the tip to the support, and the integrator is the implicit midpoint rule.
 struct Cable {
   int links = 24;
   double length = 2.585;    // m
@@ -30,7 +29,7 @@ struct Motion {
 };
 
 struct Integration {
-  double step = 2e-4;  // s; halving it moves no marker of the recordings by more than 0.05 mm
+  double step = 2e-4;  // s; half of it changes no marker by more than 0.05 mm
 };
 
 /// Absolute angles of the links of a cable hanging between the origin and a held point, released

@@ -11,12 +11,12 @@ namespace truth {
 
 /// A camera that follows marks on the cable.
 struct Camera {
-  double rate = 60;        // frames per second
-  double duration = 6;     // s
-  int markers = 12;        // evenly spaced, the last one at the load
-  double noise = 1e-3;     // m, standard deviation per coordinate
-  double lost = 0;         // share of marks not seen, half of them in runs of ten frames
-  double pixel = 0;        // m; positions are rounded to whole pixels after the noise, 0: not
+  double rate = 60;     // frames per second
+  double duration = 6;  // s
+  int markers = 12;     // evenly spaced, the last one at the load
+  double noise = 1e-3;  // m, standard deviation per coordinate
+  double lost = 0;      // share of marks not seen, half of them in runs of ten frames
+  double pixel = 0;     // m; after the noise, positions are rounded to whole pixels; 0: no rounding
   std::uint64_t seed = 1;  // of noise and loss
 };
 
@@ -38,8 +38,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Films the motion from rest at the given link angles. The sensor's own hidden effects (clock,
-/// scale, tilt, offset) come before the noise.
+/// The recording of the motion from rest at the given link angles. Effects of the sensor (clock,
+/// scale, tilt, offset) are applied before the noise.
 Recording film(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
                const Camera& camera, const Integration& integration = {});
 

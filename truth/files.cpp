@@ -10,7 +10,7 @@
 namespace truth {
 namespace {
 
-/// As short as it reads back to the same double; always with a point or exponent.
+/// The shortest text that is read back to the same double, with a point or exponent.
 std::string number(double value) {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -51,7 +51,7 @@ void write_markers(const Recording& recording, const std::filesystem::path& path
 }
 
 std::string case_text(const Cable& cable, const Camera& camera, int case_links) {
-  // Starting values an analyst would guess: three times too stiff, half the damping.
+  // Starting values: three times the stiffness, half the damping.
   return "format = 1\nkind = \"case\"\ntitle = \"A filmed cable\"\n\n"
          "[model]\nlinks = " +
          std::to_string(case_links) +

@@ -11,11 +11,11 @@ namespace truth {
 /// time_s, side_i_m, down_i_m; an empty field where a marker was not seen.
 void write_markers(const Recording& recording, const std::filesystem::path& path);
 
-/// What an analyst knows: geometry, masses, rate, camera; stiffness and damping unknown, the start
-/// a smooth unknown shape at rest.
+/// The case file: geometry, masses and camera are known; stiffness, damping and the smooth shape at
+/// the start, at rest, are unknown.
 std::string case_text(const Cable& cable, const Camera& camera, int case_links);
 
-/// Everything, for comparing afterwards.
+/// The truth file: all values, for comparison with what was found.
 std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& camera,
                        const std::vector<double>& held);
 

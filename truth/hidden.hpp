@@ -7,8 +7,8 @@
 
 namespace truth {
 
-/// What may be hidden in a recording: one number per parameter, coded here by hand. The names are
-/// those of the library under test where it has such an effect; the last group is in no library.
+/// The effects that a recording may contain, one number per parameter, coded by hand. Effects of
+/// the library under test have its names; those of the last group are in no library.
 struct Hidden {
   // forces per length of cable, at the link centres (n across the link, t along it)
   double drag_isotropic = 0;                                        // kg/m^2
@@ -31,14 +31,14 @@ struct Hidden {
   double pivot_rest_angle = 0;                            // rad
   double pivot_stiffness = 0, pivot_damping = 0;          // N m/rad, N m s/rad, added at joint 1
   double hysteresis_moment = 0, hysteresis_reach = 0.02;  // N m, rad (Dahl)
-  // the whole
+  // the whole cable
   double centre_fraction = 0;      // mass centres past mid-link, share of the link's length
   double gravity_tilt = 0;         // rad
   double axial_stiffness = 0;      // N, force per strain; 0: cannot be stretched
   double axial_relaxation = 1e-3;  // s
   double support_side_amplitude = 0, support_down_amplitude = 0;                 // m
   double support_frequency = 1, support_side_phase = 0, support_down_phase = 0;  // Hz, rad
-  // what the camera does
+  // the camera
   double clock_offset = 0;                     // s
   double scale = 1;                            // 1
   double camera_tilt = 0;                      // rad

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Makes a recording of a cable with something hidden in it: markers.csv and case.toml for the
-// analyst, truth.toml, which the workflow under test never reads, for whoever wants to compare
-// afterwards.
+// Makes a recording of a cable with hidden effects: markers.csv and case.toml for catena, and
+// truth.toml, which catena never reads, for comparison with what was found.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>

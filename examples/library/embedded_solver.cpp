@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::generated alone: the emitted equations of a chain of 12 links in a fixed-step solver of
-// one's own, as a controller or a game would have it. Nothing but the standard library is needed:
-// copying generated/chain_12.hpp, dense.hpp, quasiseparable.hpp and scalar.hpp would do as well.
+// catena::generated: the emitted equations of a chain of 12 links in a fixed-step solver, as for a
+// controller. It needs the standard library only: instead of installing catena, one may copy
+// generated/chain_12.hpp and the headers that it includes.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -55,7 +55,7 @@ State moved(const State& from, double step, const State& along) {
   return out;
 }
 
-/// The classical method of Runge and Kutta, fourth order.
+/// The classical Runge-Kutta method of fourth order.
 State advanced(const State& state, double step) {
   const State a = slope(state);
   const State b = slope(moved(state, step / 2, a));

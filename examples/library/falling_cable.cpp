@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::runtime: a cable of 12 links falls from a catenary; then, how the load's
-// place after one second changes with the stiffness of the joints.
+// catena::runtime: a cable of 12 links falls from a catenary. Then: the derivative of the position
+// of the load after one second with respect to the stiffness of the joints.
 #include <cstdio>
 
 #include "runtime/positions.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::identify: what the camera of an experiment saw of a falling cable (made here by the model
-// itself, with a millimetre of noise) gives back the stiffness of its joints.
+// catena::identify: finds the stiffness of the joints of a falling cable from a recording. The
+// recording is made here by the model itself, with a millimetre of noise.
 #include <cstdio>
 #include <random>
 

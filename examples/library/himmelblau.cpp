@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// catena::identify: Nelder and Mead's simplex on Himmelblau's function (5.4), which has four
-// equally good minimisers: where the search begins decides which is found, and not always the
+// catena::identify: the simplex method of Nelder and Mead on Himmelblau's function (5.4). The
+// function has four equal minima. The start decides which of them is found; it is not always the
 // nearest.
 //
 //   himmelblau [FILE]    every evaluation of the first search to FILE, for a plot

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Models, simulation, identification and diagnosis of a hanging cable.
 
-SI units, angles in rad from the downward vertical. Arrays over time have one row per time. A bad
-input raises InputError (a ValueError) with the text that the program prints, a computation that
-fails ComputationError (a RuntimeError), Ctrl-C KeyboardInterrupt.
+SI units, angles in rad from the downward vertical. Arrays over time have one row per time. Bad input
+raises InputError (a ValueError) with the text that the program prints. A computation that fails raises
+ComputationError (a RuntimeError). Ctrl-C raises KeyboardInterrupt.
 """
 
 from ._core import (
+    Case,
     ComputationError,
     Diagnosis,
     DiagnosisGap,
@@ -22,7 +23,6 @@ from ._core import (
     Simulation,
     State,
     Statistics,
-    Study,
     Trajectory,
     catenary,
     diagnose,
@@ -34,6 +34,7 @@ from ._core import (
 )
 
 __all__ = [
+    "Case",
     "ComputationError",
     "Diagnosis",
     "DiagnosisGap",
@@ -49,7 +50,6 @@ __all__ = [
     "Simulation",
     "State",
     "Statistics",
-    "Study",
     "Trajectory",
     "catenary",
     "diagnose",

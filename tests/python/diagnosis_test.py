@@ -61,8 +61,8 @@ def record(folder):
     (folder / "case.toml").write_text(CASE)
     times = np.arange(121) / 60
     write(folder, times, np.zeros((121, 8)))
-    study = catena.Study(folder / "case.toml")
-    model, parameters = study.model, study.model_parameters()
+    case = catena.Case(folder / "case.toml")
+    model, parameters = case.model, case.model_parameters()
     start = catena.from_angles(model, [0.3, 0.4, 0.5, 0.6])
     run = catena.simulate(model, parameters, start, times)
     places = np.stack(catena.positions(model, parameters, run.trajectory), 2)[:, 1:5].reshape(121, 8)
@@ -125,7 +125,7 @@ class Diagnoses(unittest.TestCase):
             self.found.write(folder)
             written = json.loads((pathlib.Path(folder) / "diagnosis.json").read_text())
             self.assertEqual(written, document)
-            diagnosed = catena.Study(pathlib.Path(folder) / "diagnosed.toml")
+            diagnosed = catena.Case(pathlib.Path(folder) / "diagnosed.toml")
             self.assertAlmostEqual(
                 diagnosed.error(), self.found.gap.fit, delta=0.2 * self.found.gap.fit
             )

@@ -26,13 +26,13 @@ namespace catena::python {
 namespace {
 
 /// A case with its model and data. Shared, because experiments and fits refer to it.
-struct Study {
+struct LoadedCase {
   std::shared_ptr<const Problem> problem;
 
-  explicit Study(const std::filesystem::path& path) {
+  explicit LoadedCase(const std::filesystem::path& path) {
     py::gil_scoped_release unlock;
-    const Case study = read_case(path);
-    problem = std::make_shared<Problem>(study, provide_model(study.description, study.links));
+    const Case loaded = read_case(path);
+    problem = std::make_shared<Problem>(loaded, provide_model(loaded.description, loaded.links));
   }
 
   int experiment(int index) const {
@@ -95,7 +95,7 @@ struct Identification {
   }
 };
 
-Identification identify(const Study& study, const std::optional<py::function>& progress) {
+Identification identify(const LoadedCase& loaded, const std::optional<py::function>& progress) {
   SignalCheck check;
   std::atomic<bool> stop{false};
   std::exception_ptr raised;
@@ -112,8 +112,8 @@ Identification identify(const Study& study, const std::optional<py::function>& p
       stop = true;
     }
   };
-  Identification found{study.problem, {}, {}, {}};
-  const Problem& problem = *study.problem;
+  Identification found{loaded.problem, {}, {}, {}};
+  const Problem& problem = *loaded.problem;
   {
     py::gil_scoped_release unlock;
     found.fit = fit(problem, options, fit_least_squares);
@@ -131,9 +131,9 @@ Identification identify(const Study& study, const std::optional<py::function>& p
   return found;
 }
 
-std::vector<std::string> unknown_names(const Study& study) {
+std::vector<std::string> unknown_names(const LoadedCase& loaded) {
   std::vector<std::string> names;
-  for (const Unknown& unknown : study.problem->unknowns()) names.push_back(unknown.name);
+  for (const Unknown& unknown : loaded.problem->unknowns()) names.push_back(unknown.name);
   return names;
 }
 
@@ -145,13 +145,13 @@ std::vector<std::string> channel_names(const Recording& recording) {
 
 }  // namespace
 
-void add_studies(py::module_& module) {
-  py::class_<Experiment>(module, "Experiment", "One recording of a study.")
+void add_cases(py::module_& module) {
+  py::class_<Experiment>(module, "Experiment", "One recording of a case.")
       .def_property_readonly("name", [](const Experiment& e) { return e.spec.name; })
       .def_property_readonly("fitted", &Experiment::fitted)
       .def_property_readonly(
           "fit_frames", [](const Experiment& e) { return e.recording.fit_frames; },
-          "The first so many frames are fitted, the rest validates.")
+          "Number of fitted frames; the later ones validate.")
       .def_property_readonly("channels",
                              [](const Experiment& e) { return channel_names(e.recording); })
       .def_property_readonly("time",
@@ -167,38 +167,41 @@ void add_studies(py::module_& module) {
           },
           "Frames x channels, m or rad; NaN where a point was not seen.");
 
-  py::class_<Study>(module, "Study", "A case file with its model and its data.")
+  py::class_<LoadedCase>(module, "Case", "A case file with its model and its data.")
       .def(py::init<const std::filesystem::path&>(), "case"_a)
-      .def_property_readonly("title", [](const Study& s) { return s.problem->the_case().title; })
-      .def_property_readonly("model", [](const Study& s) { return s.problem->model(); })
-      .def_property_readonly("unknowns", &unknown_names, "Names of what is to be found.")
+      .def_property_readonly("title",
+                             [](const LoadedCase& s) { return s.problem->the_case().title; })
+      .def_property_readonly("model", [](const LoadedCase& s) { return s.problem->model(); })
+      .def_property_readonly("unknowns", &unknown_names, "Names of the unknowns.")
       .def_property_readonly(
-          "start", [](const Study& s) { return s.problem->start(); }, "Their starting values.")
+          "start", [](const LoadedCase& s) { return s.problem->start(); },
+          "Starting values of the unknowns.")
       .def_property_readonly(
-          "experiments", [](const Study& s) -> const auto& { return s.problem->experiments(); },
+          "experiments",
+          [](const LoadedCase& s) -> const auto& { return s.problem->experiments(); },
           py::return_value_policy::reference_internal)
       .def(
           "model_parameters",
-          [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+          [](const LoadedCase& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
             return s.problem->model_parameters(s.unknowns(x), s.experiment(experiment));
           },
           "x"_a = py::none(), "experiment"_a = 0, "The model's parameter array.")
       .def(
           "initial_state",
-          [](const Study& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
+          [](const LoadedCase& s, const std::optional<Eigen::VectorXd>& x, int experiment) {
             return s.problem->initial_state(s.unknowns(x), s.experiment(experiment));
           },
           "x"_a = py::none(), "experiment"_a = 0, "The state at the first frame.")
-      .def("predict", &Study::predict, "x"_a = py::none(), "experiment"_a = 0,
-           "What the model says at every frame, frames x channels as Experiment.measured.")
-      .def("error", &Study::error, "x"_a = py::none(),
-           "The case's error measure over what is fitted.")
-      .def(
-          "identify", &identify, "progress"_a = py::none(),
-          "Finds the unknowns by the method the case names. progress(evaluations, limit, error) is "
-          "called on the way; what it raises ends the search and is raised again.");
+      .def("predict", &LoadedCase::predict, "x"_a = py::none(), "experiment"_a = 0,
+           "Prediction at every frame, frames x channels as Experiment.measured.")
+      .def("error", &LoadedCase::error, "x"_a = py::none(),
+           "Error measure of the case over the fitted frames.")
+      .def("identify", &identify, "progress"_a = py::none(),
+           "Finds the unknowns by the method of the case. progress(evaluations, limit, error) is "
+           "called "
+           "during the search; an exception in it ends the search and is raised again.");
 
-  py::class_<Gap>(module, "Gap", "How far model and measurement are apart, m or rad.")
+  py::class_<Gap>(module, "Gap", "Differences between model and measurement, m or rad.")
       .def_readonly("experiment", &Gap::experiment)
       .def_property_readonly(
           "part", [](const Gap& gap) { return gap.part == Part::kFit ? "fit" : "validate"; })
@@ -206,7 +209,7 @@ void add_studies(py::module_& module) {
       .def_readonly("mean_absolute", &Gap::mean_absolute)
       .def_readonly("mean_distance", &Gap::mean_distance)
       .def_readonly("largest", &Gap::largest);
-  py::class_<Identification>(module, "Identification", "What identify found.")
+  py::class_<Identification>(module, "Identification", "Result of identify.")
       .def_property_readonly("status",
                              [](const Identification& i) { return name_of(i.fit.status); })
       .def_property_readonly("x", [](const Identification& i) { return i.fit.x; })
