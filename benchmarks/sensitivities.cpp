@@ -31,10 +31,10 @@ int main() {
     std::vector<long> steps(counts.size());
     for (int repetition = 0; repetition < kRepetitions; ++repetition)
       for (std::size_t k = 0; k < counts.size(); ++k) {
-        std::vector<catena::Seed> seeds;  // the first stiffnesses
+        std::vector<catena::SensitivityDirection> directions;  // the first stiffnesses
         for (int i = 0; i < counts[k]; ++i)
-          seeds.push_back(catena::Seed::parameter(model, 3 * links + i));
-        const auto run = catena::simulate_with_sensitivities(model, parameters, start, seeds,
+          directions.push_back(catena::SensitivityDirection::parameter(model, 3 * links + i));
+        const auto run = catena::simulate_with_sensitivities(model, parameters, start, directions,
                                                              {0.0, 3.0}, options);
         if (run.status != catena::Status::kSuccess) {
           std::fprintf(stderr, "%d links: %s\n", links, run.message.c_str());

@@ -92,7 +92,8 @@ Simulation run(const Model& model, const Eigen::VectorXd& parameters, const Stat
 }
 
 SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::VectorXd& parameters,
-                                           const State& initial, const std::vector<Seed>& seeds,
+                                           const State& initial,
+                                           const std::vector<SensitivityDirection>& directions,
                                            const std::vector<double>& times,
                                            double relative_tolerance,
                                            double absolute_tolerance_position,
@@ -102,7 +103,7 @@ SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::Vect
   {
     py::gil_scoped_release unlock;
     simulation =
-        simulate_with_sensitivities(model, parameters, initial, seeds, times,
+        simulate_with_sensitivities(model, parameters, initial, directions, times,
                                     options_of(relative_tolerance, absolute_tolerance_position,
                                                absolute_tolerance_velocity, max_steps, check));
   }
@@ -238,17 +239,18 @@ void add_simulation(py::module_& module) {
       .def_readonly("statistics", &Simulation::statistics)
       .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
                     "Largest |stored + dissipated - supplied - initial| over the times, J.");
-  py::class_<SensitiveSimulation, Simulation>(module, "SensitiveSimulation",
-                                              "A simulation with its derivatives along the seeds.")
+  py::class_<SensitiveSimulation, Simulation>(
+      module, "SensitiveSimulation", "A simulation with its derivatives along the directions.")
       .def_readonly("sensitivity", &SensitiveSimulation::sensitivity);
-  py::class_<Seed>(module, "Seed", "A direction in parameters and initial state.")
-      .def(py::init(&Seed::zero), "model"_a)
-      .def_static("parameter", &Seed::parameter, "model"_a, "index"_a,
+  py::class_<SensitivityDirection>(module, "SensitivityDirection",
+                                   "A direction in the space of parameters and initial states.")
+      .def(py::init(&SensitivityDirection::zero), "model"_a)
+      .def_static("parameter", &SensitivityDirection::parameter, "model"_a, "index"_a,
                   "Only this parameter varies, at rate one.")
-      .def_readwrite("parameters", &Seed::parameters)
-      .def_readwrite("q", &Seed::q)
-      .def_readwrite("v", &Seed::v)
-      .def_readwrite("z", &Seed::z);
+      .def_readwrite("parameters", &SensitivityDirection::parameters)
+      .def_readwrite("q", &SensitivityDirection::q)
+      .def_readwrite("v", &SensitivityDirection::v)
+      .def_readwrite("z", &SensitivityDirection::z);
 
   const SimulationOptions defaults;
   module.def(
@@ -260,12 +262,12 @@ void add_simulation(py::module_& module) {
       "The motion from `initial` at times[0], reported at every time (s, increasing). Raises "
       "ComputationError, naming state and time, where the integration fails.");
   module.def("simulate_with_sensitivities", &run_with_sensitivities, "model"_a, "parameters"_a,
-             "initial"_a, "seeds"_a, "times"_a, py::kw_only(),
+             "initial"_a, "directions"_a, "times"_a, py::kw_only(),
              "relative_tolerance"_a = defaults.relative_tolerance,
              "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
              "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
              "max_steps"_a = defaults.max_steps,
-             "simulate, with the derivative of the motion along each seed.");
+             "simulate, with the derivative of the motion along each direction.");
   module.def(
       "positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
       "side and down (m), times x (links + 2): the support, the far end of each link, the load.");

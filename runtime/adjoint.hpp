@@ -14,7 +14,7 @@ using MotionObjective = std::function<void(const Trajectory& motion, Trajectory&
 
 struct AdjointSimulation : Simulation {
   /// dJ with respect to every parameter and to the initial state.
-  Seed gradient;
+  SensitivityDirection gradient;
 };
 
 /// simulate, and the gradient of J with respect to all parameters and the initial state. The

@@ -62,14 +62,14 @@ void resize(const Model& model, std::size_t count, Trajectory& trajectory) {
 
 Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                        double start, const SimulationOptions& options, const Signals& signals,
-                       const std::vector<Seed>& seeds)
+                       const std::vector<SensitivityDirection>& directions)
     : options_(options),
       dynamics_(model, parameters, signals),
       n_(model.coordinates()),
       context_(new_context()),
       matrix_(make_newton_matrix(model, options.linear_solver, used_)),
       step_solver_(std::make_unique<StepSolver>(dynamics_, *matrix_, context_.get())),
-      seeds_(seeds),
+      directions_(directions),
       y_(new_state_vector(dynamics_.size(), context_.get())),
       output_(new_state_vector(dynamics_.size(), context_.get())),
       energies_(static_cast<std::size_t>(model.energies())),
@@ -84,7 +84,7 @@ Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, co
   require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
           "CVodeSetNonlinearSolver");
   if (options_.energy) start_quadratures();
-  if (!seeds_.empty()) start_sensitivities();
+  if (!directions_.empty()) start_sensitivities();
 }
 
 void Integrator::start_quadratures() {
@@ -100,7 +100,7 @@ void Integrator::start_quadratures() {
 
 void Integrator::start_sensitivities() {
   sensitivity_solver_ = std::make_unique<SensitivitySolver>(dynamics_, *matrix_, *step_solver_,
-                                                            seeds_, context_.get());
+                                                            directions_, context_.get());
   sensitivities_.reset(new_state_vector(sensitivity_solver_->size(), context_.get()));
   sensitivities_output_.reset(new_state_vector(sensitivity_solver_->size(), context_.get()));
   sensitivity_solver_->start(elements(sensitivities_.get()));
@@ -209,7 +209,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
   result.trajectory.time = times;
   if (options_.energy) result.trajectory.energy.resize(model.energies(), 0);
   resize(model, times.size(), result.trajectory);
-  result.sensitivity.resize(seeds_.size());
+  result.sensitivity.resize(directions_.size());
   for (Trajectory& sensitivity : result.sensitivity) {
     sensitivity.time = times;
     resize(model, times.size(), sensitivity);
@@ -217,7 +217,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
   result.energy_imbalance = options_.energy ? 0.0 : std::nan("");
 
   copy_column(elements(y_.get()), n_, dynamics_.states(), 0, result.trajectory);
-  if (!seeds_.empty()) record_sensitivities(0, elements(sensitivities_.get()), result);
+  if (!directions_.empty()) record_sensitivities(0, elements(sensitivities_.get()), result);
   if (options_.energy) record_energy(times[0], 0, result);
 
   result.status = Status::kSuccess;
@@ -267,7 +267,7 @@ void Integrator::record(double t, std::size_t column, SensitiveSimulation& resul
   require(CVodeGetDky(cvodes_.get(), t, 0, output_.get()), "CVodeGetDky");
   copy_column(elements(output_.get()), n_, dynamics_.states(), column, result.trajectory);
   if (options_.energy) record_energy(t, column, result);
-  if (seeds_.empty()) return;
+  if (directions_.empty()) return;
   require(CVodeGetSensDky1(cvodes_.get(), t, 0, 0, sensitivities_output_.get()),
           "CVodeGetSensDky1");
   record_sensitivities(column, elements(sensitivities_output_.get()), result);
@@ -276,12 +276,12 @@ void Integrator::record(double t, std::size_t column, SensitiveSimulation& resul
 void Integrator::record_sensitivities(std::size_t column, const double* values,
                                       SensitiveSimulation& result) const {
   const auto k = static_cast<Eigen::Index>(column);
-  for (std::size_t seed = 0; seed < seeds_.size(); ++seed) {
+  for (std::size_t direction = 0; direction < directions_.size(); ++direction) {
     int element = 0;
-    Trajectory& sensitivity = result.sensitivity[seed];
+    Trajectory& sensitivity = result.sensitivity[direction];
     for (Eigen::MatrixXd* part : {&sensitivity.q, &sensitivity.v, &sensitivity.z})
       for (double& value : part->col(k))
-        value = sensitivity_solver_->element(values, seed, element++);
+        value = sensitivity_solver_->element(values, direction, element++);
   }
 }
 

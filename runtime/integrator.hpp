@@ -35,9 +35,9 @@ class Integrator {
  public:
   Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
              double start, const SimulationOptions& options, const Signals& signals,
-             const std::vector<Seed>& seeds);
+             const std::vector<SensitivityDirection>& directions);
 
-  /// Writes `result`, whose sensitivity has one entry per seed.
+  /// Writes `result`, whose sensitivity has one entry per direction.
   void run(const std::vector<double>& times, SensitiveSimulation& result);
 
   /// Call it before run: then check points are kept, from which AdjointSolver repeats the motion.
@@ -70,7 +70,7 @@ class Integrator {
   SunContextHandle context_;
   std::unique_ptr<NewtonMatrix> matrix_;
   std::unique_ptr<StepSolver> step_solver_;
-  std::vector<Seed> seeds_;
+  std::vector<SensitivityDirection> directions_;
   std::unique_ptr<SensitivitySolver> sensitivity_solver_;
   NVectorHandle y_, output_, quadrature_;
   NVectorHandle sensitivities_, sensitivities_output_;

@@ -11,25 +11,29 @@
 
 namespace catena {
 
-/// An emitted model: the table of functions in generated/catena_model.h with a safe way to get hold
-/// of it. Cheap to copy; copies share a loaded library, which stays open as long as one of them
-/// lives.
+/// An emitted model: the table of functions of generated/catena_model.h. Copies are cheap and share
+/// a loaded library, which stays open as long as one of them lives.
+///
+///     const Model model = Model::built_in(12);
+///     Eigen::VectorXd parameters = model.default_parameters();  // NaN where there is no default
+///     parameters[model.parameter_index("load_mass")] = 1.381;   // kg
 class Model {
  public:
-  /// The plain chain of `links` links, linked into this program. Throws InputError naming the
-  /// counts there are.
+  /// The plain chain of `links` links, linked into this program. Throws InputError that names the
+  /// numbers that are built in.
   static Model built_in(int links);
   static bool has_built_in(int links);
-  /// The link counts for which built_in works, ascending.
+  /// The numbers of links for which built_in works, ascending.
   static std::vector<int> built_in_links();
 
-  /// A model compiled as a shared library that exports catena_model_table. Throws InputError naming
-  /// the file and what is wrong with it (missing, no such entry, another ABI, members missing).
+  /// A model compiled as a shared library that exports catena_model_table. Throws InputError that
+  /// names the file and the fault: it is missing, lacks this entry, has another ABI or lacks
+  /// functions.
   static Model load(const std::filesystem::path& shared_library);
 
-  /// A table that outlives this object and its copies. Throws InputError if it is unusable.
+  /// `table` must outlive this object and its copies. Throws InputError if it cannot be used.
   explicit Model(const catena_model* table);
-  /// A table that lives as long as this object and its copies.
+  /// The same with a table that lives as long as this object and its copies.
   explicit Model(std::shared_ptr<const catena_model> table);
 
   const catena_model& table() const { return *table_; }
@@ -109,14 +113,15 @@ class Model {
     return table_->clock_tangent(table_->context, t, p, dp);
   }
 
-  /// Place of a parameter in the vector p. Throws InputError naming the nearest known name.
+  /// Index of a parameter in the vector p, from 0. Throws InputError that names the nearest known
+  /// name.
   int parameter_index(std::string_view name) const;
 
-  /// Defaults in the order of the parameter table; NaN where a case must give the value.
+  /// One value per parameter, in the order of the table: its default, or NaN if it has none.
   Eigen::VectorXd default_parameters() const;
 
-  /// Throws std::invalid_argument naming the parameter, its value and the rule it breaks: one value
-  /// per parameter, finite, within the bounds of the parameter table.
+  /// Throws std::invalid_argument that names the parameter, its value and the rule: one value per
+  /// parameter, finite, within the bounds of the table.
   void check_parameters(const Eigen::VectorXd& parameters) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace catena {
 
-void NewtonMatrix::solve_several(double* x) const {
+void NewtonMatrix::solve_batch(double* x) const {
   for (std::size_t k = 0; k < CATENA_DIRECTIONS; ++k) {
     for (std::size_t i = 0; i < column_.size(); ++i) column_[i] = x[CATENA_DIRECTIONS * i + k];
     solve(column_.data());
@@ -79,11 +79,11 @@ void StructuredNewtonMatrix::solve(double* x) const {
   }
 }
 
-void StructuredNewtonMatrix::solve_several(double* x) const {
+void StructuredNewtonMatrix::solve_batch(double* x) const {
   if (states_ == 0 && model_.table().newton_solves != nullptr)
     model_.newton_solves(work_.data(), x);
   else
-    NewtonMatrix::solve_several(x);
+    NewtonMatrix::solve_batch(x);
 }
 
 void StructuredNewtonMatrix::solve_transposed(double* x) const {

@@ -12,12 +12,12 @@
 namespace catena {
 
 /// The matrix of the equations of one implicit step. A multistep method sets, with gamma > 0 and
-/// constants from the past,
+/// constants q*, v*, z* from earlier steps,
 ///     q = q* + gamma v,   v = v* + gamma a,   z = z* + gamma zdot,
-/// so that the residuals gamma r(t, q, v, a, z) and z - z* - gamma zdot depend on v and z alone:
+/// so the residuals gamma r(t, q, v, a, z) and z - z* - gamma zdot depend on v and z alone:
 ///     | M + gamma dr/dv + gamma^2 dr/dq              gamma dr/dz      |
 ///     | -gamma (dzdot/dv + gamma dzdot/dq)       1 - gamma dzdot/dz   |
-/// Angles are eliminated exactly: the system has the size of the chain, not twice that.
+/// Coordinates are eliminated exactly. The system has one row per coordinate and extra state.
 class NewtonMatrix {
  public:
   explicit NewtonMatrix(const Model& model)
@@ -27,25 +27,25 @@ class NewtonMatrix {
   virtual int factor(Dynamics& dynamics, const catena_point& at, double gamma) = 0;
   /// Overwrites the right-hand side (coordinates, then states) with the solution.
   virtual void solve(double* x) const = 0;
-  /// The same for CATENA_DIRECTIONS right-hand sides: that many numbers for each entry, aligned as
-  /// Several.
-  virtual void solve_several(double* x) const;
+  /// The same for CATENA_DIRECTIONS right-hand sides: that many numbers for each entry, with the
+  /// alignment of DirectionBatch.
+  virtual void solve_batch(double* x) const;
   /// The same with the transpose of the matrix.
   virtual void solve_transposed(double* x) const = 0;
 
  private:
-  mutable std::vector<double> column_;  // one of several right-hand sides
+  mutable std::vector<double> column_;  // one right-hand side of a batch
 };
 
-/// By the emitted factorisation, O(links). Extra states are eliminated: with D = 1 - gamma
-/// dzdot/dz, a diagonal, and C the rest of their rows, the emitted N is what is left for v, and two
-/// products with tangents of the model, O(links) too, lead there and back.
+/// By the emitted factorisation, O(links). Extra states are eliminated: D = 1 - gamma dzdot/dz is
+/// diagonal, C is the rest of their rows, and the emitted N is the matrix that is left for v. Two
+/// products with tangents of the model, O(links) too, eliminate the states and compute them again.
 class StructuredNewtonMatrix : public NewtonMatrix {
  public:
   explicit StructuredNewtonMatrix(const Model& model);
   int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
   void solve(double* x) const override;
-  void solve_several(double* x) const override;
+  void solve_batch(double* x) const override;
   void solve_transposed(double* x) const override;
 
  private:
@@ -78,8 +78,8 @@ class DenseNewtonMatrix : public NewtonMatrix {
   mutable Eigen::VectorXd permuted_;
 };
 
-/// The one that `requested` asks for; `used` says which it is. Throws std::invalid_argument if the
-/// structured one is asked of a model that has none.
+/// The solver that `requested` names; writes its kind to `used`. Throws std::invalid_argument if
+/// the structured one is requested for a model without structure.
 std::unique_ptr<NewtonMatrix> make_newton_matrix(const Model& model, LinearSolver requested,
                                                  LinearSolver& used);
 

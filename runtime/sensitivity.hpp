@@ -8,30 +8,49 @@
 
 namespace catena {
 
-/// One direction in the space of parameters and initial states: d(parameters), dq(0), dv(0), dz(0),
-/// with the sizes of the model. Zeros where nothing varies.
-struct Seed {
+/// A direction in the space of parameters and initial states. Entries are derivatives by the
+/// variable along the direction; all vectors have the sizes of the model.
+struct SensitivityDirection {
   Eigen::VectorXd parameters;
   Eigen::VectorXd q, v, z;
 
-  static Seed zero(const Model& model);
-  /// Only the parameter of that index varies, at rate one.
-  static Seed parameter(const Model& model, int index);
+  /// The direction along which nothing changes.
+  static SensitivityDirection zero(const Model& model);
+  /// The direction along which only the parameter number `index`, from 0, changes, with derivative
+  /// 1.
+  static SensitivityDirection parameter(const Model& model, int index);
 };
 
+/// Alias until all callers use the new name.
+using Seed = SensitivityDirection;
+
 struct SensitiveSimulation : Simulation {
-  /// Per seed the derivative of the trajectory along it: dq, dv, dz at the same times, no energies.
+  /// For each direction the derivative of the trajectory along it: dq, dv, dz at the same times,
+  /// without energies.
   std::vector<Trajectory> sensitivity;
 };
 
-/// simulate, and with it the derivative of the solution along each seed. Each step that is accepted
-/// differentiates its own equations, with the Newton matrix at the solution: the result is the
-/// derivative of the numbers that simulate gives at the same steps, to the tolerance of Newton's
-/// iteration. Errors of the sensitivities do not choose the steps. The price is one
-/// residual_tangent and one solve per seed and step, and one factorisation per step.
+/// simulate, and the derivative of the solution along each direction. Each accepted step
+/// differentiates its own equations, with the Newton matrix at the solution. The result is the
+/// derivative of what simulate gives with the same steps, to the tolerance of Newton's iteration.
+/// The error test does not include the sensitivities. The cost is one residual_tangent and one
+/// solution per direction and step, and one factorisation per step.
+///
+///     const Model model = Model::built_in(4);
+///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.1);
+///     State initial = State::zero(model);
+///     initial.q.setConstant(0.6);  // rad
+///     const auto stiffness =
+///         SensitivityDirection::parameter(model, model.parameter_index("stiffness_1"));
+///     const SensitiveSimulation run =
+///         simulate_with_sensitivities(model, parameters, initial, {stiffness}, {0.0, 1.0});
+///     const double derivative = run.sensitivity[0].q(3, 1);  // of angle 4 at 1 s, rad per N m/rad
+///
+/// Other arguments are those of simulate. Throws std::invalid_argument for what simulate refuses,
+/// and for a direction of other sizes or with values that are not finite, with its number (from 1).
 SensitiveSimulation simulate_with_sensitivities(
     const Model& model, const Eigen::VectorXd& parameters, const State& initial,
-    const std::vector<Seed>& seeds, const std::vector<double>& times,
+    const std::vector<SensitivityDirection>& directions, const std::vector<double>& times,
     const SimulationOptions& options = {}, const Signals& signals = {});
 
 }  // namespace catena

@@ -14,45 +14,46 @@ constexpr int kWidth = CATENA_DIRECTIONS;
 }  // namespace
 
 SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
-                                     StepSolver& step_solver, const std::vector<Seed>& seeds,
+                                     StepSolver& step_solver,
+                                     const std::vector<SensitivityDirection>& directions,
                                      SUNContext context)
     : dynamics_(dynamics),
       matrix_(matrix),
       step_solver_(step_solver),
-      seeds_(seeds),
+      directions_(directions),
       tangents_(dynamics),
-      blocks_((static_cast<int>(seeds.size()) + kWidth - 1) / kWidth),
+      batches_((static_cast<int>(directions.size()) + kWidth - 1) / kWidth),
       n_(kWidth * dynamics.coordinates()),
       states_(kWidth * dynamics.states()) {
   const auto n = static_cast<std::size_t>(dynamics.coordinates());
   const auto states = static_cast<std::size_t>(dynamics.states());
   const auto parameters = static_cast<std::size_t>(dynamics.table().parameters);
-  for (std::vector<Several>* values : {&dq_, &da_}) values->resize(n);
+  for (std::vector<DirectionBatch>* values : {&dq_, &da_}) values->resize(n);
   zero_.resize(std::max(n, 3 * static_cast<std::size_t>(dynamics.table().signals)));
   change_.resize(n + states);
-  parameters_.resize(static_cast<std::size_t>(blocks_) * parameters);
-  for (std::size_t k = 0; k < seeds.size(); ++k)
+  parameters_.resize(static_cast<std::size_t>(batches_) * parameters);
+  for (std::size_t k = 0; k < directions.size(); ++k)
     for (std::size_t i = 0; i < parameters; ++i)
       parameters_[k / kWidth * parameters + i].of[k % kWidth] =
-          seeds[k].parameters[static_cast<Eigen::Index>(i)];
+          directions[k].parameters[static_cast<Eigen::Index>(i)];
 
   handle_ = own_nonlinear_solver(context, this, &SensitivitySolver::solve);
 }
 
-const double* SensitivitySolver::parameters(int block) const {
-  return numbers(parameters_) + kWidth * dynamics_.table().parameters * block;
+const double* SensitivitySolver::parameters(int batch) const {
+  return numbers(parameters_) + kWidth * dynamics_.table().parameters * batch;
 }
 
-double SensitivitySolver::element(const double* s, std::size_t seed, int element) const {
-  return s[block_size() * static_cast<int>(seed / kWidth) + kWidth * element +
-           static_cast<int>(seed % kWidth)];
+double SensitivitySolver::element(const double* s, std::size_t direction, int element) const {
+  return s[batch_size() * static_cast<int>(direction / kWidth) + kWidth * element +
+           static_cast<int>(direction % kWidth)];
 }
 
 void SensitivitySolver::start(double* s) const {
   std::fill_n(s, size(), 0.0);
-  for (std::size_t k = 0; k < seeds_.size(); ++k) {
-    double* out = s + block_size() * static_cast<int>(k / kWidth) + k % kWidth;
-    for (const Eigen::VectorXd* part : {&seeds_[k].q, &seeds_[k].v, &seeds_[k].z})
+  for (std::size_t k = 0; k < directions_.size(); ++k) {
+    double* out = s + batch_size() * static_cast<int>(k / kWidth) + k % kWidth;
+    for (const Eigen::VectorXd* part : {&directions_[k].q, &directions_[k].v, &directions_[k].z})
       for (Eigen::Index i = 0; i < part->size(); ++i, out += kWidth) *out = (*part)[i];
   }
 }
@@ -65,15 +66,15 @@ int SensitivitySolver::rates(double t, const double* y, const double* a, const d
   step_solver_.forget_factors();
   // dr along (sq, sv, sa, sz, dp) = 0 for sa; at gamma = 0 the Newton matrix is M
   if (const int pivot = matrix_.factor(dynamics_, at, 0.0)) return pivot;
-  for (int block = 0; block < blocks_; ++block, s += block_size(), sdot += block_size()) {
+  for (int batch = 0; batch < batches_; ++batch, s += batch_size(), sdot += batch_size()) {
     const double *sq = s, *sv = sq + n_, *sz = sv + n_;
-    const catena_point along{0.0, sq, sv, zero, sz, zero, parameters(block)};
+    const catena_point along{0.0, sq, sv, zero, sz, zero, parameters(batch)};
     std::copy_n(sv, n_, sdot);
     double* const change = numbers(change_);
     tangents_.residual(at, along, change);
     for (int i = 0; i < n_; ++i) change[i] = -change[i];
     if (states_ > 0) tangents_.state_rate(at, along, change + n_);
-    matrix_.solve_several(change);
+    matrix_.solve_batch(change);
     std::copy_n(change, n_ + states_, sdot + n_);
   }
   return 0;
@@ -105,21 +106,21 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
   double *const dq = numbers(self.dq_), *const da = numbers(self.da_);
   double* const change = numbers(self.change_);
   const double* zero = numbers(self.zero_);
-  for (int block = 0; block < self.blocks_; ++block) {
+  for (int batch = 0; batch < self.batches_; ++batch) {
     const double *sq = s, *sv = sq + n, *sz = sv + n;
     const double *past_q = past, *past_v = past_q + n, *past_z = past_v + n;
     for (int i = 0; i < n; ++i) {
       dq[i] = sq[i] + (gamma * sv[i] - rl1 * past_q[i]);
       da[i] = rl1 * past_v[i] / gamma;
     }
-    const catena_point along{0.0, dq, sv, da, sz, zero, self.parameters(block)};
+    const catena_point along{0.0, dq, sv, da, sz, zero, self.parameters(batch)};
     self.tangents_.residual(at, along, change);
     for (int i = 0; i < n; ++i) change[i] *= -gamma;
     if (states > 0) {
       self.tangents_.state_rate(at, along, change + n);
       for (int i = 0; i < states; ++i) change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
     }
-    self.matrix_.solve_several(change);
+    self.matrix_.solve_batch(change);
     bool finite = true;
     for (int i = 0; i < n; ++i) {
       finite = finite && std::isfinite(change[i]);
@@ -128,9 +129,9 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
     }
     if (!finite) return SUN_NLS_CONV_RECVR;
     std::copy_n(change + n, states, e + 2 * n);
-    s += self.block_size();
-    past += self.block_size();
-    e += self.block_size();
+    s += self.batch_size();
+    past += self.batch_size();
+    e += self.batch_size();
   }
   return SUN_NLS_SUCCESS;
 }

@@ -83,15 +83,15 @@ void check_run(const Model& model, const Eigen::VectorXd& parameters, const Stat
 
 }  // namespace
 
-Seed Seed::zero(const Model& model) {
+SensitivityDirection SensitivityDirection::zero(const Model& model) {
   const State state = State::zero(model);
   return {Eigen::VectorXd::Zero(model.parameters()), state.q, state.v, state.z};
 }
 
-Seed Seed::parameter(const Model& model, int index) {
-  Seed seed = zero(model);
-  seed.parameters[index] = 1.0;
-  return seed;
+SensitivityDirection SensitivityDirection::parameter(const Model& model, int index) {
+  SensitivityDirection direction = zero(model);
+  direction.parameters[index] = 1.0;
+  return direction;
 }
 
 Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
@@ -122,16 +122,17 @@ std::vector<Simulation> simulate_sets(const Model& model,
 
 SensitiveSimulation simulate_with_sensitivities(
     const Model& model, const Eigen::VectorXd& parameters, const State& initial,
-    const std::vector<Seed>& seeds, const std::vector<double>& times,
+    const std::vector<SensitivityDirection>& directions, const std::vector<double>& times,
     const SimulationOptions& options, const Signals& signals) {
   check_run(model, parameters, initial, times, options, signals);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    const std::string name = "seed " + std::to_string(i + 1);
-    check_vector(name + " parameters", seeds[i].parameters, model.parameters());
-    check_state(name, seeds[i], model);
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const std::string name = "direction " + std::to_string(i + 1);
+    check_vector(name + " parameters", directions[i].parameters, model.parameters());
+    check_state(name, directions[i], model);
   }
   SensitiveSimulation result;
-  Integrator(model, parameters, initial, times.front(), options, signals, seeds).run(times, result);
+  Integrator(model, parameters, initial, times.front(), options, signals, directions)
+      .run(times, result);
   return result;
 }
 
@@ -146,7 +147,7 @@ AdjointSimulation simulate_with_gradient(const Model& model, const Eigen::Vector
   forward.run(times, motion);
   AdjointSimulation result;
   static_cast<Simulation&>(result) = std::move(motion);
-  result.gradient = Seed::zero(model);
+  result.gradient = SensitivityDirection::zero(model);
   if (result.status != Status::kSuccess) return result;
   const Trajectory& reached = result.trajectory;
   Trajectory slope;

@@ -18,19 +18,17 @@ namespace catena {
 /// nonlinear and linear solvers.
 ///
 /// CVODES asks for the correction e of the prediction y_p with e + rl1 zn1 = gamma f(t, y_p + e),
-/// the last two being its history and f the right-hand side. For y = (q, v, z) the rows of q are
-/// solved for q at once. In the others f is never formed: with a = (e_v + rl1 zn1_v) / gamma the
-/// equation for v is the residual form of the equations of motion, r(t, q, v, a, z) = 0, so an
-/// iteration of Newton's method needs one residual and one solve, no acceleration and no product
-/// with M.
+/// where rl1 zn1 is its history and f the right-hand side. For y = (q, v, z) the rows of q give q
+/// directly. In the other rows f is not needed: with a = (e_v + rl1 zn1_v) / gamma the equation for
+/// v is the residual form of the equations of motion, r(t, q, v, a, z) = 0. An iteration of
+/// Newton's method takes one residual and one solution, but no acceleration and no product with M.
 ///
-/// To CVODES it is a solver of the kind "fixed point", which is the kind that brings its own linear
-/// algebra.
+/// For CVODES it is of the kind "fixed point", the kind that needs no linear solver of CVODES.
 class StepSolver {
  public:
   StepSolver(Dynamics& dynamics, NewtonMatrix& matrix, SUNContext context);
 
-  /// To be given to CVodeSetNonlinearSolver; lives as long as this object.
+  /// For CVodeSetNonlinearSolver. Lives as long as this object.
   SUNNonlinearSolver handle() const { return handle_.get(); }
 
   /// Why the last step that failed did so: kNoConvergence, kNotFinite or kSingular, and in the
@@ -48,9 +46,9 @@ class StepSolver {
   /// dz/dt there.
   const double* state_rate() const { return zdot_.data(); }
 
-  /// To be called by whoever factors the matrix for other purposes,
+  /// Call it after the matrix was factored elsewhere for another purpose,
   void forget_factors() { factored_gamma_ = std::numeric_limits<double>::quiet_NaN(); }
-  /// or for this one: at the solution of the step just solved.
+  /// or this one, if it was factored at the solution of the last step.
   void factors_renewed(double gamma) {
     factored_gamma_ = gamma;
     steps_since_factored_ = 0;

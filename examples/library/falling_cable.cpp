@@ -26,8 +26,8 @@ int main() {
   set("damping", 1e-3);   // N m s/rad
   parameters[model.parameter_index("load_mass")] = 1.47;
 
-  // One seed: all joint stiffnesses together.
-  catena::Seed stiffness = catena::Seed::zero(model);
+  // One direction: all joint stiffnesses together.
+  catena::SensitivityDirection stiffness = catena::SensitivityDirection::zero(model);
   for (int i = 1; i <= links; ++i)
     stiffness.parameters[model.parameter_index("stiffness_" + std::to_string(i))] = 1.0;
 

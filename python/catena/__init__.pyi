@@ -37,10 +37,10 @@ class State:
     v: Array
     z: Array
 
-class Seed:
+class SensitivityDirection:
     def __init__(self, model: Model) -> None: ...
     @staticmethod
-    def parameter(model: Model, index: int) -> Seed: ...
+    def parameter(model: Model, index: int) -> SensitivityDirection: ...
     parameters: Array
     q: Array
     v: Array
@@ -233,7 +233,7 @@ def simulate_with_sensitivities(
     model: Model,
     parameters: ArrayLike,
     initial: State,
-    seeds: Sequence[Seed],
+    directions: Sequence[SensitivityDirection],
     times: Sequence[float] | Array,
     *,
     relative_tolerance: float = ...,

@@ -100,8 +100,8 @@ class Motion(unittest.TestCase):
         model, parameters = cable()
         index = model.parameter_index("load_mass")
         start, times = catena.straight(model, 0.5), [0.0, 0.2, 0.4]
-        seed = catena.Seed.parameter(model, index)
-        run = catena.simulate_with_sensitivities(model, parameters, start, [seed], times)
+        direction = catena.SensitivityDirection.parameter(model, index)
+        run = catena.simulate_with_sensitivities(model, parameters, start, [direction], times)
         step = 1e-4
         ends = []
         for sign in (1, -1):

@@ -13,7 +13,7 @@
 namespace {
 
 using catena::Model;
-using catena::Seed;
+using catena::SensitivityDirection;
 using catena::SimulationOptions;
 using catena::State;
 using catena::Trajectory;
@@ -44,39 +44,42 @@ void slope_of(const Trajectory& motion, Trajectory& slope) {
   slope.z.setOnes();
 }
 
-double along(const Seed& gradient, const Seed& seed) {
-  return gradient.parameters.dot(seed.parameters) + gradient.q.dot(seed.q) +
-         gradient.v.dot(seed.v) + gradient.z.dot(seed.z);
+double along(const SensitivityDirection& gradient, const SensitivityDirection& direction) {
+  return gradient.parameters.dot(direction.parameters) + gradient.q.dot(direction.q) +
+         gradient.v.dot(direction.v) + gradient.z.dot(direction.z);
 }
 
-// The gradient against forward sensitivities and central differences along each seed.
+// Compares the gradient with forward sensitivities and central differences along each direction.
 void check_gradient(const Model& model, const VectorXd& p, const State& start,
-                    const std::vector<Seed>& seeds, const std::vector<double>& t,
-                    const catena::Signals& signals, double tolerance) {
+                    const std::vector<SensitivityDirection>& directions,
+                    const std::vector<double>& t, const catena::Signals& signals,
+                    double tolerance) {
   const auto adjoint =
       catena::simulate_with_gradient(model, p, start, t, slope_of, tight(1e-9), signals);
   CAPTURE(adjoint.message);
   REQUIRE(adjoint.status == catena::Status::kSuccess);
   const auto forward =
-      catena::simulate_with_sensitivities(model, p, start, seeds, t, tight(1e-9), signals);
+      catena::simulate_with_sensitivities(model, p, start, directions, t, tight(1e-9), signals);
   REQUIRE(forward.status == catena::Status::kSuccess);
   Trajectory slope = forward.trajectory;
   slope_of(forward.trajectory, slope);
-  for (std::size_t k = 0; k < seeds.size(); ++k) {
+  for (std::size_t k = 0; k < directions.size(); ++k) {
     CAPTURE(k);
-    const Seed& seed = seeds[k];
+    const SensitivityDirection& direction = directions[k];
     const Trajectory& s = forward.sensitivity[k];
     const double expected =
         slope.q.cwiseProduct(s.q).sum() + slope.v.cwiseProduct(s.v).sum() + s.z.sum();
-    const double size = seed.parameters.cwiseProduct(p).cwiseAbs().maxCoeff();
+    const double size = direction.parameters.cwiseProduct(p).cwiseAbs().maxCoeff();
     const double h = 1e-4 * (size > 0.0 ? size : 1.0);
     const auto at = [&](double e) {
-      const State moved{start.q + e * seed.q, start.v + e * seed.v, start.z + e * seed.z};
-      return value(catena::simulate(model, p + e * seed.parameters, moved, t, tight(1e-12), signals)
-                       .trajectory);
+      const State moved{start.q + e * direction.q, start.v + e * direction.v,
+                        start.z + e * direction.z};
+      return value(
+          catena::simulate(model, p + e * direction.parameters, moved, t, tight(1e-12), signals)
+              .trajectory);
     };
     const double difference = (at(h) - at(-h)) / (2 * h);
-    const double actual = along(adjoint.gradient, seed);
+    const double actual = along(adjoint.gradient, direction);
     CHECK(std::abs(actual - expected) < tolerance * std::abs(expected));
     CHECK(std::abs(actual - difference) < tolerance * std::abs(difference));
   }
@@ -173,17 +176,17 @@ TEST_CASE("gradient of 4 links: every parameter and the initial state") {
   const Model model = Model::built_in(4);
   const VectorXd p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::straight(model, 0.8);
-  std::vector<Seed> seeds;
+  std::vector<SensitivityDirection> directions;
   for (const char* name : {"length_2", "mass_3", "inertia_1", "stiffness_1", "stiffness_4",
                            "damping_2", "torque_3", "load_mass", "gravity"})
-    seeds.push_back(Seed::parameter(model, model.parameter_index(name)));
-  Seed initial = Seed::zero(model);
+    directions.push_back(SensitivityDirection::parameter(model, model.parameter_index(name)));
+  SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.q << 1.0, -0.5, 0.25, 0.7;
-  seeds.push_back(initial);
+  directions.push_back(initial);
   initial.q.setZero();
   initial.v[3] = 1.0;
-  seeds.push_back(initial);
-  check_gradient(model, p, start, seeds, times(1.0, 10), {}, 1e-4);
+  directions.push_back(initial);
+  check_gradient(model, p, start, directions, times(1.0, 10), {}, 1e-4);
 }
 
 TEST_CASE("gradient with an extra state and a signal, by the dense solver") {
@@ -202,27 +205,27 @@ TEST_CASE("gradient with an extra state and a signal, by the dense solver") {
     torque.push_back(3.0 * std::sin(8.0 * t.back()));
   }
   signals.add("drive.torque", t, torque);
-  std::vector<Seed> seeds;
+  std::vector<SensitivityDirection> directions;
   for (const char* name : {"length_1", "stiffness_2", "load_mass"})
-    seeds.push_back(Seed::parameter(model, model.parameter_index(name)));
-  Seed initial = Seed::zero(model);
+    directions.push_back(SensitivityDirection::parameter(model, model.parameter_index(name)));
+  SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.z[0] = 1.0;
-  seeds.push_back(initial);
-  check_gradient(model, p, start, seeds, times(1.0, 10), signals, 1e-4);
+  directions.push_back(initial);
+  check_gradient(model, p, start, directions, times(1.0, 10), signals, 1e-4);
 }
 
 TEST_CASE("gradient of 60 links over more than one check point") {
   const Model model = Model::built_in(60);
   const VectorXd p = cable_parameters(model, 237.2412, 0.0336);
   const State start = catena::straight(model, 0.5);
-  std::vector<Seed> seeds;
-  Seed common = Seed::zero(model);
+  std::vector<SensitivityDirection> directions;
+  SensitivityDirection common = SensitivityDirection::zero(model);
   common.parameters.segment(3 * 60, 60).setOnes();
-  seeds.push_back(common);
-  seeds.push_back(Seed::parameter(model, model.parameter_index("load_mass")));
+  directions.push_back(common);
+  directions.push_back(SensitivityDirection::parameter(model, model.parameter_index("load_mass")));
   const auto run = catena::simulate(model, p, start, times(0.5, 5), tight(1e-9));
   CHECK(run.statistics.steps > 500);
-  check_gradient(model, p, start, seeds, times(0.5, 5), {}, 1e-4);
+  check_gradient(model, p, start, directions, times(0.5, 5), {}, 1e-4);
 }
 
 TEST_CASE("a slope of the wrong size is refused") {

@@ -95,13 +95,15 @@ Count count(const catena::Model& model, double last, bool sensitivities,
             catena::LinearSolver solver) {
   const auto p = catena::testing::cable_parameters(model, 20.0, 0.1);
   const auto start = catena::straight(model, 0.6);
-  std::vector<catena::Seed> seeds;
-  if (sensitivities) seeds = {catena::Seed::parameter(model, 0), catena::Seed::parameter(model, 5)};
+  std::vector<catena::SensitivityDirection> directions;
+  if (sensitivities)
+    directions = {catena::SensitivityDirection::parameter(model, 0),
+                  catena::SensitivityDirection::parameter(model, 5)};
   catena::SimulationOptions options;
   options.linear_solver = solver;
   const long before = allocations;
   const auto run =
-      catena::simulate_with_sensitivities(model, p, start, seeds, {0.0, last}, options);
+      catena::simulate_with_sensitivities(model, p, start, directions, {0.0, last}, options);
   const long after = allocations;
   REQUIRE(run.status == catena::Status::kSuccess);
   return {run.statistics.steps, after - before};

@@ -208,7 +208,8 @@ TEST_CASE("and whole simulations, sensitivities and gradients") {
       const std::vector<double> times{0.0, 0.05, 0.1};
       const auto forward = catena::simulate_with_sensitivities(
           model, p, start,
-          {catena::Seed::parameter(model, 0), catena::Seed::parameter(model, 3 * model.links())},
+          {catena::SensitivityDirection::parameter(model, 0),
+           catena::SensitivityDirection::parameter(model, 3 * model.links())},
           times);
       const auto gradient = catena::simulate_with_gradient(
           model, p, start, times,

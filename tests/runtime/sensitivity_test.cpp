@@ -13,7 +13,7 @@
 namespace {
 
 using catena::Model;
-using catena::Seed;
+using catena::SensitivityDirection;
 using catena::SimulationOptions;
 using catena::State;
 using catena::testing::cable_parameters;
@@ -35,22 +35,24 @@ SimulationOptions tight(double tolerance) {
 /// Sensitivities against central differences of tighter simulations, relative to the largest value
 /// of each: q, v, z.
 void check_differences(const Model& model, const Eigen::VectorXd& p, const State& start,
-                       const std::vector<Seed>& seeds, const std::vector<double>& t,
-                       const catena::Signals& signals, double tolerance) {
+                       const std::vector<SensitivityDirection>& directions,
+                       const std::vector<double>& t, const catena::Signals& signals,
+                       double tolerance) {
   const auto run =
-      catena::simulate_with_sensitivities(model, p, start, seeds, t, tight(1e-9), signals);
+      catena::simulate_with_sensitivities(model, p, start, directions, t, tight(1e-9), signals);
   REQUIRE(run.status == catena::Status::kSuccess);
-  REQUIRE(run.sensitivity.size() == seeds.size());
-  for (std::size_t k = 0; k < seeds.size(); ++k) {
+  REQUIRE(run.sensitivity.size() == directions.size());
+  for (std::size_t k = 0; k < directions.size(); ++k) {
     CAPTURE(k);
-    const Seed& seed = seeds[k];
+    const SensitivityDirection& direction = directions[k];
     // A step of 1e-4 of the parameter leaves 1e-8 of curvature; 1e-12 / 1e-4 of noise.
-    const double size = seed.parameters.cwiseAbs().dot(p.cwiseAbs());
+    const double size = direction.parameters.cwiseAbs().dot(p.cwiseAbs());
     const double h = 1e-4 * (size > 0.0 ? size : 1.0);
     const auto at = [&](double e) {
-      const State moved{start.q + e * seed.q, start.v + e * seed.v, start.z + e * seed.z};
+      const State moved{start.q + e * direction.q, start.v + e * direction.v,
+                        start.z + e * direction.z};
       const auto result =
-          catena::simulate(model, p + e * seed.parameters, moved, t, tight(1e-12), signals);
+          catena::simulate(model, p + e * direction.parameters, moved, t, tight(1e-12), signals);
       REQUIRE(result.status == catena::Status::kSuccess);
       return result.trajectory;
     };
@@ -72,18 +74,18 @@ TEST_CASE("sensitivities to every kind of parameter and to the initial state: 4 
   const Model model = Model::built_in(4);
   const auto p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::straight(model, 0.8);
-  std::vector<Seed> seeds;
+  std::vector<SensitivityDirection> directions;
   for (const char* name : {"length_2", "mass_3", "inertia_1", "stiffness_1", "stiffness_4",
                            "damping_2", "torque_3", "load_mass", "gravity"})
-    seeds.push_back(Seed::parameter(model, model.parameter_index(name)));
-  Seed initial = Seed::zero(model);
+    directions.push_back(SensitivityDirection::parameter(model, model.parameter_index(name)));
+  SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.q << 1.0, -0.5, 0.25, 0.7;
-  seeds.push_back(initial);
+  directions.push_back(initial);
   initial.q.setZero();
   initial.v[3] = 1.0;
-  seeds.push_back(initial);
+  directions.push_back(initial);
   // Steps are chosen for the state's error of 1e-9 a step; the sensitivities ride on them.
-  check_differences(model, p, start, seeds, times(1.0, 10), {}, 1e-5);
+  check_differences(model, p, start, directions, times(1.0, 10), {}, 1e-5);
 }
 
 TEST_CASE("sensitivities with extra states and signals, by the dense solver") {
@@ -98,25 +100,26 @@ TEST_CASE("sensitivities with extra states and signals, by the dense solver") {
     torque.push_back(3.0 * std::sin(8.0 * t.back()));
   }
   signals.add("drive.torque", t, torque);
-  std::vector<Seed> seeds;
+  std::vector<SensitivityDirection> directions;
   for (const char* name : {"length_1", "stiffness_2", "load_mass"})
-    seeds.push_back(Seed::parameter(model, model.parameter_index(name)));
-  Seed initial = Seed::zero(model);
+    directions.push_back(SensitivityDirection::parameter(model, model.parameter_index(name)));
+  SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.z[0] = 1.0;
-  seeds.push_back(initial);
-  check_differences(model, p, start, seeds, times(1.0, 10), signals, 1e-5);
+  directions.push_back(initial);
+  check_differences(model, p, start, directions, times(1.0, 10), signals, 1e-5);
 }
 
 TEST_CASE("sensitivities of 12 links through a release from a catenary") {
   const Model model = Model::built_in(12);
   const auto p = cable_parameters(model, 47.448, 0.5);
   const State start = catena::catenary(model, p, {1.5, 2.5});
-  std::vector<Seed> seeds;
-  seeds.push_back(Seed::parameter(model, model.parameter_index("stiffness_1")));
-  Seed common = Seed::zero(model);  // damping_2..12 together
+  std::vector<SensitivityDirection> directions;
+  directions.push_back(
+      SensitivityDirection::parameter(model, model.parameter_index("stiffness_1")));
+  SensitivityDirection common = SensitivityDirection::zero(model);  // damping_2..12 together
   common.parameters.segment(4 * 12 + 1, 11).setOnes();
-  seeds.push_back(common);
-  check_differences(model, p, start, seeds, times(1.0, 10), {}, 1e-4);
+  directions.push_back(common);
+  check_differences(model, p, start, directions, times(1.0, 10), {}, 1e-4);
 }
 
 TEST_CASE("sensitivities leave the motion as it is, but for Newton's tolerance") {
@@ -125,18 +128,19 @@ TEST_CASE("sensitivities leave the motion as it is, but for Newton's tolerance")
   const State start = catena::straight(model, 0.8);
   const auto alone = catena::simulate(model, p, start, times(1.0, 10));
   const auto with = catena::simulate_with_sensitivities(
-      model, p, start, {Seed::parameter(model, 0)}, times(1.0, 10));
+      model, p, start, {SensitivityDirection::parameter(model, 0)}, times(1.0, 10));
   CHECK(with.sensitivity[0].time == alone.trajectory.time);
   CHECK((with.trajectory.q - alone.trajectory.q).cwiseAbs().maxCoeff() < 1e-6);
   CHECK(with.statistics.steps < 1.2 * static_cast<double>(alone.statistics.steps));
 }
 
-TEST_CASE("sensitivities are linear in the seed") {
+TEST_CASE("sensitivities are linear in the direction") {
   const Model model = Model::built_in(3);
   const auto p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::straight(model, 0.8);
-  const Seed first = Seed::parameter(model, 1), second = Seed::parameter(model, 9);
-  Seed both = first;
+  const SensitivityDirection first = SensitivityDirection::parameter(model, 1),
+                             second = SensitivityDirection::parameter(model, 9);
+  SensitivityDirection both = first;
   both.parameters = 2.0 * first.parameters - 3.0 * second.parameters;
   const auto run =
       catena::simulate_with_sensitivities(model, p, start, {first, second, both}, times(1.0, 10));
@@ -151,20 +155,21 @@ TEST_CASE("a run that fails keeps as much of the sensitivities as of the motion"
   const auto p = cable_parameters(model, 5.0, 0.05);
   SimulationOptions options;
   options.keep_going = [](double t) { return t < 0.45; };
-  const auto run = catena::simulate_with_sensitivities(
-      model, p, catena::straight(model, 0.8), {Seed::parameter(model, 0)}, times(1.0, 10), options);
+  const auto run = catena::simulate_with_sensitivities(model, p, catena::straight(model, 0.8),
+                                                       {SensitivityDirection::parameter(model, 0)},
+                                                       times(1.0, 10), options);
   CHECK(run.status == catena::Status::kInterrupted);
   CHECK(run.sensitivity[0].q.cols() == run.trajectory.q.cols());
   CHECK(run.sensitivity[0].time == run.trajectory.time);
 }
 
-TEST_CASE("seeds of the wrong size are refused") {
+TEST_CASE("directions of the wrong size are refused") {
   const Model model = Model::built_in(2);
   const auto p = cable_parameters(model, 5.0, 0.05);
-  Seed seed = Seed::zero(model);
-  seed.parameters.conservativeResize(3);
+  SensitivityDirection direction = SensitivityDirection::zero(model);
+  direction.parameters.conservativeResize(3);
   CHECK_THROWS_AS(
-      catena::simulate_with_sensitivities(model, p, State::zero(model), {seed}, {0.0, 1.0}),
+      catena::simulate_with_sensitivities(model, p, State::zero(model), {direction}, {0.0, 1.0}),
       std::invalid_argument);
 }
 

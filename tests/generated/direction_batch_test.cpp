@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::size_t kWidth = CATENA_DIRECTIONS;
 
-using Several = std::vector<catena::Directions>;
+using DirectionBatch = std::vector<catena::Directions>;
 
-double* numbers(Several& several) { return reinterpret_cast<double*>(several.data()); }
+double* numbers(DirectionBatch& several) { return reinterpret_cast<double*>(several.data()); }
 
-Several side_by_side(const std::vector<Input<double>>& inputs,
-                     const std::vector<double> Input<double>::*member) {
-  Several result((inputs[0].*member).size());
+DirectionBatch side_by_side(const std::vector<Input<double>>& inputs,
+                            const std::vector<double> Input<double>::*member) {
+  DirectionBatch result((inputs[0].*member).size());
   for (std::size_t k = 0; k < kWidth; ++k)
     for (std::size_t i = 0; i < result.size(); ++i)
       result[i].set(static_cast<int>(k), (inputs[k].*member)[i]);
@@ -50,16 +50,19 @@ TEST_CASE("several directions at once have the bits of one at a time") {
       along.push_back(random_input(table, random));
       along.back().t = 0.25;  // of all directions
     }
-    Several q = side_by_side(along, &Input<double>::q), v = side_by_side(along, &Input<double>::v),
-            a = side_by_side(along, &Input<double>::a), z = side_by_side(along, &Input<double>::z),
-            u = side_by_side(along, &Input<double>::u), p = side_by_side(along, &Input<double>::p);
+    DirectionBatch q = side_by_side(along, &Input<double>::q),
+                   v = side_by_side(along, &Input<double>::v),
+                   a = side_by_side(along, &Input<double>::a),
+                   z = side_by_side(along, &Input<double>::z),
+                   u = side_by_side(along, &Input<double>::u),
+                   p = side_by_side(along, &Input<double>::p);
     const catena_point at = c_point(input);
     const catena_point all{0.25,       numbers(q), numbers(v), numbers(a),
                            numbers(z), numbers(u), numbers(p)};
 
     const auto n = static_cast<std::size_t>(table.coordinates);
     const auto compare = [&](auto several, auto one, std::size_t entries) {
-      Several changes(entries);
+      DirectionBatch changes(entries);
       several(table.context, &at, &all, numbers(changes));
       for (std::size_t k = 0; k < kWidth; ++k) {
         std::vector<double> change(entries);
@@ -76,7 +79,7 @@ TEST_CASE("several directions at once have the bits of one at a time") {
     if (table.structured == 0) continue;
     std::vector<double> work(static_cast<std::size_t>(table.newton_work));
     REQUIRE(table.newton_factor(table.context, &at, 1, 1e-3, 1e-6, work.data()) == 0);
-    Several solutions = side_by_side(along, &Input<double>::q);
+    DirectionBatch solutions = side_by_side(along, &Input<double>::q);
     table.newton_solves(table.context, work.data(), numbers(solutions));
     for (std::size_t k = 0; k < kWidth; ++k) {
       std::vector<double> solution = along[k].q;

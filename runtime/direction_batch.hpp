@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "runtime/dynamics.hpp"
+
+namespace catena {
+
+/// One entry of an array for a batch of directions: CATENA_DIRECTIONS numbers, one per direction.
+struct alignas(CATENA_DIRECTIONS * sizeof(double)) DirectionBatch {
+  double of[CATENA_DIRECTIONS];
+};
+
+inline const double* numbers(const std::vector<DirectionBatch>& batch) { return batch.data()->of; }
+inline double* numbers(std::vector<DirectionBatch>& batch) { return batch.data()->of; }
+
+/// Tangents of a model along CATENA_DIRECTIONS directions in one call. A model without functions
+/// for batches is called once for each direction.
+class BatchTangents {
+ public:
+  explicit BatchTangents(const Dynamics& dynamics);
+
+  /// Arrays of `along` and the results hold CATENA_DIRECTIONS numbers for each entry, with the
+  /// alignment of DirectionBatch. along.t and along.u count as zero.
+  void residual(const catena_point& at, const catena_point& along, double* dr);
+  void state_rate(const catena_point& at, const catena_point& along, double* dzdot);
+
+ private:
+  using Tangent = void (Model::*)(const catena_point& at, const catena_point& along,
+                                  double* change) const;
+  void one_at_a_time(Tangent tangent, const catena_point& at, const catena_point& along, int count,
+                     double* changes);
+
+  const Dynamics& dynamics_;
+  std::vector<double> q_, v_, a_, z_, p_, change_;
+};
+
+}  // namespace catena
