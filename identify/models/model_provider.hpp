@@ -10,7 +10,7 @@
 
 namespace catena {
 
-/// A model could not be derived or compiled. Programs print the message and exit with status 1.
+/// A model that cannot be derived or compiled. Programs print the message and exit with status 1.
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,23 +21,29 @@ struct ProviderOptions {
   std::filesystem::path
       cache_directory;   ///< empty: $CATENA_CACHE, $XDG_CACHE_HOME/catena, ~/.cache/catena
   std::string compiler;  ///< empty: $CXX, else c++
-  std::function<void(const std::string&)> notice;  ///< one line before something takes its time
+  std::function<void(const std::string&)>
+      notice;  ///< called with one line before a model is derived
 };
 
-/// The model of a description (empty: the plain chain) with so many links. The plain chain with a
-/// count that is linked in needs no compiler. Any other is derived, compiled and kept in a cache
-/// under the hash of what decides it; concurrent processes may share the cache. Where catena-derive
-/// or a compiler is not to be found, the plain chain is had from any_links_model, after a notice.
-/// Throws InputError for a bad description, ModelError where deriving, compiling or loading fails.
+/// The model of the file `description` (empty: the plain chain) with `links` links.
+///
+///     const Model plain = provide_model({}, 12);           // built in
+///     const Model in_air = provide_model("air.toml", 24);  // derived and compiled, or from the cache
+///
+/// A plain chain that is built in needs no compiler. Other models are derived, compiled and kept in
+/// a cache under the hash of their description; processes may share the cache. Without
+/// catena-derive or a compiler, any_links_model gives the plain chain, after a notice. Throws
+/// InputError for a description that cannot be used, ModelError if deriving, compiling or loading
+/// fails.
 Model provide_model(const std::filesystem::path& description, int links,
                     const ProviderOptions& options = {});
 
-/// The equations that the derivation finds for the model with so many links, at most 3, as
-/// `catena-derive derive --equations` prints them (JSON). Empty where catena-derive is not to be
-/// had.
+/// The equations of the model with `links` links, at most 3, as `catena-derive derive --equations`
+/// prints them (JSON). Empty if there is no catena-derive.
 std::string derived_equations(const std::filesystem::path& description, int links);
 
-/// catena-derive: beside this program, in ../libexec/catena, or in PATH. Throws ModelError.
+/// The path of catena-derive: beside this program, in ../libexec/catena or in PATH. Throws
+/// ModelError if there is none.
 std::filesystem::path find_derive_program();
 
 }  // namespace catena
