@@ -324,7 +324,7 @@ void TomlTable::finish() const {
       throw InputError(file() + ":" + std::to_string(line(key)) + ": unknown key \"" + path(key) +
                        "\"" + suggestion(key, known));
     }
-    // A table that nobody opened was asked for as a whole (has): its keys are not ours to judge.
+    // A table that was never opened was asked for as a whole (has): its keys are not checked.
     const auto check = [&](const toml::node& below) {
       if (below.is_table() && document_->asked.contains(below.as_table())) {
         TomlTable(document_, below.as_table(), path(key)).finish();

@@ -119,7 +119,7 @@ bool certify_library(const Options& options, const Description& description) {
 void add_certify_command(CLI::App& app, int& status) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("certify", "Hold emitted models against their certificates");
+      app.add_subcommand("certify", "Compare emitted models with their certificates");
   add_model_options(*command, options->model);
   command->add_option("--folder", options->folder, "where the emitted models are")
       ->capture_default_str();

@@ -30,8 +30,8 @@ struct Options {
 void write_latex(const Options& options, const Description& description) {
   for (const int n : description.links) {
     if (n > kMostLatexLinks) {
-      throw InputError("--latex with " + std::to_string(n) + " links: nobody reads more than " +
-                       std::to_string(kMostLatexLinks) + "; give fewer (--links)");
+      throw InputError("--latex with " + std::to_string(n) + " links: at most " +
+                       std::to_string(kMostLatexLinks) + " are written out; give fewer (--links)");
     }
   }
   const auto path = std::filesystem::path(options.output) / (description.id + ".tex");
