@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/uncertainty/uncertainty.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -117,6 +118,23 @@ MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, con
   return middle;
 }
 
+/// Singular values, descending, and the right singular vectors that belong to them.
+struct SingularDirections {
+  VectorXd values;
+  MatrixXd vectors;
+};
+
+/// Of a matrix with at least as many rows as columns, by way of the triangle R of J = QR, which has
+/// the same ones and is small. (Eigen's BDCSVD of J itself takes a minute to compile.)
+SingularDirections singular_directions(const MatrixXd& matrix) {
+  const MatrixXd triangle = Eigen::HouseholderQR<MatrixXd>(matrix)
+                                .matrixQR()
+                                .topRows(matrix.cols())
+                                .triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(triangle, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
+
 std::string describe(const Problem& problem, const VectorXd& direction) {
   std::string text;
   for (Index j = 0; j < direction.size(); ++j) {
@@ -170,17 +188,16 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   MatrixXd with_defects(count + defects.value.size(), unknowns);
   with_defects << jacobian,
       defects.weight.asDiagonal() * defects.jacobian * range.asDiagonal() / out.noise;
-  const Eigen::BDCSVD<MatrixXd> svd(with_defects, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  out.singular_values = svd.singularValues();
+  const SingularDirections all = singular_directions(with_defects);
+  out.singular_values = all.values;
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
-  const double largest = defects.value.size()
-                             ? Eigen::BDCSVD<MatrixXd>(jacobian).singularValues()[0]
-                             : out.singular_values[0];
+  const double largest =
+      defects.value.size() ? singular_directions(jacobian).values[0] : out.singular_values[0];
   const double smallest = 1e-6 * largest;
   Index rank = 0;
   while (rank < unknowns && out.singular_values[rank] > smallest) ++rank;
 
-  const MatrixXd known = svd.matrixV().leftCols(rank);
+  const MatrixXd known = all.vectors.leftCols(rank);
   const MatrixXd inverse = known *
                            out.singular_values.head(rank).cwiseAbs2().cwiseInverse().asDiagonal() *
                            known.transpose();
@@ -206,7 +223,7 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     }
   }
 
-  const MatrixXd null = svd.matrixV().rightCols(unknowns - rank);
+  const MatrixXd null = all.vectors.rightCols(unknowns - rank);
   VectorXd deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   out.correlation =
       MatrixXd::Constant(unknowns, unknowns, std::numeric_limits<double>::quiet_NaN());
@@ -244,7 +261,7 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     WeakDirection weak;
     weak.deviation = i >= rank ? kInfinite : 1 / out.singular_values[i];
     if (kQuantile * weak.deviation <= 1) break;
-    weak.direction = svd.matrixV().col(i);
+    weak.direction = all.vectors.col(i);
     weak.text = describe(problem, weak.direction);
     Index largest;
     weak.direction.cwiseAbs().maxCoeff(&largest);
