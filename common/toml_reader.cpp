@@ -137,6 +137,12 @@ bool TomlTable::has(std::string_view key) const {
   return find(table_, key) != nullptr;
 }
 
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : in_file_order(as_table(table_))) keys.push_back(key);
+  return keys;
+}
+
 bool TomlTable::is_text(std::string_view key) const {
   return has(key) && find(table_, key)->is_string();
 }

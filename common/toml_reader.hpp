@@ -29,6 +29,8 @@ class TomlTable {
   static TomlTable parse(std::string_view text, std::string_view name, std::string_view kind);
 
   bool has(std::string_view key) const;
+  /// The keys of this table, in the order of the file.
+  std::vector<std::string> keys() const;
 
   /// The value of a key. A missing key is a failure of the first of each pair; the second returns
   /// nothing.

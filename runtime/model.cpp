@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/impossible_value.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
@@ -128,15 +129,15 @@ void Model::check_parameters(const Eigen::VectorXd& values) const {
   for (int i = 0; i < parameters(); ++i) {
     const catena_parameter& parameter = table_->parameter[i];
     const std::string name = std::string("parameter ") + parameter.name;
-    if (std::isnan(values[i])) throw std::invalid_argument(name + " has no value");
+    if (std::isnan(values[i])) throw ImpossibleValue(name + " has no value");
     if (!std::isfinite(values[i]))
-      throw std::invalid_argument(name + " = " + number_text(values[i]) + " must be finite");
+      throw ImpossibleValue(name + " = " + number_text(values[i]) + " must be finite");
     if (values[i] < parameter.lower)
-      throw std::invalid_argument(name + " = " + number_text(values[i]) + " " + parameter.unit +
-                                  " is below its lower bound " + number_text(parameter.lower));
+      throw ImpossibleValue(name + " = " + number_text(values[i]) + " " + parameter.unit +
+                            " is below its lower bound " + number_text(parameter.lower));
     if (values[i] > parameter.upper)
-      throw std::invalid_argument(name + " = " + number_text(values[i]) + " " + parameter.unit +
-                                  " is above its upper bound " + number_text(parameter.upper));
+      throw ImpossibleValue(name + " = " + number_text(values[i]) + " " + parameter.unit +
+                            " is above its upper bound " + number_text(parameter.upper));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
 
 namespace catena {
@@ -69,9 +70,9 @@ MaterialPoint point_at_arc_length(const Model& model, const Eigen::VectorXd& par
   const auto lengths = parameters.head(model.links());  // the table begins with length_1 ..
   const double whole = lengths.sum();
   if (!(s >= 0.0) || s > whole * (1.0 + 1e-9))
-    throw std::invalid_argument("arc length " + number_text(s) +
-                                " m is not on the cable, which reaches from 0 to " +
-                                number_text(whole) + " m");
+    throw ImpossibleValue("arc length " + number_text(s) +
+                          " m is not on the cable, which reaches from 0 to " + number_text(whole) +
+                          " m");
   int link = 0;
   double before = 0.0;
   while (link + 1 < model.links() && s > before + lengths[link]) before += lengths[link++];

@@ -54,7 +54,7 @@ struct MaterialPoint {
 };
 
 /// The point at arc length s (m) from the support. Lengths are the nominal ones, length_1 .. of
-/// `parameters`. A joint belongs to the link above it. Throws std::invalid_argument unless
+/// `parameters`. A joint belongs to the link above it. Throws ImpossibleValue unless
 /// 0 <= s <= cable length; up to a relative 1e-9 beyond is taken as the end.
 MaterialPoint point_at_arc_length(const Model& model, const Eigen::VectorXd& parameters, double s);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
 
 namespace catena {
@@ -121,10 +122,10 @@ Eigen::VectorXd held_angles(const Eigen::Vector2d& held, const Eigen::VectorXd& 
     missed = still_missed;
   }
   if (missed.norm() > 1e-12 * whole)
-    throw std::invalid_argument("no catenary was found whose " + std::to_string(lengths.size()) +
-                                " chords end on the held point (side " + number_text(held[0]) +
-                                " m, down " + number_text(held[1]) +
-                                " m); take more links, or the chords of the curve as they are");
+    throw ImpossibleValue("no catenary was found whose " + std::to_string(lengths.size()) +
+                          " chords end on the held point (side " + number_text(held[0]) +
+                          " m, down " + number_text(held[1]) +
+                          " m); take more links, or the chords of the curve as they are");
   return catenary_angles(end, lengths);
 }
 
@@ -141,8 +142,8 @@ State from_angles(const Model& model, const Eigen::VectorXd& angles) {
                                 " links");
   for (Eigen::Index i = 0; i < angles.size(); ++i)
     if (!std::isfinite(angles[i]))
-      throw std::invalid_argument("initial angle " + std::to_string(i + 1) + " = " +
-                                  number_text(angles[i]) + " must be finite");
+      throw ImpossibleValue("initial angle " + std::to_string(i + 1) + " = " +
+                            number_text(angles[i]) + " must be finite");
   return at_rest(model, angles);
 }
 
@@ -152,14 +153,14 @@ State catenary(const Model& model, const Eigen::VectorXd& parameters, const Cabl
   const Eigen::VectorXd lengths = parameters.head(model.links());
   const Eigen::Vector2d end(held.side, held.down);
   if (!end.allFinite())
-    throw std::invalid_argument("held point (side " + number_text(held.side) + " m, down " +
-                                number_text(held.down) + " m) must be finite");
+    throw ImpossibleValue("held point (side " + number_text(held.side) + " m, down " +
+                          number_text(held.down) + " m) must be finite");
   // A relative 1e-12 allows for the rounding of lengths that add up to the distance.
   if (end.norm() > lengths.sum() * (1.0 + 1e-12))
-    throw std::invalid_argument("held point (side " + number_text(held.side) + " m, down " +
-                                number_text(held.down) + " m) is " + number_text(end.norm()) +
-                                " m away, farther than the cable is long (" +
-                                number_text(lengths.sum()) + " m)");
+    throw ImpossibleValue("held point (side " + number_text(held.side) + " m, down " +
+                          number_text(held.down) + " m) is " + number_text(end.norm()) +
+                          " m away, farther than the cable is long (" + number_text(lengths.sum()) +
+                          " m)");
   return at_rest(model, fit == CatenaryFit::kEndHeld ? held_angles(end, lengths)
                                                      : catenary_angles(end, lengths));
 }

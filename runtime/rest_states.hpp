@@ -40,8 +40,8 @@ enum class CatenaryFit {
 /// `held` (m), where the free end is held. Link lengths are those of `parameters` (one entry per
 /// parameter of the model); other parameters are not used, as (2.53) is a uniform cable without
 /// stiffness. If the held point is below the support, the cable goes straight down and up again.
-/// Throws std::invalid_argument on parameters that
-/// the model refuses, if the held point is farther away than the cable is long or is not
+/// Throws ImpossibleValue on parameters outside the bounds of the model, if the held point is
+/// farther away than the cable is long or is not
 /// finite, and if kEndHeld finds no neighbouring catenary (few links).
 State catenary(const Model& model, const Eigen::VectorXd& parameters, const CablePoint& held,
                CatenaryFit fit = CatenaryFit::kEndHeld);

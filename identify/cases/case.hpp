@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,14 @@
 namespace catena {
 
 /// What a case file (TOML, kind = "case") says, checked as far as that goes without model and data.
-/// SI units, angles in rad. Every key is described in docs/case-files.md.
+/// SI units, angles in rad. Every key is described in docs/case-files.md. A case can be made by hand,
+/// too:
+///
+///     Case the_case;
+///     the_case.links = 4;
+///     the_case.cable.length = 1.2;    // m
+///     the_case.cable.density = 0.15;  // kg/m
+///     the_case.parameters.push_back({.name = "k", .sets = "stiffness", .value = 0.1});
 
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
@@ -41,9 +49,16 @@ struct ParameterSpec {
   double upper = std::numeric_limits<double>::infinity();
   double factor = 1;
   bool free = false;
-  bool per_experiment = false;  ///< an unknown of its own in every experiment (sensors)
+  bool per_experiment = false;           ///< an unknown of its own in every experiment (sensors)
+  std::map<std::string, double> values;  ///< per_experiment: by name, where it is not `value`
   Scale scale = Scale::kLinear;
   std::string where;  ///< "case.toml:12", for messages
+
+  /// Its value in the experiment (or window) of that name.
+  double value_in(const std::string& experiment) const {
+    const auto found = values.find(experiment);
+    return found == values.end() ? value : found->second;
+  }
 };
 
 /// How the angles (or the rates) of the links start. All but the catenary and the hanging shape

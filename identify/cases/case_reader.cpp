@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
+#include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
 #include "identify/cases/case_words.hpp"
@@ -94,10 +95,24 @@ ParameterSpec read_parameter(const TomlTable& table) {
   if (parameter.free && parameter.lower == parameter.upper)
     table.fail("lower", shortest_number(parameter.lower) +
                             "; a free parameter needs room: lower must be below upper");
-  if (parameter.value < parameter.lower || parameter.value > parameter.upper)
-    table.fail("value", shortest_number(parameter.value) +
-                            "; must lie within lower = " + shortest_number(parameter.lower) +
-                            " and upper = " + shortest_number(parameter.upper));
+  const auto check_within = [&](const TomlTable& at, const std::string& key, double value) {
+    if (value < parameter.lower || value > parameter.upper)
+      at.fail(key, shortest_number(value) +
+                       "; must lie within lower = " + shortest_number(parameter.lower) +
+                       " and upper = " + shortest_number(parameter.upper));
+  };
+  check_within(table, "value", parameter.value);
+  if (const auto values = table.optional_table("values")) {
+    if (!parameter.per_experiment)
+      table.fail("values", "needs per_experiment = true; else the parameter has but one value");
+    for (const std::string& experiment : values->keys()) {
+      const double value = values->number(experiment);
+      if (!std::isfinite(value))
+        values->fail(experiment, shortest_number(value) + "; must be finite");
+      check_within(*values, experiment, value);
+      parameter.values[experiment] = value;
+    }
+  }
   const bool strictly_positive = parameter.lower > 0;
   parameter.scale = strictly_positive ? Scale::kLogarithmic : Scale::kLinear;
   if (table.has("scale")) parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
@@ -300,6 +315,23 @@ SimulationSpec read_simulation(const TomlTable& table) {
   return simulation;
 }
 
+/// Refuses a value for an experiment that the case does not have. Windows are called
+/// "NAME from 0.5 s".
+void check_value_names(const TomlTable& table, const ParameterSpec& parameter,
+                       const std::vector<ExperimentSpec>& experiments) {
+  std::vector<std::string> names;
+  for (const ExperimentSpec& experiment : experiments) names.push_back(experiment.name);
+  for (const auto& [name, value] : parameter.values) {
+    bool known = false;
+    for (const ExperimentSpec& experiment : experiments)
+      known |= name == experiment.name ||
+               (!std::isnan(experiment.window) && name.starts_with(experiment.name + " from "));
+    if (!known)
+      table.fail("values",
+                 "\"" + name + "\" is no experiment of this case" + suggestion(name, names));
+  }
+}
+
 Case read(const TomlTable& file, const std::filesystem::path& path,
           const std::filesystem::path& directory) {
   Case the_case;
@@ -332,6 +364,9 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
     if (!names.insert(the_case.experiments.back().name).second)
       table.fail("name", "\"" + the_case.experiments.back().name + "\"; names must differ");
   }
+  const std::vector<TomlTable> parameters = file.tables("parameter");
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    check_value_names(parameters[j], the_case.parameters[j], the_case.experiments);
   if (const auto table = file.optional_table("error")) the_case.error = read_error(*table);
   if (const auto table = file.optional_table("optimiser"))
     the_case.optimiser = read_optimiser(*table);

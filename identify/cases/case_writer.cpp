@@ -86,6 +86,10 @@ void write_parameter(Writer& out, const ParameterSpec& parameter) {
   if (parameter.scale != usual) out.text("scale", word(kScaleWords, parameter.scale));
   out.number("factor", parameter.factor, 1);
   out.flag("per_experiment", parameter.per_experiment);
+  std::string values;
+  for (const auto& [experiment, value] : parameter.values)
+    values += (values.empty() ? "" : ", ") + quoted(experiment) + " = " + shortest_number(value);
+  if (!values.empty()) out.line("values", "{" + values + "}");
 }
 
 void write_initial(Writer& out, const InitialSpec& initial, const std::string& table) {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 
@@ -13,6 +14,25 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// One experiment alone, all of it to be fitted, by its start only: everything else is as in x.
+Problem only_start_of(const Problem& problem, const VectorXd& x, int experiment) {
+  const Experiment& chosen = problem.experiments()[static_cast<std::size_t>(experiment)];
+  Case the_case = problem.with(x);
+  for (ParameterSpec& parameter : the_case.parameters) {
+    parameter.value = parameter.value_in(chosen.spec.name);
+    parameter.values.clear();
+    parameter.free = false;
+  }
+  the_case.optimiser.growing_windows.clear();
+  the_case.experiments = {chosen.spec};
+  ExperimentSpec& spec = the_case.experiments.front();
+  spec.use = Use::kFit;
+  spec.initial = problem.initial_of(x, experiment);
+  Recording recording = chosen.recording;
+  recording.fit_frames = static_cast<Index>(recording.time.size());
+  return Problem(std::move(the_case), problem.model(), {std::move(recording)});
+}
+
 /// What only validates and may start anywhere starts as fits it best, everything else as in x: how
 /// a window begins says nothing of the model.
 std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Problem> problem,
@@ -21,18 +41,22 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
                                                     const std::atomic<bool>* stop) {
   FitOptions options;
   options.stop = stop;
-  std::map<int, InitialSpec> starts;
+  std::vector<Experiment> experiments = problem->experiments();
+  bool changed = false;
   for (std::size_t e = 0; e < problem->experiments().size(); ++e) {
     const Experiment& experiment = problem->experiments()[e];
     const InitialSpec& initial = experiment.initial;
     if (experiment.fitted() || !(initial.free || (!initial.at_rest && initial.velocity_free)))
       continue;
-    const Problem alone = problem->alone(x, static_cast<int>(e));
+    const Problem alone = only_start_of(*problem, x, static_cast<int>(e));
     const FitResult result = least_squares(alone, options);
     if (result.status == FitStatus::kFailed || result.x.size() == 0) continue;
-    starts[static_cast<int>(e)] = alone.initial_of(result.x, 0);
+    experiments[e].initial = alone.initial_of(result.x, 0);
+    changed = true;
   }
-  return starts.empty() ? problem : std::make_shared<const Problem>(problem->started(starts));
+  if (!changed) return problem;
+  return std::make_shared<const Problem>(problem->the_case(), problem->model(),
+                                         std::move(experiments));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "identify/diagnosis/score.hpp"
 #include "identify/diagnosis/variant.hpp"
+#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 

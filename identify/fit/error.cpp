@@ -112,7 +112,7 @@ ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& ev
     const Prediction& next = evaluation.predictions[static_cast<std::size_t>(experiment.meets)];
     defects.value.segment(row, size) = here.last - next.first;
     const double noise = std::isnan(experiment.spec.noise) ? 1 : experiment.spec.noise;
-    defects.weight.segment(row, size).setConstant(problem.defect_weight() / noise);
+    defects.weight.segment(row, size).setConstant(experiment.defect_weight / noise);
     if (evaluation.with_jacobian)
       defects.jacobian.middleRows(row, size) = here.last_along - next.first_along;
     row += size;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/problem/problem.hpp"
+#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 
@@ -16,13 +16,15 @@ struct ResidualIndex {
   Eigen::Index frame = 0;
 };
 
-/// All residuals of one part, in order of experiment, frame, channel; points not seen are left out.
+/// All residuals of one part, in the order of experiment, frame, channel. Points that were not seen
+/// are left out.
 struct Residuals {
   std::vector<ResidualIndex> index;
   Eigen::VectorXd value;
   Eigen::MatrixXd jacobian;  ///< residuals x unknowns, empty if the evaluation had none
 };
 
+/// The residuals of an evaluation of the problem. `evaluation` must be ok.
 Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
 /// Neighbouring residuals of the same marker and frame (side and down), or one angle: together a
@@ -32,8 +34,8 @@ struct Distance {
 };
 std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
 
-/// Where joined windows end minus where the next ones start: angles (rad), then rates (rad/s),
-/// window by window. Nothing where none are joined.
+/// The shooting defects of joined windows: where each window ends minus where the next one starts;
+/// angles (rad), then rates (rad/s), window by window. Empty where no windows are joined.
 struct ShootingDefects {
   Eigen::VectorXd value;
   Eigen::MatrixXd jacobian;  ///< defects x unknowns, empty if the evaluation had none
@@ -41,8 +43,8 @@ struct ShootingDefects {
 };
 ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& evaluation);
 
-/// The noise to weigh each residual by: the experiment's, or 1 where it states none. Under the
-/// likelihood: what its channel's residuals show, see channels_of.
+/// The noise sigma of each residual, m or rad: the experiment's, or 1 where it states none. Under
+/// the likelihood: what the residuals of its channel show, see channels_of.
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
 
 /// One channel of one recording, over all its windows.
@@ -58,8 +60,8 @@ std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& r
 Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals);
 
 /// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
-/// Infinite if the evaluation failed; a failed simulation is never a good fit. Gaps between joined
-/// windows count with their weight in the fitted part.
+/// Infinite if the evaluation failed; a failed simulation is never a good fit. Shooting defects
+/// count with their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
 /// The fitted part of an evaluation: what the optimisers work with.

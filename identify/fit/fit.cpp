@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/input_error.hpp"
+#include "identify/fit/easier_problems.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit_journal.hpp"
 #include "identify/fit/minimise.hpp"
@@ -140,13 +141,13 @@ constexpr double kBeginningTolerance = 1e-2, kRoughBeginningTolerance = 0.1;
 FitResult fit_beginning(const Problem& problem, const FitOptions& options,
                         const LeastSquares& least_squares) {
   const double tolerance = std::max(kBeginningTolerance, problem.the_case().optimiser.tolerance);
-  const Problem beginning = problem.with_tolerance(tolerance);
+  const Problem beginning = with_tolerance(problem, tolerance);
   if (!starts_roughly(problem)) return fit_once(beginning, options, least_squares);
-  FitResult rough =
-      fit_once(problem.rough().with_tolerance(kRoughBeginningTolerance), options, least_squares);
-  if (rough.status != FitStatus::kFailed) return rough;
+  FitResult roughly =
+      fit_once(with_tolerance(rough(problem), kRoughBeginningTolerance), options, least_squares);
+  if (roughly.status != FitStatus::kFailed) return roughly;
   FitResult result = fit_once(beginning, options, least_squares);  // it may have failed as rough
-  add_effort(result, rough);
+  add_effort(result, roughly);
   return result;
 }
 
@@ -164,7 +165,7 @@ bool starts_roughly(const Problem& problem) {
   const bool squares = the_case.error.measure == Measure::kLeastSquares ||
                        the_case.error.measure == Measure::kLikelihood;
   return the_case.optimiser.method == FitMethod::kLeastSquares && !squares &&
-         problem.finer_than_rough();
+         finer_than_rough(problem);
 }
 
 void check_fittable(const Problem& problem) {
@@ -190,7 +191,7 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   next.record = nullptr;
   FitResult before;
   for (const double seconds : spec.growing_windows) {
-    FitResult shorter = fit_beginning(problem.shortened(seconds), next, least_squares);
+    FitResult shorter = fit_beginning(shortened(problem, seconds), next, least_squares);
     add_effort(shorter, before);
     if (!finished(shorter)) return shorter;
     next.start = shorter.x;
@@ -198,7 +199,7 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   }
   if (problem.joined())
     for (const double weight : kLooseDefects) {
-      FitResult looser = fit_once(problem.with_defect_weight(weight), next, least_squares);
+      FitResult looser = fit_once(with_defect_weight(problem, weight), next, least_squares);
       add_effort(looser, before);
       if (!finished(looser)) return looser;
       next.start = looser.x;

@@ -56,6 +56,7 @@ struct Progress {
   double error = 0;  ///< best so far
 };
 
+/// How a fit is run. All may be left as they are.
 struct FitOptions {
   Eigen::VectorXd start;  ///< empty: the case's
   double time_limit = 0;  ///< s; 0: none
@@ -66,19 +67,27 @@ struct FitOptions {
   std::function<void(const HistoryEntry&)> record;
 };
 
-/// A fit by least squares, e.g. fit_least_squares of identify/least_squares/least_squares.hpp: handed in,
-/// so that who does not want it need not link it.
+/// A fit by least squares: fit_least_squares of identify/least_squares/least_squares.hpp. It is an
+/// argument, so that a program that does not use it need not link it.
 using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>;
 
-/// Fits the unknowns by the method the case names; where the case asks for growing windows, first
-/// the beginning of each experiment, then longer parts, each from where the one before ended; where
-/// it joins windows (multiple shooting), first with gaps between them that cost little, then ever
-/// more. Nelder-Mead and the bounded gradient methods are those of minimise.hpp. Throws InputError
-/// for least squares without a solver.
+/// Fits the unknowns of a problem by the method that its case names.
+///
+/// `least_squares` may be empty if the case names another method. Nelder-Mead and the bounded
+/// gradient methods are those of minimise.hpp. With growing windows, the beginning of each experiment
+/// is fitted first, then longer parts, each from where the one before ended. With joined windows
+/// (multiple shooting), shooting defects cost little at first, then more and more. A simulation that
+/// fails is infinitely bad; how the fit ended is in the status. Throws InputError if nothing is free,
+/// if there are no data, and for the method least_squares without a solver.
+///
+///     #include "identify/cases/case_reader.hpp"
+///     const Problem problem(read_case("case.toml"), Model::built_in(4));
+///     const FitResult found = fit(problem, {}, {});
+///     const double stiffness = found.x[0];
 FitResult fit(const Problem& problem, const FitOptions& options, const LeastSquares& least_squares);
 
-/// Whether a fit is by least squares on distances and begins with rough simulations of the problem
-/// (Problem::rough), whose minimum is where the fit proper starts.
+/// Whether the fit is by least squares on distances and begins with a rough problem (rough() of
+/// easier_problems.hpp). The minimum of that is where the fit of the problem itself starts.
 bool starts_roughly(const Problem& problem);
 
 /// How a recording is taken: "whole", "growing windows", "separate windows", "multiple shooting".
@@ -87,8 +96,9 @@ const char* strategy_of(const Problem& problem);
 /// Throws InputError unless there are unknowns and data to fit them to.
 void check_fittable(const Problem& problem);
 
-/// Logarithmic unknowns become their logarithms, and back.
+/// The unknowns as the methods move them: those of logarithmic scale as their logarithms.
 Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x);
+/// From there back to the unknowns, within their bounds.
 Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y);
 
 }  // namespace catena

@@ -20,7 +20,7 @@ class FitJournal {
   /// The residuals at x (least squares); the error is recorded.
   Misfit evaluate_residuals(const Eigen::VectorXd& x, bool jacobian);
 
-  /// The residuals of the same problem roughly simulated (Problem::rough): they count as an
+  /// The residuals of the same problem roughly simulated (rough() of easier_problems.hpp): they count as an
   /// evaluation, but are the result only where there is no other.
   Misfit evaluate_roughly(const Problem& rough, const Eigen::VectorXd& x, bool jacobian);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identify/fit/easier_problems.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit_journal.hpp"
 #include "identify/least_squares/distance_cost.hpp"
@@ -250,10 +251,10 @@ FitResult fit_least_squares(const Problem& problem, const FitOptions& options) {
   std::string message;
   if (!of_squares(problem)) {
     const bool roughly = starts_roughly(problem) && spec.max_evaluations > 1;
-    const Problem rough = roughly ? problem.rough() : problem;
-    SimulatedResiduals simulated(problem, journal, y, roughly ? &rough : nullptr);
+    const Problem easier = roughly ? rough(problem) : problem;
+    SimulatedResiduals simulated(problem, journal, y, roughly ? &easier : nullptr);
     if (roughly) {
-      const FitStatus status = solve_roughly(rough, journal, simulated, y);
+      const FitStatus status = solve_roughly(easier, journal, simulated, y);
       if (status == FitStatus::kInterrupted || status == FitStatus::kTimeLimit)
         return journal.result(status, "");
       simulated.refine();

@@ -12,8 +12,8 @@ struct WeightedDistance {
   double weight = 0;
 };
 
-/// The s between the bounds, which hold 0 between them, with the least g's + s'As / 2. Unknowns
-/// without curvature rest.
+/// The s with the least g's + s'As / 2 between the bounds, which hold 0 between them. All have one
+/// entry per unknown. Unknowns with zero curvature stay fixed.
 Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& curvature,
                              const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 

@@ -14,7 +14,7 @@ namespace catena {
 /// come from one simulation, so they are made here once for a point and the blocks read them.
 class SimulatedResiduals : public ceres::EvaluationCallback {
  public:
-  /// `y`: what Ceres moves. With `rough` (Problem::rough), the simulations are of that, until
+  /// `y`: what Ceres moves. With `rough` (rough() of easier_problems.hpp), the simulations are of that, until
   /// refine().
   SimulatedResiduals(const Problem& problem, FitJournal& journal, const Eigen::VectorXd& y,
                      const Problem* rough = nullptr);

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/impossible_value.hpp"
 #include "common/input_error.hpp"
+#include "identify/problem/parameter_map.hpp"
+#include "runtime/rest_states.hpp"
 
 namespace catena {
 namespace {
@@ -114,6 +117,44 @@ Eigen::VectorXd initial_rates(const InitialSpec& initial, const Eigen::VectorXd&
   if (initial.at_rest) return Eigen::VectorXd::Zero(links);
   return shape_basis(initial.velocity_shape, links, initial.velocity_terms, lengths) *
          as_vector(initial.velocity_coefficients);
+}
+
+State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
+                     const InitialSpec& initial, const Signals& signals, double time) {
+  const Eigen::VectorXd lengths = link_lengths(model, parameters);
+  State state = State::zero(model);
+  if (initial.shape == Shape::kCatenary) {
+    state = catenary(model, parameters, {initial.held[0], initial.held[1]},
+                     initial.ends_at_held ? CatenaryFit::kEndHeld : CatenaryFit::kChords);
+  } else if (initial.shape == Shape::kHanging) {
+    const Equilibrium equilibrium = hanging_equilibrium(model, parameters, time, signals);
+    if (equilibrium.status != Status::kSuccess)
+      throw ImpossibleValue("hanging equilibrium: " + equilibrium.message);
+    state = equilibrium.state;
+  } else {
+    state.q.head(model.links()) = initial_angles(initial, lengths);
+  }
+  state.v.head(model.links()) = initial_rates(initial, lengths);
+  return state;
+}
+
+void check_start(const Model& model, const Eigen::VectorXd& parameters, const InitialSpec& initial,
+                 const Signals& signals, double time, const std::string& where) {
+  State state;
+  try {
+    state = state_at_start(model, parameters, initial, signals, time);
+  } catch (const ImpossibleValue& error) {
+    throw InputError(where + ": initial: " + error.what());
+  }
+  if (signals.count() < model.signals()) return;
+  Eigen::VectorXd acceleration(model.coordinates()), signal_values(3 * model.signals());
+  signals.evaluate(time, signal_values.data());
+  const catena_point at{time,           state.q.data(),       state.v.data(),   acceleration.data(),
+                        state.z.data(), signal_values.data(), parameters.data()};
+  if (const int pivot = model.acceleration(at, acceleration.data()))
+    throw InputError(where + ": cable: the mass matrix is not positive definite (at " +
+                     model.table().coordinate[pivot - 1].name +
+                     "); links without mass need a load or neighbours that have some");
 }
 
 void complete_from_data(InitialSpec& initial, const Recording& recording,

@@ -5,10 +5,14 @@
 
 #include "identify/cases/case.hpp"
 #include "identify/recordings/recording.hpp"
+#include "runtime/model.hpp"
+#include "runtime/signals.hpp"
+#include "runtime/state.hpp"
 
 namespace catena {
 
-/// Coefficients of a shape of the angles: 1, links or terms; 0 for catenary and hanging.
+/// How many coefficients a shape of the angles has: 1, `links` or `terms`; 0 for catenary and
+/// hanging.
 int coefficient_count(Shape shape, int links, int terms);
 
 /// The linear map from coefficients to the angle (or rate) of each link: links x coefficients.
@@ -20,10 +24,20 @@ Eigen::VectorXd initial_angles(const InitialSpec& initial, const Eigen::VectorXd
 /// Their rates, rad/s.
 Eigen::VectorXd initial_rates(const InitialSpec& initial, const Eigen::VectorXd& lengths);
 
-/// Finds the coefficients that are not given from the first frames of a recording: angles through
-/// the first frame (least squares on the positions, with the least bending that explains them),
-/// rates from a line through the first few frames. Throws InputError if the recording has nothing
-/// there.
+/// The state of the model as `initial` describes it, at time `time` (s). `parameters`: the model's
+/// array. `signals`: for the hanging equilibrium. Throws ImpossibleValue where there is no such state
+/// (held farther away than the cable is long, no equilibrium).
+State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
+                     const InitialSpec& initial, const Signals& signals, double time);
+
+/// Throws InputError (at `where`) if there is no such state, or no motion from there.
+void check_start(const Model& model, const Eigen::VectorXd& parameters, const InitialSpec& initial,
+                 const Signals& signals, double time, const std::string& where);
+
+/// Finds the coefficients that `initial` leaves open, from the first frames of a recording: angles
+/// through the first frame (least squares on the positions, with the least bending that explains
+/// them), rates from a line through the first few frames. `lengths`: of the links, m. Throws
+/// InputError if the recording has nothing there.
 void complete_from_data(InitialSpec& initial, const Recording& recording,
                         const Eigen::VectorXd& lengths);
 

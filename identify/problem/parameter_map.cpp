@@ -138,12 +138,10 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
   base_[model.parameter_index("load_mass")] = cable.load_mass;
   base_[model.parameter_index("gravity")] = cable.gravity;
 
-  values_.resize(static_cast<Eigen::Index>(the_case.parameters.size()));
   std::vector<const ParameterSpec*> set_by(static_cast<std::size_t>(model.parameters()), nullptr);
   bool length_set = false, density_set = false;
   for (std::size_t j = 0; j < the_case.parameters.size(); ++j) {
     const ParameterSpec& parameter = the_case.parameters[j];
-    values_[static_cast<Eigen::Index>(j)] = parameter.value;
     Assignment assignment;
     assignment.factor = parameter.factor;
     if (parameter.sets == "cable.length" || parameter.sets == "cable.density") {
@@ -155,8 +153,6 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
              "sets = \"cable.density\": [cable] gives link_masses; give density instead");
       if (std::exchange(is_length ? length_set : density_set, true))
         fail(parameter, "sets = \"" + parameter.sets + "\": set twice");
-      if (!(parameter.factor * parameter.value > 0))
-        fail(parameter, "value = " + shortest_number(parameter.value) + ": must be positive");
     } else {
       Target target = find_target(parameter, model);
       check_unit(parameter, target.per_length
@@ -166,28 +162,54 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
       assignment.first = target.first - 1;
       assignment.targets = std::move(target.indices);
       for (const int target : assignment.targets) {
-        const catena_parameter& entry = model.table().parameter[target];
-        const double value = parameter.factor * parameter.value;  // per spacing: its sign counts
-        if (value < entry.lower || value > entry.upper)
-          fail(parameter, "sets " + std::string(entry.name) + " to " + shortest_number(value) +
-                              "; it must lie within " + shortest_number(entry.lower) + " and " +
-                              shortest_number(entry.upper));
         const ParameterSpec*& other = set_by[static_cast<std::size_t>(target)];
         if (other)
-          fail(parameter, std::string("sets ") + entry.name + ", which parameter \"" + other->name +
-                              "\" (" + other->where + ") sets already");
+          fail(parameter, std::string("sets ") + model.table().parameter[target].name +
+                              ", which parameter \"" + other->name + "\" (" + other->where +
+                              ") sets already");
         other = &parameter;
       }
     }
     assignments_.push_back(std::move(assignment));
   }
-  const Eigen::VectorXd array = (*this)(values_);
+  const Eigen::VectorXd array = (*this)(case_values(the_case));
   for (Eigen::Index i = 0; i < array.size(); ++i)
     if (std::isnan(array[i])) {
       const catena_parameter& entry = model.table().parameter[i];
       throw InputError(the_case.file.string() + ": the model's " + entry.name + " (" + entry.unit +
                        ") has no value; add a [[parameter]] that sets it");
     }
+}
+
+void ParameterMap::check_values(const Case& the_case, const Model& model) const {
+  for (std::size_t j = 0; j < assignments_.size(); ++j) {
+    const ParameterSpec& parameter = the_case.parameters[j];
+    const auto check = [&](double given) {
+      const double value = parameter.factor * given;  // per spacing: its sign counts
+      if (assignments_[j].targets.empty() && !(value > 0))
+        fail(parameter, "value = " + shortest_number(given) + ": must be positive");
+      for (const int target : assignments_[j].targets) {
+        const catena_parameter& entry = model.table().parameter[target];
+        if (value < entry.lower || value > entry.upper)
+          fail(parameter, "sets " + std::string(entry.name) + " to " + shortest_number(value) +
+                              "; it must lie within " + shortest_number(entry.lower) + " and " +
+                              shortest_number(entry.upper));
+      }
+    };
+    check(parameter.value);
+    for (const auto& [experiment, value] : parameter.values) check(value);
+  }
+}
+
+Eigen::VectorXd case_values(const Case& the_case, const std::string& experiment) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(the_case.parameters.size()));
+  for (std::size_t j = 0; j < the_case.parameters.size(); ++j)
+    values[static_cast<Eigen::Index>(j)] = the_case.parameters[j].value_in(experiment);
+  return values;
+}
+
+Eigen::VectorXd link_lengths(const Model& model, const Eigen::VectorXd& parameters) {
+  return parameters.segment(model.parameter_index("length_1"), model.links());
 }
 
 template <class T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "identify/cases/case.hpp"
@@ -25,19 +26,18 @@ namespace catena {
 /// no bending stiffness at joint 1: use a range from 2 on.)
 class ParameterMap {
  public:
-  /// Throws InputError naming line and key for an unknown name, a wrong unit, a value outside the
-  /// model's bounds, a model parameter that is set twice or not at all.
+  /// Throws InputError naming line and key for an unknown name, a wrong unit, a model parameter
+  /// that is set twice or not at all.
   ParameterMap(const Case& the_case, const Model& model);
+
+  /// Throws InputError naming the line where a value in the case is outside the model's bounds.
+  void check_values(const Case& the_case, const Model& model) const;
 
   /// `values`: one per parameter of the case, in its order and unit. Returns the model's array.
   Eigen::VectorXd operator()(const Eigen::VectorXd& values) const;
 
   /// d(model's array)/d(values): parameters of the model x parameters of the case.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& values) const;
-
-  /// The values in the case.
-  const Eigen::VectorXd& values() const { return values_; }
-  void set_value(Eigen::Index parameter, double value) { values_[parameter] = value; }
 
  private:
   enum class Kind { kModel, kPerSpacing, kLength, kDensity };
@@ -56,9 +56,15 @@ class ParameterMap {
   double length_, density_;
   Eigen::VectorXd relative_lengths_, masses_, inertias_;  // masses and inertias as given
   Eigen::VectorXd base_;                                  // what no parameter sets
-  Eigen::VectorXd values_;
   std::vector<Assignment> assignments_;
   int length_index_, mass_index_, inertia_index_;
 };
+
+/// The values of a case's parameters, in its order, in the experiment of that name; without a name
+/// those that hold in no particular one.
+Eigen::VectorXd case_values(const Case& the_case, const std::string& experiment = "");
+
+/// The lengths of the links (m), from the model's array of parameters.
+Eigen::VectorXd link_lengths(const Model& model, const Eigen::VectorXd& parameters);
 
 }  // namespace catena

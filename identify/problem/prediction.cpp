@@ -185,6 +185,15 @@ class Observer {
 
 }  // namespace
 
+Prediction failed_prediction(const Experiment& experiment, const std::string& message) {
+  Prediction failed;
+  failed.status = Status::kNotFinite;
+  failed.message = message;
+  failed.simulated.setConstant(static_cast<Index>(experiment.recording.channels.size()),
+                               static_cast<Index>(experiment.recording.time.size()), kNotGiven);
+  return failed;
+}
+
 SimulationOptions simulation_options(const SimulationSpec& settings) {
   SimulationOptions options;
   options.relative_tolerance = settings.relative_tolerance;

@@ -3,134 +3,89 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "identify/cases/case.hpp"
-#include "identify/problem/initial_state.hpp"
+#include "identify/problem/experiment.hpp"
 #include "identify/problem/parameter_map.hpp"
+#include "identify/problem/prediction.hpp"
+#include "identify/problem/unknowns.hpp"
 #include "identify/recordings/recording.hpp"
-#include "identify/recordings/signal_reader.hpp"
 #include "runtime/model.hpp"
-#include "runtime/sensitivity.hpp"
-#include "runtime/simulation.hpp"
 #include "runtime/state.hpp"
 
 namespace catena {
 
-/// One number the fit may change.
-struct Unknown {
-  enum class Group { kPhysics, kInitial, kSensor };
-  std::string name;  ///< "k", "run 1: angle coefficient 2"
-  std::string unit;
-  double start = 0, lower = 0, upper = 0;
-  Scale scale = Scale::kLinear;
-  Group group = Group::kPhysics;
-  int experiment = -1;   ///< the one experiment it belongs to; -1: all
-  int parameter = -1;    ///< index into Case::parameters; -1: a coefficient of the initial state
-  int coefficient = -1;  ///< index into the angle, then the rate coefficients of the experiment
-};
-
-/// One experiment of the case (windows are cut already) with its data.
-struct Experiment {
-  ExperimentSpec spec;
-  Recording recording;
-  InitialSpec initial;      ///< its own or the case's, with all coefficients found
-  Signals signals;          ///< in the order of the model
-  int source = -1;          ///< index into Case::experiments: several windows may be of one
-  int meets = -1;           ///< multiple shooting: the experiment that starts where this one ends
-  double ends = kNotGiven;  ///< s: when it does, if there is one
-  bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }
-};
-
-/// What the model says about one experiment. Where the simulation failed, `simulated` is NaN.
-struct Prediction {
-  Status status = Status::kNotRun;
-  std::string message;
-  Eigen::MatrixXd simulated;                 ///< channels x frames
-  std::vector<Eigen::MatrixXd> sensitivity;  ///< one per direction, channels x frames
-  Trajectory trajectory;                     ///< at the frames
-  /// Joined windows: q and v at the start, and where the next one starts.
-  Eigen::VectorXd first, last;
-  Eigen::MatrixXd first_along, last_along;  ///< their derivatives, one column per direction
-  bool ok() const { return status == Status::kSuccess; }
-};
-
-/// A case, its model and its data: from the unknowns to predictions and back to a case.
-/// All functions may be called from several threads at once.
+/// A case, its model and its data: what a fit compares. A value of an unknown takes this way:
 ///
-///     Problem problem(read_case("case.toml"), model);
-///     Evaluation at_start = problem.evaluate(problem.start(), Part::kFit);
-///     double error = error_of(problem, at_start, Part::kFit);       // identify/fit/error.hpp
+///   Unknowns            x -> parameters of the case, start of an experiment   unknowns.hpp
+///   ParameterMap        parameters of the case -> array of the model          parameter_map.hpp
+///   state_at_start      start, array -> angles and rates at the start         initial_state.hpp
+///   predict_experiment  array, state -> what the sensors would see            prediction.hpp
+///   residuals_of        prediction minus measurement                          identify/fit/error.hpp
+///
+/// A problem never changes. Whoever wants another one (shorter, rougher, with one parameter held)
+/// builds it from a changed case or changed experiments. All functions may be called from several
+/// threads at once.
+///
+///     #include "identify/cases/case_reader.hpp"
+///     #include "identify/fit/error.hpp"
+///     const Problem problem(read_case("case.toml"), Model::built_in(4));
+///     const Evaluation at_start = evaluate(problem, problem.start(), false, false);
+///     const double error = error_of(problem, at_start, Part::kFit);
+///
+/// x always has one value per unknown, in their order and units. `experiment` is an index into
+/// experiments(); -1 stands for none: the case's own values and initial state.
 class Problem {
  public:
-  /// Reads the data. Throws InputError.
-  Problem(Case the_case, Model model);
-  /// The same case with data given: one recording per experiment of the case.
-  Problem(Case the_case, Model model, std::vector<Recording> recordings);
+  /// Reads the data, or takes `recordings`: one per experiment of the case. Throws InputError for
+  /// parameters that the model does not have, values outside its bounds, data that cannot be used
+  /// and experiments that cannot begin; std::invalid_argument for another number of recordings.
+  Problem(Case the_case, Model model, std::vector<Recording> recordings = {});
+
+  /// From experiments of another problem of the same model, all or some of them, changed or not.
+  Problem(Case the_case, Model model, std::vector<Experiment> experiments);
 
   const Case& the_case() const { return case_; }
   const Model& model() const { return model_; }
   const std::vector<Experiment>& experiments() const { return experiments_; }
-  const std::vector<Unknown>& unknowns() const { return unknowns_; }
-  /// Starting values, in the units of the unknowns.
-  Eigen::VectorXd start() const;
+  const std::vector<Unknown>& unknowns() const { return unknowns_.list(); }
 
-  /// The model's parameters in one experiment; -1: in none (the case's own initial state).
+  /// The values at which the case starts the unknowns.
+  Eigen::VectorXd start() const { return unknowns_.start(); }
+
+  /// The model's array of parameters in one experiment.
   Eigen::VectorXd model_parameters(const Eigen::VectorXd& x, int experiment) const;
-  /// The start of one experiment as the case describes it; -1: the case's own.
+
+  /// The start of one experiment as the case describes it.
   InitialSpec initial_of(const Eigen::VectorXd& x, int experiment) const;
-  /// The state at the start of one experiment. Throws std::invalid_argument or std::runtime_error
-  /// where there is none (held farther away than the cable is long, no equilibrium).
+
+  /// The state at the start of one experiment. Throws ImpossibleValue where there is none.
   State initial_state(const Eigen::VectorXd& x, int experiment) const;
-  /// The derivatives of both by every unknown. A vector that is empty is zero; all of an unknown of
-  /// another experiment are.
+
+  /// The derivatives of both by every unknown, one per unknown. A vector that is empty is zero; all
+  /// of an unknown of another experiment are. Throws ImpossibleValue as initial_state.
   std::vector<Seed> directions(const Eigen::VectorXd& x, int experiment) const;
 
   /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities
-  /// along `along` (model parameters and initial state: e.g. directions(), or any other).
+  /// along `along` (e.g. directions(), or any other). `keep_going`: asked at every step; false ends
+  /// the simulation. What fails, and values that are impossible, say so in the status; nothing is
+  /// thrown for them.
   Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
                      const std::vector<Seed>& along = {},
                      const std::function<bool()>& keep_going = {}) const;
 
-  /// The case with the values of `x` as its starting values.
+  /// The case with the values of x where it gave its own: reading it again gives a problem that
+  /// starts at x. The starts of windows have no place in a case; they are found again.
   Case with(const Eigen::VectorXd& x) const;
 
   /// Multiple shooting: the windows of an experiment are to meet.
   bool joined() const;
-  /// What a gap between windows costs, in residuals of the same size: so much that it closes. Lower
-  /// while a fit is on its way.
-  double defect_weight() const { return defect_weight_; }
-  Problem with_defect_weight(double weight) const;
-
-  /// The same, only the first `seconds` of each experiment.
-  Problem shortened(double seconds) const;
-  /// The same, the optimiser's tolerance another.
-  Problem with_tolerance(double tolerance) const;
-  /// The same as closely as the way to a minimum needs it, for a start of the fit proper: simulated
-  /// with a relative tolerance of 1e-4 (absolute ones in proportion), every so many frames only,
-  /// the optimiser's tolerance 1e-2.
-  Problem rough() const;
-  /// rough() costs much less.
-  bool finer_than_rough() const;
-  /// The same problem with one unknown of the physics at a value, no longer free.
-  Problem fixed(int unknown, double value) const;
-  /// One experiment alone, all of it to be fitted, by its start only: everything else is as in x.
-  Problem alone(const Eigen::VectorXd& x, int experiment) const;
-  /// The same problem, other starts of some experiments.
-  Problem started(const std::map<int, InitialSpec>& starts) const;
-  /// The same problem with other measurements: one matrix (channels x frames) per experiment.
-  Problem measured_as(const std::vector<Eigen::MatrixXd>& measured) const;
 
  private:
-  /// Joins the windows from experiment `first` on.
-  void join(std::size_t first);
-  void prepare();
-  /// Throws InputError where an experiment (-1: the case alone) cannot begin.
-  void check_start(int experiment) const;
-  /// Of the case's parameters, in their order.
-  Eigen::VectorXd parameter_values(const Eigen::VectorXd& x, int experiment) const;
+  const Experiment& at(int experiment) const {
+    return experiments_[static_cast<std::size_t>(experiment)];
+  }
   State state_of(int experiment, const InitialSpec& initial,
                  const Eigen::VectorXd& parameters) const;
 
@@ -138,24 +93,7 @@ class Problem {
   Model model_;
   ParameterMap map_;
   std::vector<Experiment> experiments_;
-  std::vector<Unknown> unknowns_;
-  double defect_weight_ = 1e4;
+  Unknowns unknowns_;
 };
-
-/// Predictions of all experiments (those to be fitted, or all) and, if asked for, their
-/// derivatives by the unknowns.
-struct Evaluation {
-  std::vector<Prediction> predictions;  ///< one per experiment; kNotRun where not asked for
-  bool with_jacobian = false;
-  /// Every prediction asked for succeeded and is finite.
-  bool ok = false;
-  std::string message;  ///< of the first failure: "run 1: theta_7 at t = 1.23 s"
-};
-
-enum class Part { kFit, kValidation };
-
-/// `all`: validation too (longer simulations), else only what is fitted.
-Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, bool jacobian,
-                    const std::function<bool()>& keep_going = {});
 
 }  // namespace catena

@@ -10,6 +10,7 @@
 #include "identify/cases/case_reader.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/tables.hpp"
+#include "identify/recordings/signal_reader.hpp"
 #include "identify/results/csv_tables.hpp"
 #include "identify/results/result_writer.hpp"
 

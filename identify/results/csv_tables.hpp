@@ -4,8 +4,8 @@
 #include <string>
 
 #include "identify/fit/fit.hpp"
+#include "identify/problem/evaluation.hpp"
 #include "identify/problem/motion.hpp"
-#include "identify/problem/problem.hpp"
 
 namespace catena {
 

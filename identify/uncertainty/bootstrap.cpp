@@ -36,11 +36,10 @@ MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertain
   MatrixXd rows(count, fit.x.size());
   in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
     std::mt19937_64 generator(seed + 1'000'003ULL * (row + 1));
-    std::vector<MatrixXd> measured;
-    for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
-      const Recording& recording = problem.experiments()[e].recording;
-      measured.push_back(recording.measured);
-      if (!problem.experiments()[e].fitted()) continue;
+    std::vector<Experiment> experiments = problem.experiments();
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      if (!experiments[e].fitted()) continue;
+      Recording& recording = experiments[e].recording;
       const Index frames = recording.fit_frames;
       const MatrixXd& simulated = best.predictions[e].simulated;
       const MatrixXd residuals = simulated - recording.measured.leftCols(frames);
@@ -48,12 +47,12 @@ MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertain
       const Index block = std::min<Index>(
           frames, static_cast<Index>(std::ceil(std::max(std::cbrt(static_cast<double>(frames)),
                                                         2 * (1 + rho) / (1 - rho)))));
-      measured.back().leftCols(frames) = simulated - drawn_again(residuals, block, generator);
+      recording.measured.leftCols(frames) = simulated - drawn_again(residuals, block, generator);
     }
     FitOptions options;
     options.start = fit.x;
-    rows.row(static_cast<Index>(row)) =
-        least_squares(problem.measured_as(measured), options).x.transpose();
+    const Problem again(problem.the_case(), problem.model(), std::move(experiments));
+    rows.row(static_cast<Index>(row)) = least_squares(again, options).x.transpose();
   });
   return rows;
 }

@@ -26,10 +26,20 @@ double minus_log_likelihood(const Problem& problem, const Residuals& residuals) 
   return residuals.value.cwiseQuotient(noise).squaredNorm();
 }
 
+/// The problem with one unknown of the physics held at a value.
+Problem held_at(const Problem& problem, int unknown, double value) {
+  Case the_case = problem.the_case();
+  const int parameter = problem.unknowns()[static_cast<std::size_t>(unknown)].parameter;
+  ParameterSpec& held = the_case.parameters[static_cast<std::size_t>(parameter)];
+  held.value = value;
+  held.free = false;
+  return Problem(std::move(the_case), problem.model(), problem.experiments());
+}
+
 /// The same, at the best the others can do; infinite if it failed.
 double best_square(const Problem& problem, int unknown, double value, VectorXd& rest,
                    const LeastSquares& least_squares) {
-  const Problem held = problem.fixed(unknown, value);
+  const Problem held = held_at(problem, unknown, value);
   const auto square_at = [&](const VectorXd& x) {
     const Evaluation evaluation = evaluate(held, x, false, false);
     if (!evaluation.ok) return std::numeric_limits<double>::infinity();

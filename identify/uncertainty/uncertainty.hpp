@@ -43,8 +43,8 @@ struct Uncertainty {
 };
 
 /// What the data say about the unknowns at x, by the sensitivities there. After a fit, the noise is
-/// what the residuals are; before one (`expected_noise` > 0, m, rad or as stated) it is what is
-/// expected.
+/// the size of the residuals. Before a fit it is `expected_noise` (> 0; m or rad, or over the noise
+/// that the case states).
 ///
 /// Errors are those of least squares: (J'J)^-1 where the residuals are white, else the sandwich
 /// (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with
@@ -54,8 +54,8 @@ struct Uncertainty {
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
 
-/// The noise of one channel, its error and interval, from the scatter of so many residuals,
-/// autocorrelated or not. It is a property of the sensor: no unknown of the physics.
+/// The noise sigma of one channel (m or rad), its error and interval, from the scatter of its
+/// residuals, autocorrelated or not. It is a property of the sensor, no unknown of the physics.
 Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertainty);
 
 }  // namespace catena

@@ -3,9 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
 #include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -165,6 +170,50 @@ TEST_CASE("what is written is read back the same") {
                            "held = {side = 0.5, down = 1.25}", "data = \"data.csv\"",
                            "growing_windows = [0.5, 1]", "per_experiment = true"})
     CHECK_MESSAGE(once.find(line) != std::string::npos, std::string(line));
+}
+
+TEST_CASE("a parameter has a value for each experiment where the case gives one") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const Case whole = parse_case(kWhole, "case.toml", folder.path());
+  const std::string first = whole.experiments[0].name, flag = "per_experiment = true";
+  const auto read = [&](const std::string& values, const std::string& with) {
+    return parse_case(replaced(kWhole, flag, with + "\nvalues = " + values), "case.toml",
+                      folder.path());
+  };
+  const Case given = read("{\"" + first + "\" = 0.05}", flag);
+  CHECK(given.parameters[1].value_in(first) == 0.05);
+  CHECK(given.parameters[1].value_in(whole.experiments[1].name) == whole.parameters[1].value);
+  const std::string text = case_text(given, folder.path());
+  CHECK(text.find("values = {\"" + first + "\" = 0.05}") != std::string::npos);
+  CHECK(parse_case(text, "case.toml", folder.path()).parameters[1].values ==
+        given.parameters[1].values);
+  CHECK(failure([&] {
+          read("{\"" + first + "x\" = 0.05}", flag);
+        }).find("is no experiment of this case; did you mean \"" + first) != std::string::npos);
+  CHECK(failure([&] {
+          read("{\"" + first + "\" = 0.05}", "");
+        }).find("values: needs per_experiment = true") != std::string::npos);
+  CHECK(failure([&] { read("{\"" + first + "\" = inf}", flag); }).find("must be finite") !=
+        std::string::npos);
+}
+
+TEST_CASE("no example names a file outside the examples, so that each runs from anywhere") {
+  const std::filesystem::path examples = CATENA_SOURCE_DIR "/examples";
+  const std::regex named("(?:data|description) = \"([^\"]*)\"");
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
+    if (entry.path().extension() != ".toml") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (std::sregex_iterator match(text.begin(), text.end(), named), end; match != end; ++match) {
+      const auto file = entry.path().parent_path() / (*match)[1].str();
+      const auto place = file.lexically_normal().lexically_relative(examples).string();
+      CHECK_MESSAGE(!place.starts_with(".."), entry.path().string(), ": ", place);
+      ++files;
+    }
+  }
+  CHECK(files >= 3);
 }
 
 TEST_CASE("each mistake is named with its line, key, value and rule") {

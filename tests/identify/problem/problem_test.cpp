@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include "common/impossible_value.hpp"
 #include "identify/fit/error.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/failure.hpp"
 
 using namespace catena;
 using testing::sections;
@@ -200,4 +202,65 @@ TEST_CASE("the case with what was found gives the same error") {
   CHECK((again.start() - x).cwiseAbs().maxCoeff() == 0);
   CHECK(error_of(again, evaluate(again, again.start(), true, false), Part::kFit) ==
         error_of(problem, evaluate(problem, x, true, false), Part::kFit));
+}
+
+TEST_CASE("values of single experiments outlast a fit, and tell the same of every experiment") {
+  Case the_case =
+      sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nangle = 0.5\n");
+  the_case.parameters[3].per_experiment = true;
+  for (const char* name : {"first", "second", "unseen"}) testing::add_experiment(the_case, name);
+  the_case.experiments[2].use = Use::kValidate;
+  const Model model = Model::built_in(3);
+  const std::vector<Recording> recordings(3, testing::empty_markers({0.6, 1.0}, 10, 0.05));
+  const Problem problem(the_case, model, recordings);
+  REQUIRE(problem.unknowns().size() == 5);
+  Eigen::VectorXd x = problem.start();
+  x[3] = 0.3;
+  x[4] = 0.4;
+  const Case found = problem.with(x);
+  CHECK(found.parameters[3].value == 0.2);
+  CHECK(found.parameters[3].value_in("first") == 0.3);
+  CHECK(found.parameters[3].value_in("second") == 0.4);
+  const Problem again(found, model, recordings);
+  CHECK(again.start() == x);
+  for (int e = -1; e < 3; ++e)
+    CHECK(again.model_parameters(again.start(), e) == problem.model_parameters(x, e));
+}
+
+TEST_CASE("values that describe no cable fail as a simulation does; mistakes are thrown") {
+  Case the_case = sections(std::string(kThreeLinks) +
+                           "[initial]\nshape = \"catenary\"\nheld = {side = 0.5, down = 0.8}\n");
+  testing::add_experiment(the_case, "run");
+  const Problem problem(the_case, Model::built_in(3), {testing::empty_markers({1.19}, 5, 0.05)});
+  for (const auto& [unknown, value] : {std::pair(2, 0.9), {2, 1.15}, {3, -1.0}}) {
+    Eigen::VectorXd x = problem.start();  // too short for the held point, for the marker; a mass
+    x[unknown] = value;
+    for (const bool jacobian : {false, true}) {
+      const Evaluation evaluation = evaluate(problem, x, true, jacobian);
+      CHECK(!evaluation.ok);
+      CHECK(evaluation.predictions[0].status == Status::kNotFinite);
+      CHECK(evaluation.predictions[0].simulated.array().isNaN().all());
+    }
+  }
+  Seed wrong;
+  wrong.q = Eigen::VectorXd::Ones(7);
+  CHECK_THROWS_AS(problem.predict(problem.start(), 0, true, {wrong}), std::invalid_argument);
+}
+
+TEST_CASE("windows too short for data are refused; none is cut forever") {
+  const auto windows = [](double window, double step) {
+    Case the_case =
+        sections(std::string(kThreeLinks) + "[initial]\nshape = \"straight\"\nfree = true\n");
+    testing::add_experiment(the_case, "run");
+    the_case.experiments[0].window = window;
+    the_case.experiments[0].where = "case.toml:40";
+    const Problem problem(the_case, Model::built_in(3), {testing::empty_markers({1.0}, 41, step)});
+    return problem.experiments().size();
+  };
+  CHECK(failure([&] { windows(1e-10, 0.05); }) ==
+        "case.toml:40: window: 1e-10 s; a window needs at least 8 frames, which take 0.4 s here; "
+        "give a longer one");
+  CHECK(failure([&] { windows(0.3, 0.05); }).find("window: 0.3 s") != std::string::npos);
+  CHECK(windows(0.5, 0.05) == 4);
+  CHECK(windows(1e-9, 1e-10) == 0);  // frames nearer than the edge of a window is sharp
 }

@@ -56,7 +56,8 @@ inline Problem perfect(const std::string& text = kCable) {
 inline Problem noisy(const Problem& problem, double autocorrelation, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0, 2e-3);
-  Eigen::MatrixXd measured = problem.experiments()[0].recording.measured;
+  Recording recording = problem.experiments()[0].recording;
+  Eigen::MatrixXd& measured = recording.measured;
   for (Eigen::Index c = 0; c < measured.rows(); ++c) {
     double noise = normal(generator);
     for (Eigen::Index k = 0; k < measured.cols(); ++k) {
@@ -66,7 +67,7 @@ inline Problem noisy(const Problem& problem, double autocorrelation, unsigned se
       measured(c, k) += noise;
     }
   }
-  return problem.measured_as({measured});
+  return Problem(problem.the_case(), problem.model(), {recording});
 }
 
 /// Whether the 95 % interval of each unknown holds the truth, and how wide it is.

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/problem/unknowns.hpp"
+
+#include <limits>
+
+namespace catena {
+
+Unknowns::Unknowns(const Case& the_case, const std::vector<Experiment>& experiments) {
+  given_.push_back({catena::case_values(the_case), the_case.initial});
+  for (const Experiment& experiment : experiments)
+    given_.push_back({catena::case_values(the_case, experiment.spec.name), experiment.initial});
+  add_parameters(the_case, experiments);
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    add_coefficients(experiments[e], static_cast<int>(e));
+}
+
+void Unknowns::add_parameters(const Case& the_case, const std::vector<Experiment>& experiments) {
+  for (std::size_t j = 0; j < the_case.parameters.size(); ++j) {
+    const ParameterSpec& spec = the_case.parameters[j];
+    if (!spec.free) continue;
+    Unknown unknown{spec.name, spec.unit, spec.value, spec.lower, spec.upper, spec.scale};
+    unknown.parameter = static_cast<int>(j);
+    if (!spec.per_experiment) {
+      list_.push_back(unknown);
+      continue;
+    }
+    unknown.group = Unknown::Group::kSensor;
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      if (!experiments[e].fitted()) continue;
+      unknown.experiment = static_cast<int>(e);
+      unknown.name = experiments[e].spec.name + ": " + spec.name;
+      unknown.start = given(unknown.experiment).values[static_cast<Eigen::Index>(j)];
+      list_.push_back(unknown);
+    }
+  }
+}
+
+void Unknowns::add_coefficients(const Experiment& experiment, int index) {
+  if (!experiment.fitted()) return;  // no data may move its start: it comes from the first frames
+  const auto add = [&](const std::vector<double>& values, const char* what, const char* unit,
+                       std::size_t offset) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      Unknown unknown{experiment.spec.name + ": " + what + " " + std::to_string(k + 1), unit,
+                      values[k], -infinity, infinity};
+      unknown.group = Unknown::Group::kInitial;
+      unknown.experiment = index;
+      unknown.coefficient = static_cast<int>(offset + k);
+      list_.push_back(std::move(unknown));
+    }
+  };
+  const InitialSpec& initial = experiment.initial;
+  if (initial.free) add(initial.coefficients, "angle", "rad", 0);
+  if (!initial.at_rest && initial.velocity_free)
+    add(initial.velocity_coefficients, "rate", "rad/s", initial.coefficients.size());
+}
+
+Eigen::VectorXd Unknowns::start() const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(list_.size()));
+  for (std::size_t j = 0; j < list_.size(); ++j) x[static_cast<Eigen::Index>(j)] = list_[j].start;
+  return x;
+}
+
+Eigen::VectorXd Unknowns::case_values(const Eigen::VectorXd& x, int experiment) const {
+  Eigen::VectorXd values = given(experiment).values;
+  for (std::size_t j = 0; j < list_.size(); ++j) {
+    const Unknown& unknown = list_[j];
+    if (unknown.parameter >= 0 && (unknown.experiment < 0 || unknown.experiment == experiment))
+      values[unknown.parameter] = x[static_cast<Eigen::Index>(j)];
+  }
+  return values;
+}
+
+InitialSpec Unknowns::initial(const Eigen::VectorXd& x, int experiment) const {
+  InitialSpec initial = given(experiment).initial;
+  const std::size_t angles = initial.coefficients.size();
+  for (std::size_t j = 0; j < list_.size(); ++j) {
+    const Unknown& unknown = list_[j];
+    if (unknown.coefficient < 0 || unknown.experiment != experiment) continue;
+    const auto k = static_cast<std::size_t>(unknown.coefficient);
+    (k < angles ? initial.coefficients[k] : initial.velocity_coefficients[k - angles]) =
+        x[static_cast<Eigen::Index>(j)];
+  }
+  return initial;
+}
+
+}  // namespace catena
