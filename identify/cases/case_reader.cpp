@@ -367,7 +367,15 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   const std::vector<TomlTable> parameters = file.tables("parameter");
   for (std::size_t j = 0; j < parameters.size(); ++j)
     check_value_names(parameters[j], the_case.parameters[j], the_case.experiments);
-  if (const auto table = file.optional_table("error")) the_case.error = read_error(*table);
+  if (const auto table = file.optional_table("error")) {
+    the_case.error = read_error(*table);
+    for (const ExperimentSpec& experiment : the_case.experiments)
+      if (the_case.error.loss != Loss::kNone && experiment.use == Use::kFit &&
+          std::isnan(experiment.noise))
+        table->fail("loss", "\"" + table->text("loss") +
+                                "\" counts residuals in units of the noise, and experiment \"" +
+                                experiment.name + "\" states none; give its noise");
+  }
   if (const auto table = file.optional_table("optimiser"))
     the_case.optimiser = read_optimiser(*table);
   if (const auto table = file.optional_table("simulation"))

@@ -52,6 +52,12 @@ Problem with_defect_weight(const Problem& problem, double weight) {
   return Problem(problem.the_case(), problem.model(), std::move(experiments));
 }
 
+Problem without_loss(const Problem& problem) {
+  Case the_case = problem.the_case();
+  the_case.error.loss = Loss::kNone;
+  return Problem(std::move(the_case), problem.model(), problem.experiments());
+}
+
 bool finer_than_rough(const Problem& problem) {
   return problem.the_case().simulation.relative_tolerance <= kRoughTolerance / 10 &&
          problem.the_case().optimiser.tolerance < kRoughlyThere;

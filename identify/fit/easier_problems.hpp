@@ -17,6 +17,10 @@ Problem with_tolerance(const Problem& problem, double tolerance);
 /// Shooting defects cost `weight` times what residuals of the same number do.
 Problem with_defect_weight(const Problem& problem, double weight);
 
+/// Residuals count by their squares, outliers too. The minimum under a robust loss has this one as
+/// its start: far from the data a robust loss hardly slopes.
+Problem without_loss(const Problem& problem);
+
 /// As precise as the way to a minimum needs it: simulated with a relative tolerance of 1e-4
 /// (absolute ones in proportion), every so many frames only, the optimiser's tolerance 1e-2.
 Problem rough(const Problem& problem);

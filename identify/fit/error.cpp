@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "identify/fit/loss.hpp"
+
 namespace catena {
 namespace {
 
@@ -176,13 +178,22 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
 
 namespace {
 
+/// The sum of rho(r^2) over residuals in units of their noise.
+double sum_of_losses(const Problem& problem, const Eigen::VectorXd& r) {
+  const ErrorSpec& error = problem.the_case().error;
+  if (error.loss == Loss::kNone) return r.squaredNorm();
+  double sum = 0;
+  for (const double value : r) sum += loss_of(error, value * value).value;
+  return sum;
+}
+
 /// The case's measure of residuals and shooting defects.
 double error_of(const Problem& problem, const Residuals& residuals,
                 const ShootingDefects& defects) {
   double error = 0;
   switch (problem.the_case().error.measure) {
     case Measure::kLeastSquares:
-      error = residuals.value.cwiseQuotient(noise_of(problem, residuals)).squaredNorm() +
+      error = sum_of_losses(problem, residuals.value.cwiseQuotient(noise_of(problem, residuals))) +
               defects.value.cwiseProduct(defects.weight).squaredNorm();
       error = std::sqrt(error / static_cast<double>(residuals.value.size()));
       break;
@@ -235,8 +246,13 @@ double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::V
       const Eigen::VectorXd noise = noise_of(problem, residuals);
       const auto count = static_cast<double>(r.size());
       const Eigen::VectorXd gaps = defects.value.cwiseProduct(defects.weight);
-      error = std::sqrt((r.cwiseQuotient(noise).squaredNorm() + gaps.squaredNorm()) / count);
+      error =
+          std::sqrt((sum_of_losses(problem, r.cwiseQuotient(noise)) + gaps.squaredNorm()) / count);
       by_residual = r.array() / noise.array().square() / (count * error);
+      const ErrorSpec& spec = problem.the_case().error;
+      if (spec.loss != Loss::kNone)
+        for (Index i = 0; i < r.size(); ++i)
+          by_residual[i] *= loss_of(spec, std::pow(r[i] / noise[i], 2)).slope;
       gradient = defects.jacobian.transpose() * gaps.cwiseProduct(defects.weight) / (count * error);
       break;
     }

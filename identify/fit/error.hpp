@@ -59,7 +59,8 @@ std::vector<ChannelNoise> channels_of(const Problem& problem, const Residuals& r
 /// channel's mean.
 Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residuals);
 
-/// The case's error measure (m, rad; for least squares with noise given: in units of the noise).
+/// The case's error measure (m, rad; for least squares with noise given: in units of the noise, by
+/// the case's loss).
 /// Infinite if the evaluation failed; a failed simulation is never a good fit. Shooting defects
 /// count with their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);

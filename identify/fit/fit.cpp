@@ -190,8 +190,10 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   next.recall = nullptr;  // errors of a part are not those of the whole
   next.record = nullptr;
   FitResult before;
+  const bool robust = problem.the_case().error.loss != Loss::kNone;
+  const Problem plain = robust ? without_loss(problem) : problem;
   for (const double seconds : spec.growing_windows) {
-    FitResult shorter = fit_beginning(shortened(problem, seconds), next, least_squares);
+    FitResult shorter = fit_beginning(shortened(plain, seconds), next, least_squares);
     add_effort(shorter, before);
     if (!finished(shorter)) return shorter;
     next.start = shorter.x;
@@ -199,17 +201,28 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   }
   if (problem.joined())
     for (const double weight : kLooseDefects) {
-      FitResult looser = fit_once(with_defect_weight(problem, weight), next, least_squares);
+      FitResult looser = fit_once(with_defect_weight(plain, weight), next, least_squares);
       add_effort(looser, before);
       if (!finished(looser)) return looser;
       next.start = looser.x;
       before = std::move(looser);
     }
+  if (robust) {
+    FitResult squares = fit_once(plain, next, least_squares);
+    add_effort(squares, before);
+    if (!finished(squares)) return squares;
+    const Eigen::VectorXd start = next.start.size() ? next.start : problem.start();
+    const auto error_at = [&](const Eigen::VectorXd& x) {
+      return error_of(problem, evaluate(problem, x, false, false), Part::kFit);
+    };
+    if (error_at(squares.x) < error_at(start)) next.start = squares.x;
+    before = std::move(squares);
+  }
   next.recall = options.recall;
   next.record = options.record;
   FitResult result = fit_once(problem, next, least_squares);
   add_effort(result, before);
-  if (!spec.growing_windows.empty() || problem.joined() || starts_roughly(problem)) {
+  if (!spec.growing_windows.empty() || problem.joined() || robust || starts_roughly(problem)) {
     const Eigen::VectorXd start = options.start.size() ? options.start : problem.start();
     result.start_error = error_of(problem, evaluate(problem, start, false, false), Part::kFit);
   }

@@ -76,7 +76,8 @@ using LeastSquares = std::function<FitResult(const Problem&, const FitOptions&)>
 /// `least_squares` may be empty if the case names another method. Nelder-Mead and the bounded
 /// gradient methods are those of minimise.hpp. With growing windows, the beginning of each experiment
 /// is fitted first, then longer parts, each from where the one before ended. With joined windows
-/// (multiple shooting), shooting defects cost little at first, then more and more. A simulation that
+/// (multiple shooting), shooting defects cost little at first, then more and more. With a robust loss,
+/// the fit without it comes first. A simulation that
 /// fails is infinitely bad; how the fit ended is in the status. Throws InputError if nothing is free,
 /// if there are no data, and for the method least_squares without a solver.
 ///

@@ -9,6 +9,7 @@
 #include "identify/fit/easier_problems.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit_journal.hpp"
+#include "identify/fit/loss.hpp"
 #include "identify/least_squares/distance_cost.hpp"
 #include "identify/least_squares/simulated_residuals.hpp"
 
@@ -105,19 +106,20 @@ class Watch : public ceres::IterationCallback {
   double promised_, gained_ = 0;  // shares of the cost
 };
 
-ceres::LossFunction* loss_of(const ErrorSpec& error) {
-  switch (error.loss) {
-    case Loss::kHuber:
-      return new ceres::HuberLoss(error.loss_scale);
-    case Loss::kSoftL1:
-      return new ceres::SoftLOneLoss(error.loss_scale);
-    case Loss::kCauchy:
-      return new ceres::CauchyLoss(error.loss_scale);
-    case Loss::kNone:
-      break;
+/// The loss of a case, as Ceres wants it.
+class CaseLoss : public ceres::LossFunction {
+ public:
+  explicit CaseLoss(const ErrorSpec& error) : error_(error) {}
+  void Evaluate(double square, double out[3]) const override {
+    const LossValue loss = loss_of(error_, square);
+    out[0] = loss.value;
+    out[1] = loss.slope;
+    out[2] = loss.curvature;
   }
-  return nullptr;
-}
+
+ private:
+  const ErrorSpec& error_;
+};
 
 // A step that promises no more than this share of the cost is likely to be the last.
 constexpr double kLastStep = 1e-4;
@@ -165,7 +167,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
     const VectorXd noise = noise_of(problem, first);
     for (Index i = 0; i < noise.size(); ++i)
       solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
-                              loss_of(error), y.data());
+                              error.loss == Loss::kNone ? nullptr : new CaseLoss(error), y.data());
     for (Index i = 0; i < defects.value.size(); ++i)
       solver.AddResidualBlock(
           new Block(simulated, defects.value, defects.jacobian, i, defects.weight[i]), nullptr,

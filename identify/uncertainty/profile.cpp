@@ -5,6 +5,7 @@
 
 #include "common/parallel.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/loss.hpp"
 
 namespace catena {
 namespace {
@@ -23,7 +24,10 @@ double minus_log_likelihood(const Problem& problem, const Residuals& residuals) 
   const VectorXd noise = noise_of(problem, residuals);
   if (problem.the_case().error.measure == Measure::kLikelihood)
     return 2 * noise.array().log().sum();
-  return residuals.value.cwiseQuotient(noise).squaredNorm();
+  double sum = 0;
+  for (const double r : residuals.value.cwiseQuotient(noise))
+    sum += loss_of(problem.the_case().error, r * r).value;
+  return sum;
 }
 
 /// The problem with one unknown of the physics held at a value.

@@ -10,6 +10,7 @@
 
 #include "common/number_text.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/loss.hpp"
 
 namespace catena {
 namespace {
@@ -135,6 +136,21 @@ SingularDirections singular_directions(const MatrixXd& matrix) {
   return {svd.singularValues(), svd.matrixV()};
 }
 
+/// Under a robust loss, residuals that err as least squares of them would: with psi = r rho'(r^2),
+/// psi over the mean of psi' (Huber 1981, section 7.6). Without a loss, the residuals.
+VectorXd pseudo_residuals(const Problem& problem, const VectorXd& r) {
+  const ErrorSpec& error = problem.the_case().error;
+  if (error.loss == Loss::kNone) return r;
+  VectorXd psi(r.size());
+  double slope = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    const LossValue loss = loss_of(error, r[i] * r[i]);
+    psi[i] = r[i] * loss.slope;
+    slope += loss.slope + 2 * r[i] * r[i] * loss.curvature;
+  }
+  return psi / (slope / static_cast<double>(r.size()));
+}
+
 std::string describe(const Problem& problem, const VectorXd& direction) {
   std::string text;
   for (Index j = 0; j < direction.size(); ++j) {
@@ -174,7 +190,7 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   if (count <= unknowns)
     throw std::runtime_error("fewer measured values (" + std::to_string(count) +
                              ") than unknowns (" + std::to_string(unknowns) + ")");
-  const VectorXd r = residuals.value.cwiseProduct(weights);
+  const VectorXd r = pseudo_residuals(problem, residuals.value.cwiseProduct(weights));
   const ShootingDefects defects =
       shooting_defects_of(problem, evaluation);  // of joined windows: they bind the starts
 

@@ -50,7 +50,7 @@ struct Uncertainty {
 /// (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with
 /// Bartlett's weights (Newey and West 1987, bandwidth of Andrews 1991) give more than twice that
 /// variance, theirs is taken: markers that err together, autocorrelation that lasts. For measures other than
-/// least squares they are an approximation. Throws std::runtime_error where the simulation fails.
+/// least squares they are an approximation. Under a robust loss they are those of an M-estimator. Throws std::runtime_error where the simulation fails.
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
 

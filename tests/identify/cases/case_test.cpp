@@ -259,6 +259,7 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"link = 2", "link = 9", "there are 4"},
       {"origin = [320.0, 20.0]", "origin = [320.0]", "two numbers"},
       {"loss = \"huber\"", "loss = \"tukey\"", "loss"},
+      {"noise = 0.001", "", "\"huber\" counts residuals in units of the noise"},
       {"measure = \"least_squares\"", "measure = \"mean_distance\"",
        "only the measure least_squares"},
       {"method = \"least_squares\"", "method = \"simplex\"", "method"},

@@ -52,6 +52,52 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "with 1 % outliers, robust intervals from a far start contain the truth and stay narrow") {
+  constexpr int recordings = 60;
+  const Problem problem = perfect();
+  const Eigen::VectorXd truth = problem.start();
+  const Eigen::VectorXd far = truth.cwiseProduct(Eigen::Vector3d(3, 0.3, 1.1));
+  const auto wide = [](Eigen::MatrixXd widths) {
+    std::sort(widths.data(), widths.data() + widths.size());
+    return widths(widths.size() / 2);
+  };
+  Eigen::MatrixXd clean(recordings, 1);
+  for (const Loss loss : {Loss::kNone, Loss::kHuber, Loss::kSoftL1, Loss::kCauchy}) {
+    CAPTURE(static_cast<int>(loss));
+    Eigen::MatrixXi inside(recordings, truth.size());
+    Eigen::MatrixXd width(recordings, 1);
+    in_parallel(recordings, 2, [&](std::size_t i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const auto seed = static_cast<unsigned>(i + 1);
+      Recording recording = noisy(problem, 0, seed).experiments()[0].recording;
+      std::mt19937_64 generator(1000 + seed);
+      if (loss != Loss::kNone)
+        for (double& value : recording.measured.reshaped())
+          if (generator() % 100 == 0) value += 0.1;
+      Case the_case = problem.the_case();
+      the_case.experiments[0].noise = 2e-3;
+      the_case.error.loss = loss;
+      const Problem seen(the_case, problem.model(), {recording});
+      FitOptions options;
+      options.start = far;
+      const FitResult found = fit(seen, options, fit_least_squares);
+      const Uncertainty uncertainty = uncertainty_of(seen, found.x);
+      for (Eigen::Index j = 0; j < truth.size(); ++j) {
+        const Estimate& estimate = uncertainty.estimates[static_cast<std::size_t>(j)];
+        inside(row, j) = estimate.lower <= truth[j] && truth[j] <= estimate.upper;
+      }
+      width(row, 0) = uncertainty.estimates[0].upper - uncertainty.estimates[0].lower;
+    });
+    if (loss == Loss::kNone) clean = width;
+    // three standard deviations of a binomial count below what is asked for
+    for (Eigen::Index j = 0; j < truth.size(); ++j)
+      CHECK(inside.col(j).cast<double>().mean() > 0.94 - 3 * std::sqrt(0.95 * 0.05 / recordings));
+    MESSAGE("median width " << wide(width) << ", without outliers " << wide(clean));
+    CHECK(wide(width) < 1.3 * wide(clean));
+  }
+}
+
 TEST_CASE("what cannot be determined is reported so, before and after the fit") {
   // Two stiffnesses that only ever act as their sum: the torque of a spring at joint 1 and that of
   // a constant in the same place are told apart, those of two factors of one spring are not.
