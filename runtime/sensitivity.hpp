@@ -21,9 +21,6 @@ struct SensitivityDirection {
   static SensitivityDirection parameter(const Model& model, int index);
 };
 
-/// Alias until all callers use the new name.
-using Seed = SensitivityDirection;
-
 struct SensitiveSimulation : Simulation {
   /// For each direction the derivative of the trajectory along it: dq, dv, dz at the same times,
   /// without energies.

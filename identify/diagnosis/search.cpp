@@ -179,8 +179,8 @@ MatrixXd Search::columns(const Problem& problem, const VectorXd& x,
       for (auto& derivative : derivatives) derivative.emplace_back();
       continue;
     }
-    const std::vector<Seed> every = problem.directions(x, index);
-    std::vector<Seed> along;
+    const std::vector<SensitivityDirection> every = problem.directions(x, index);
+    std::vector<SensitivityDirection> along;
     for (const Index j : unknowns) along.push_back(every[static_cast<std::size_t>(j)]);
     Prediction prediction = problem.predict(x, index, false, along);
     if (!prediction.ok())

@@ -187,10 +187,10 @@ MissingForce missing_force(const FittedModel& model, const std::vector<double>& 
   const Index terms = std::min({n, seen, Index{6}});
   const MatrixXd basis =
       shape_basis(Shape::kSmooth, static_cast<int>(n), static_cast<int>(terms), lengths);
-  std::vector<Seed> along;
+  std::vector<SensitivityDirection> along;
   for (Index m = 0; m < terms; ++m) {
     // a direction whose only use here is its length; the derivative is taken at the frame below
-    Seed direction;
+    SensitivityDirection direction;
     direction.q = VectorXd::Zero(coordinates);
     direction.q.head(n) = basis.col(m);
     along.push_back(direction);

@@ -17,7 +17,8 @@ Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, 
     const int index = static_cast<int>(e);
     Prediction& prediction = evaluation.predictions[e];
     try {
-      const auto along = jacobian ? problem.directions(x, index) : std::vector<Seed>{};
+      const auto along =
+          jacobian ? problem.directions(x, index) : std::vector<SensitivityDirection>{};
       prediction = problem.predict(x, index, all, along, keep_going);
     } catch (const ImpossibleValue& error) {
       prediction = failed_prediction(experiment, error.what());

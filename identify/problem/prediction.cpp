@@ -72,11 +72,11 @@ class Observer {
  public:
   /// `along`: the directions of which derivatives will be asked for.
   Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters,
-           const std::vector<Seed>& along)
+           const std::vector<SensitivityDirection>& along)
       : model_(model),
         experiment_(experiment),
         parameters_(parameters),
-        seeds_(along),
+        directions_(along),
         accelerations_(VectorXd::Zero(model.coordinates())),
         signals_(VectorXd::Zero(3 * model.signals())),
         no_signals_(signals_),
@@ -85,11 +85,11 @@ class Observer {
         change_(here_) {
     for (const PointSpec& point : experiment.recording.points)
       places_.push_back(place_of(model, parameters, point));
-    for (const Seed& seed : seeds_) {
+    for (const SensitivityDirection& direction : directions_) {
       std::vector<double>& moved = moved_.emplace_back();
       for (const Place& place : places_)
         moved.push_back(place.at_arc_length
-                            ? fraction_tangent(model, parameters, seed.parameters, place.point)
+                            ? fraction_tangent(model, parameters, direction.parameters, place.point)
                             : 0);
     }
     true_.resize(places_.size());
@@ -117,7 +117,7 @@ class Observer {
 
   /// From there to the derivatives along direction number `direction`.
   void look_along(const Trajectory& sensitivity, std::size_t direction, bool held) {
-    const VectorXd& by_parameter = seeds_[direction].parameters;
+    const VectorXd& by_parameter = directions_[direction].parameters;
     const catena_point at = point(*path_, signals_, parameters_);
     const catena_point along = point(sensitivity, no_signals_, by_parameter);
     model_.positions_tangent(at, along, change_.side.data(), change_.down.data());
@@ -172,7 +172,7 @@ class Observer {
   const Model& model_;
   const Experiment& experiment_;
   const VectorXd& parameters_;
-  const std::vector<Seed>& seeds_;
+  const std::vector<SensitivityDirection>& directions_;
   std::vector<Place> places_;
   std::vector<std::vector<double>> moved_;  // per direction and place: of points at an arc length
   VectorXd accelerations_, signals_, no_signals_;  // positions and velocities do not ask for a
@@ -205,7 +205,8 @@ SimulationOptions simulation_options(const SimulationSpec& settings) {
 
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const VectorXd& parameters,
-                              const State& initial, bool all_frames, const std::vector<Seed>& along,
+                              const State& initial, bool all_frames,
+                              const std::vector<SensitivityDirection>& along,
                               const std::function<bool()>& keep_going) {
   const Recording& recording = experiment.recording;
   const auto channels = static_cast<Index>(recording.channels.size());
@@ -216,22 +217,23 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   SimulationOptions options = simulation_options(settings);
   options.energy = false;
   if (keep_going) options.keep_going = [&](double) { return keep_going(); };
-  std::vector<Seed> seeds;
-  std::vector<std::size_t> seed_of;  // direction of each seed
+  std::vector<SensitivityDirection> directions;
+  std::vector<std::size_t> index_of;  // into `along`, of each that is not zero
   for (std::size_t j = 0; j < along.size(); ++j) {
-    const Seed& direction = along[j];
+    const SensitivityDirection& direction = along[j];
     if (!direction.parameters.size() && !direction.q.size() && !direction.v.size()) continue;
-    seed_of.push_back(j);
-    seeds.push_back({or_zero(direction.parameters, model.parameters()),
-                     or_zero(direction.q, model.coordinates()),
-                     or_zero(direction.v, model.coordinates()), VectorXd::Zero(model.states())});
+    index_of.push_back(j);
+    directions.push_back({or_zero(direction.parameters, model.parameters()),
+                          or_zero(direction.q, model.coordinates()),
+                          or_zero(direction.v, model.coordinates()),
+                          VectorXd::Zero(model.states())});
   }
   SensitiveSimulation simulation;
-  if (seeds.empty())
+  if (directions.empty())
     static_cast<Simulation&>(simulation) =
         simulate(model, parameters, initial, clock.times, options, experiment.signals);
   else
-    simulation = simulate_with_sensitivities(model, parameters, initial, seeds, clock.times,
+    simulation = simulate_with_sensitivities(model, parameters, initial, directions, clock.times,
                                              options, experiment.signals);
   Prediction prediction;
   prediction.status = simulation.status;
@@ -240,17 +242,17 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   if (simulation.status != Status::kSuccess) return prediction;
 
   prediction.sensitivity.resize(along.size());
-  for (const std::size_t j : seed_of) prediction.sensitivity[j].resize(channels, frames);
-  Observer observer(model, experiment, parameters, seeds);
+  for (const std::size_t j : index_of) prediction.sensitivity[j].resize(channels, frames);
+  Observer observer(model, experiment, parameters, directions);
   for (Index k = 0; k < frames; ++k) {
     const auto frame = static_cast<std::size_t>(k);
     observer.move_to(simulation.trajectory, clock.column[frame], recording.time[frame]);
     for (Index c = 0; c < channels; ++c)
       prediction.simulated(c, k) = observer(recording.channels[static_cast<std::size_t>(c)]);
-    for (std::size_t s = 0; s < seeds.size(); ++s) {
+    for (std::size_t s = 0; s < directions.size(); ++s) {
       observer.look_along(simulation.sensitivity[s], s, clock.held[frame]);
       for (Index c = 0; c < channels; ++c)
-        prediction.sensitivity[seed_of[s]](c, k) =
+        prediction.sensitivity[index_of[s]](c, k) =
             observer(recording.channels[static_cast<std::size_t>(c)]);
     }
   }
@@ -267,8 +269,8 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
     prediction.last = state(simulation.trajectory, end);
     prediction.first_along.setZero(prediction.first.size(), static_cast<Index>(along.size()));
     prediction.last_along = prediction.first_along;
-    for (std::size_t s = 0; s < seeds.size(); ++s) {
-      const auto j = static_cast<Index>(seed_of[s]);
+    for (std::size_t s = 0; s < directions.size(); ++s) {
+      const auto j = static_cast<Index>(index_of[s]);
       prediction.first_along.col(j) = state(simulation.sensitivity[s], 0);
       prediction.last_along.col(j) = state(simulation.sensitivity[s], end);
     }

@@ -41,7 +41,8 @@ struct Prediction {
 /// for sizes that do not fit the model.
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const Eigen::VectorXd& parameters,
-                              const State& initial, bool all_frames, const std::vector<Seed>& along,
+                              const State& initial, bool all_frames,
+                              const std::vector<SensitivityDirection>& along,
                               const std::function<bool()>& keep_going);
 
 /// The prediction of an experiment that cannot begin.

@@ -65,17 +65,18 @@ State Problem::state_of(int experiment, const InitialSpec& initial,
                         at(experiment).spec.start);
 }
 
-std::vector<Seed> Problem::directions(const Eigen::VectorXd& x, int experiment) const {
+std::vector<SensitivityDirection> Problem::directions(const Eigen::VectorXd& x,
+                                                      int experiment) const {
   const Eigen::VectorXd values = unknowns_.case_values(x, experiment);
   const Eigen::MatrixXd by_value = map_.jacobian(values);
   const InitialSpec initial = initial_of(x, experiment);
   const Eigen::VectorXd parameters = map_(values);
   const Eigen::VectorXd lengths = link_lengths(model_, parameters);
   const Eigen::Index n = case_.links;
-  std::vector<Seed> directions(unknowns().size());
+  std::vector<SensitivityDirection> directions(unknowns().size());
   for (std::size_t j = 0; j < unknowns().size(); ++j) {
     const Unknown& unknown = unknowns()[j];
-    Seed& direction = directions[j];
+    SensitivityDirection& direction = directions[j];
     if (unknown.experiment >= 0 && unknown.experiment != experiment) continue;
     if (unknown.parameter >= 0) {
       direction.parameters = by_value.col(unknown.parameter);
@@ -104,7 +105,7 @@ std::vector<Seed> Problem::directions(const Eigen::VectorXd& x, int experiment) 
 }
 
 Prediction Problem::predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
-                            const std::vector<Seed>& along,
+                            const std::vector<SensitivityDirection>& along,
                             const std::function<bool()>& keep_going) const {
   try {
     const Eigen::VectorXd parameters = model_parameters(x, experiment);

@@ -65,14 +65,14 @@ class Problem {
 
   /// The derivatives of both by every unknown, one per unknown. A vector that is empty is zero; all
   /// of an unknown of another experiment are. Throws ImpossibleValue as initial_state.
-  std::vector<Seed> directions(const Eigen::VectorXd& x, int experiment) const;
+  std::vector<SensitivityDirection> directions(const Eigen::VectorXd& x, int experiment) const;
 
   /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities
   /// along `along` (e.g. directions(), or any other). `keep_going`: asked at every step; false ends
   /// the simulation. What fails, and values that are impossible, say so in the status; nothing is
   /// thrown for them.
   Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
-                     const std::vector<Seed>& along = {},
+                     const std::vector<SensitivityDirection>& along = {},
                      const std::function<bool()>& keep_going = {}) const;
 
   /// The case with the values of x where it gave its own: reading it again gives a problem that

@@ -242,7 +242,7 @@ TEST_CASE("values that describe no cable fail as a simulation does; mistakes are
       CHECK(evaluation.predictions[0].simulated.array().isNaN().all());
     }
   }
-  Seed wrong;
+  SensitivityDirection wrong;
   wrong.q = Eigen::VectorXd::Ones(7);
   CHECK_THROWS_AS(problem.predict(problem.start(), 0, true, {wrong}), std::invalid_argument);
 }
