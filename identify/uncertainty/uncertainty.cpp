@@ -126,7 +126,7 @@ struct SingularDirections {
 };
 
 /// Of a matrix with at least as many rows as columns, by way of the triangle R of J = QR, which has
-/// the same ones and is small. (Eigen's BDCSVD of J itself takes a minute to compile.)
+/// the same ones and is small. Eigen's BDCSVD of J itself is slow to compile.
 SingularDirections singular_directions(const MatrixXd& matrix) {
   const MatrixXd triangle = Eigen::HouseholderQR<MatrixXd>(matrix)
                                 .matrixQR()
