@@ -25,8 +25,7 @@ std::filesystem::path beside(const std::filesystem::path& result) {
 
 int write(ReportOptions options) {
   const report::Document document = report::read_document(options.result);
-  const bool figures_alone = !options.files.csv.empty() || !options.files.svg.empty();
-  if (options.files.html.empty() && !figures_alone && !options.json) {
+  if (options.files.html.empty() && options.files.csv.empty() && !options.json) {
     options.files.html = beside(options.result);
   }
   const report::Written written = report::write_report(document, options.files);
@@ -39,10 +38,8 @@ int write(ReportOptions options) {
     std::cout << fmt::format("{}: {} figures, {:.1f} MB\n", options.files.html.string(),
                              written.figures, 1e-6 * static_cast<double>(written.html_bytes));
   }
-  for (const auto& folder : {options.files.csv, options.files.svg}) {
-    if (!folder.empty())
-      std::cout << fmt::format("{}: {} figures\n", folder.string(), written.figures);
-  }
+  if (!options.files.csv.empty())
+    std::cout << fmt::format("{}: {} figures\n", options.files.csv.string(), written.figures);
   return kExitSuccess;
 }
 
@@ -57,12 +54,13 @@ void add_report_command(CLI::App& program, int& exit_status) {
                       "HTML file; default: report.html beside the result");
   command->add_option("--csv", options.files.csv,
                       "write the numbers of every figure into this folder");
-  command->add_option("--svg", options.files.svg, "write every figure as SVG into this folder");
   command->add_flag("--json", options.json, "print the data of all figures as JSON");
   command->add_flag("-q,--quiet", options.quiet, "print nothing");
   command->footer(
-      "The HTML file needs nothing else: no network, no other file. With --csv, --svg\n"
-      "or --json it is written only where --output is given.\nExample:\n  catena report swing\n"
+      "The HTML file needs nothing else: no network, no other file. With --csv or --json\n"
+      "it is written only where --output is given. Pictures for papers: every chart of the\n"
+      "page saves itself as SVG or PNG; catena report RESULT --json | catena-figures FOLDER\n"
+      "draws all of them.\nExample:\n  catena report swing\n"
       "writes swing/report.html.");
   command->callback([&exit_status] { exit_status = write(options); });
 }

@@ -14,9 +14,6 @@
 namespace catena::report {
 namespace {
 
-using plot::Figure;
-using plot::Mark;
-
 void add(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
          const std::string& kind = "", const std::string& variant = "",
          const std::string& experiment = "") {
@@ -42,8 +39,8 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
       "Root mean square of the residuals, on the part that was fitted and on the part held out.";
   figure.x.label = "model";
   figure.y = {"gap", milli(diagnosis.unit)};
-  plot::Series fit{"fitted part", {}, {}, Mark::kLineWithPoints, 1};
-  plot::Series validate{"held out", {}, {}, Mark::kLineWithPoints, 2};
+  Series fit{"fitted part", {}, {}, Mark::kLineWithPoints, 1};
+  Series validate{"held out", {}, {}, Mark::kLineWithPoints, 2};
   for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
     figure.x.categories.push_back(name_of(diagnosis, k));
     fit.x.push_back(static_cast<double>(k + 1));
@@ -77,11 +74,11 @@ void add_scores(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) 
     figure.x = {"score", "%"};
     figure.y.label = "";
     figure.y_downwards = true;
-    plot::Series admissible{"admissible", {}, {}, Mark::kPoints, 3};
-    plot::Series refused{"estimate on the wrong side of a bound", {}, {}, Mark::kPoints, 2};
+    Series admissible{"admissible", {}, {}, Mark::kPoints, 3};
+    Series refused{"estimate on the wrong side of a bound", {}, {}, Mark::kPoints, 2};
     for (std::size_t c = 0; c < best.size(); ++c) {
       figure.y.categories.push_back(best[c].id);
-      plot::Series& series = best[c].admissible ? admissible : refused;
+      Series& series = best[c].admissible ? admissible : refused;
       series.x.push_back(100 * best[c].score);
       series.y.push_back(static_cast<double>(c + 1));
     }
@@ -203,7 +200,7 @@ class BeforeAfter {
     figure.title = fmt::format("Residual by point and time, {}", when);
     figure.caption = fmt::format("After: {}. Both share one scale of colours.", change_);
     figure.x = {"time", "s"};
-    plot::HeatMap map;
+    HeatMap map;
     map.x = residuals.time;
     for (const Point& point : residuals.points) map.rows.push_back(point.name);
     map.value = residuals.size;
@@ -260,7 +257,7 @@ void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& fi
   Figure figure;
   figure.title = "Force that would close the gap";
   figure.x = {"time", "s"};
-  plot::HeatMap map;
+  HeatMap map;
   map.x = force.time;
   map.rows = force.rows;
   map.value = force.value;

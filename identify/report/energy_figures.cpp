@@ -9,9 +9,6 @@
 namespace catena::report {
 namespace {
 
-using plot::Figure;
-using plot::Mark;
-
 std::string readable(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

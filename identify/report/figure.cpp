@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
-#include "identify/report/ticks.hpp"
+#include "common/number_text.hpp"
 
-namespace catena::plot {
+namespace catena::report {
 namespace {
 
 std::string csv_heading(const Axis& axis, const std::string& otherwise) {
@@ -20,7 +21,7 @@ std::string csv_heading(const Axis& axis, const std::string& otherwise) {
 std::string csv_value(const Axis& axis, double value) {
   const auto index = static_cast<std::size_t>(value);
   if (value >= 1 && index <= axis.categories.size()) return csv_field(axis.categories[index - 1]);
-  return exact(value);
+  return csv_field(value);
 }
 
 }  // namespace
@@ -34,6 +35,8 @@ std::string csv_field(const std::string& text) {
   }
   return out + "\"";
 }
+
+std::string csv_field(double value) { return std::isnan(value) ? "" : shortest_number(value); }
 
 std::string axis_title(const Axis& axis) {
   if (axis.unit.empty() || axis.unit == "1") return axis.label;
@@ -56,10 +59,6 @@ void check(const Figure& figure) {
       fail("series \"" + series.name + "\" has " + std::to_string(series.x.size()) + " x and " +
            std::to_string(series.y.size()) + " y; there must be as many of each");
     }
-    if (series.low.size() != series.high.size() ||
-        (!series.low.empty() && series.low.size() != series.x.size())) {
-      fail("series \"" + series.name + "\": low and high must both be empty or as long as x");
-    }
   }
   if (!figure.heat_map) return;
   if (!figure.series.empty()) fail("a heat map and series cannot share a figure");
@@ -80,25 +79,19 @@ std::string to_csv(const Figure& figure) {
     for (std::size_t row = 0; row < map.rows.size(); ++row) {
       for (std::size_t k = 0; k < map.x.size(); ++k) {
         text += fmt::format("{},{},{}\n", csv_field(map.rows[row]), csv_value(figure.x, map.x[k]),
-                            exact(map.value[row][k]));
+                            csv_field(map.value[row][k]));
       }
     }
     return text;
   }
-  const bool intervals = std::any_of(figure.series.begin(), figure.series.end(),
-                                     [](const Series& series) { return !series.low.empty(); });
-  std::string text =
-      fmt::format("series,{},{}{}\n", x, csv_heading(figure.y, "y"), intervals ? ",low,high" : "");
+  std::string text = fmt::format("series,{},{}\n", x, csv_heading(figure.y, "y"));
   for (const Series& series : figure.series) {
-    const bool ends = !series.low.empty();
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-      text += fmt::format("{},{},{}", csv_field(series.name), csv_value(figure.x, series.x[i]),
+      text += fmt::format("{},{},{}\n", csv_field(series.name), csv_value(figure.x, series.x[i]),
                           csv_value(figure.y, series.y[i]));
-      if (ends) text += fmt::format(",{},{}", exact(series.low[i]), exact(series.high[i]));
-      text += intervals && !ends ? ",,\n" : "\n";
     }
   }
   return text;
 }
 
-}  // namespace catena::plot
+}  // namespace catena::report

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-/// What a figure shows, apart from how it is drawn. The same figure is written as SVG and CSV
-/// (svg_plot.hpp) and drawn by the HTML report (report.hpp), so that all three show the same.
-namespace catena::plot {
+/// What a figure shows, apart from how it is drawn: the page (web/source/chart.js) and the script for
+/// papers (scripts/figures.py) draw it.
+namespace catena::report {
 
 struct Tick {
   double at;
-  std::string label;  ///< empty: a mark without a number
+  std::string label;
 };
 
 struct Axis {
@@ -22,7 +22,7 @@ struct Axis {
   std::vector<Tick> ticks = {};  ///< if given, in place of round numbers; all are in sight
 };
 
-enum class Mark { kLine, kDashes, kPoints, kLineWithPoints };
+enum class Mark { kLine, kPoints, kLineWithPoints };
 
 /// Points (x[i], y[i]), in units of the axes. NaN interrupts a line.
 struct Series {
@@ -32,8 +32,6 @@ struct Series {
   /// 0 is the ink (measured data), 1 .. 6 colours that colour-blind readers can tell apart, each
   /// with its own dash and marker; larger numbers start again at 1.
   int colour = 0;
-  std::vector<double> low = {},
-                      high = {};  ///< if given, an interval for each point, drawn as a bar
 };
 
 /// A straight line across the figure at one value of x (vertical) or y, with a few words.
@@ -73,12 +71,14 @@ std::string axis_title(const Axis& axis);
 /// map is not rows by x, or the id is no file name.
 void check(const Figure& figure);
 
-/// A field of comma-separated values: quoted where it has commas, quotes or line ends.
+/// A field of comma-separated values: a text, quoted where it has commas, quotes or line ends; a
+/// number, empty where NaN.
 std::string csv_field(const std::string& text);
+std::string csv_field(double value);
 
-/// The figure's numbers as comma-separated values (RFC 4180, 17 digits, empty where NaN): columns
-/// series, x, y, or, with intervals, series, x, y, low, high; a heat map: row, x, value. The
-/// heading line names quantities with units. Throws as check.
+/// The figure's numbers as comma-separated values (RFC 4180, digits that give back the same double,
+/// empty where NaN): columns series, x, y; a heat map: row, x, value. The heading line names quantities with units. Throws as
+/// check.
 std::string to_csv(const Figure& figure);
 
-}  // namespace catena::plot
+}  // namespace catena::report

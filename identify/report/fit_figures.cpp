@@ -7,15 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/report/readable.hpp"
 #include "identify/report/report_figures.hpp"
-#include "identify/report/ticks.hpp"
-#include "identify/uncertainty/profile.hpp"
 
 namespace catena::report {
 namespace {
-
-using plot::Figure;
-using plot::Mark;
 
 void add(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
          const std::string& parameter = "") {
@@ -70,7 +66,7 @@ void add_history(const Result& result, std::vector<ReportFigure>& figures) {
     Figure path;
     path.title = fmt::format("{} against step of the optimiser", free[k]->name);
     path.x = {"step", "1"};
-    path.y = {free[k]->name, plot::readable_unit(free[k]->unit),
+    path.y = {free[k]->name, readable_unit(free[k]->unit),
               spans_decade(result.history_parameters[k])};
     path.series.push_back(
         {free[k]->name, result.history_step, result.history_parameters[k], Mark::kLine, 1});
@@ -119,7 +115,7 @@ void add_profiles(const Result& result, std::vector<ReportFigure>& figures) {
         "Twice what the log likelihood loses when the parameter is held and the others are "
         "refitted{}.",
         verdict.empty() ? "" : "; verdict: " + verdict);
-    figure.x = {profile.parameter, known ? plot::readable_unit(parameter->unit) : "",
+    figure.x = {profile.parameter, known ? readable_unit(parameter->unit) : "",
                 spans_decade(profile.value)};
     figure.y = {"−2 Δ log likelihood", "1"};
     figure.series.push_back({"profile", profile.value, profile.cost, Mark::kLineWithPoints, 1});
@@ -138,7 +134,7 @@ void add_correlation(const Result& result, std::vector<ReportFigure>& figures) {
   if (result.correlation.size() < 2 || result.correlation.size() != free.size()) return;
   Figure figure;
   figure.title = "Correlation of the estimates";
-  plot::HeatMap map;
+  HeatMap map;
   for (std::size_t k = 0; k < free.size(); ++k) {
     map.x.push_back(static_cast<double>(k + 1));
     map.rows.push_back(free[k]->name);

@@ -9,15 +9,11 @@
 #include <cctype>
 #include <cmath>
 
+#include "identify/report/readable.hpp"
 #include "identify/report/report_figures.hpp"
-#include "identify/report/ticks.hpp"
 
 namespace catena::report {
 namespace {
-
-using plot::Figure;
-using plot::Mark;
-using plot::Series;
 
 constexpr int kMostFramesInRow = 7;
 
@@ -73,9 +69,12 @@ void add_simulated(const Experiment& experiment, const std::string& quantity,
   }
 }
 
+/// Step of 1, 2 or 5 times a power of ten that cuts `span` into about `about` pieces.
 double nice_step(double span, int about) {
-  const auto ticks = plot::linear_ticks(0, span, about);
-  return ticks.size() > 1 ? ticks[1].at - ticks[0].at : span;
+  const double raw = span / about;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double leading = raw / power;
+  return power * (leading < 1.5 ? 1 : leading < 3.5 ? 2 : leading < 7.5 ? 5 : 10);
 }
 
 std::size_t nearest(const Row& time, double at) {
@@ -87,10 +86,12 @@ std::size_t nearest(const Row& time, double at) {
 }
 
 /// The points of a shape at one time, shifted sideways.
-Series shape(const Channels& channels, std::size_t frame, double shift, Mark mark, int colour) {
-  Series series;
-  series.mark = mark;
-  series.colour = colour;
+Series shape(const Channels& channels, std::size_t frame, double shift, bool measured) {
+  Series series{measured ? "measured" : "simulated", {}, {}, Mark::kLine, 1};
+  if (measured) {
+    series.mark = Mark::kPoints;
+    series.colour = 0;
+  }
   for (std::size_t p = 0; p < channels.side.size(); ++p) {
     series.x.push_back(channels.side[p][frame] + shift);
     series.y.push_back(channels.down[p][frame]);
@@ -110,7 +111,7 @@ bool seen_at(const Channels& measured, double at, double step) {
 }
 
 void add_shapes(const Experiment& experiment, std::vector<ReportFigure>& figures) {
-  const Channels& motion = experiment.trajectory;
+  const Channels& motion = experiment.drawn();
   const Channels* measured = measured_positions(experiment);
   // Figure 6.10 lays a shape every 0.02 s over the others, for the first 1.75 s.
   const double span = motion.time.back() - motion.time.front();
@@ -119,30 +120,25 @@ void add_shapes(const Experiment& experiment, std::vector<ReportFigure>& figures
   const double step = std::max(1.0, std::round(shown / 88 / frame)) * frame;
   Figure figure;
   figure.title = "Shapes laid over one another";
-  figure.caption = fmt::format("A shape every {} s, for the first {} s.", plot::for_people(step, 3),
-                               plot::for_people(shown, 3));
+  figure.caption = fmt::format("A shape every {} s, for the first {} s.", for_people(step, 3),
+                               for_people(shown, 3));
   figure.x = {"side", "m"};
   figure.y = {"down", "m"};
   figure.equal_aspect = figure.y_downwards = true;
   const int count = static_cast<int>(std::floor(shown / step + 1e-9));
-  for (int k = 0; k <= count; ++k) {
-    const double at = motion.time.front() + k * step;
-    figure.series.push_back(shape(motion, nearest(motion.time, at), 0, Mark::kLine, 1));
-    if (k == 0) figure.series.back().name = "simulated";
-  }
-  bool named = false;
-  for (int k = 0; measured != nullptr && k <= count; ++k) {
-    const double at = motion.time.front() + k * step;
-    if (!seen_at(*measured, at, step)) continue;
-    figure.series.push_back(shape(*measured, nearest(measured->time, at), 0, Mark::kPoints, 0));
-    if (!named) figure.series.back().name = "measured";
-    named = true;
+  for (const Channels* drawn : {&motion, measured}) {
+    if (drawn == nullptr) continue;
+    for (int k = 0; k <= count; ++k) {
+      const double at = motion.time.front() + k * step;
+      if (drawn == measured && !seen_at(*measured, at, step)) continue;
+      figure.series.push_back(shape(*drawn, nearest(drawn->time, at), 0, drawn == measured));
+    }
   }
   figures.push_back({std::move(figure), "motion", "shapes", experiment.name, "", ""});
 }
 
 void add_frames(const Experiment& experiment, std::vector<ReportFigure>& figures) {
-  const Channels& motion = experiment.trajectory;
+  const Channels& motion = experiment.drawn();
   const Channels* measured = measured_positions(experiment);
   const double span = motion.time.back() - motion.time.front();
   const double step = nice_step(span, 13);  // 0.25 s of 3 s in figure 6.9
@@ -162,36 +158,34 @@ void add_frames(const Experiment& experiment, std::vector<ReportFigure>& figures
   for (int first = 0; first <= count; first += in_row) {
     Figure figure;
     const int last = std::min(count, first + in_row - 1);
-    figure.title = fmt::format("Frames from {} s to {} s",
-                               plot::for_people(motion.time.front() + first * step, 4),
-                               plot::for_people(motion.time.front() + last * step, 4));
-    figure.caption = fmt::format("A frame every {} s; side and down to the same scale.",
-                                 plot::for_people(step, 3));
+    figure.title =
+        fmt::format("Frames from {} s to {} s", for_people(motion.time.front() + first * step, 4),
+                    for_people(motion.time.front() + last * step, 4));
+    figure.caption =
+        fmt::format("A frame every {} s; side and down to the same scale.", for_people(step, 3));
     figure.x = {"time of the frame", "s"};
     figure.y = {"down", "m"};
     figure.equal_aspect = figure.y_downwards = true;
     for (int k = first; k <= last; ++k) {
       const double at = motion.time.front() + k * step;
       const double shift = (k - first) * spacing;
-      figure.x.ticks.push_back({shift, plot::for_people(at, 4)});
-      figure.series.push_back(shape(motion, nearest(motion.time, at), shift, Mark::kLine, 1));
-      if (k == first) figure.series.back().name = "simulated";
+      figure.x.ticks.push_back({shift, for_people(at, 4)});
+      figure.series.push_back(shape(motion, nearest(motion.time, at), shift, false));
       if (measured == nullptr || !seen_at(*measured, at, step)) continue;
-      figure.series.push_back(
-          shape(*measured, nearest(measured->time, at), shift, Mark::kPoints, 0));
-      if (k == first) figure.series.back().name = "measured";
+      figure.series.push_back(shape(*measured, nearest(measured->time, at), shift, true));
     }
     for (int k = last + 1; k < first + in_row; ++k) {
       figure.x.ticks.push_back({(k - first) * spacing, ""});  // rows to one scale
     }
-    figures.push_back({std::move(figure), "motion", "frames", experiment.name, "", ""});
+    const std::string family = first == 0 ? "frames" : fmt::format("frames-{}", first / in_row + 1);
+    figures.push_back({std::move(figure), "motion", family, experiment.name, "", ""});
   }
 }
 
 }  // namespace
 
 void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures) {
-  const Channels& motion = experiment.trajectory;
+  const Channels& motion = experiment.drawn();
   if (motion.time.size() > 1 && !motion.side.empty()) {
     add_shapes(experiment, figures);
     add_frames(experiment, figures);

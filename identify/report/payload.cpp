@@ -9,6 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "common/number_text.hpp"
+
 namespace catena::report {
 namespace {
 
@@ -17,6 +19,9 @@ using nlohmann::ordered_json;
 /// Lists of numbers as text, each kept once.
 class Columns {
  public:
+  /// Exact, or six significant digits.
+  explicit Columns(bool exact) : exact_(exact) {}
+
   std::size_t add(const Row& row, std::size_t stride) {
     std::string text = "[";
     for (std::size_t k = 0; k < row.size(); k += stride) {
@@ -39,45 +44,50 @@ class Columns {
   }
 
  private:
-  static void append(double value, std::string& text) {
+  void append(double value, std::string& text) const {
     if (!std::isfinite(value)) {
       text += "null";
+    } else if (exact_) {
+      text += shortest_number(value);
     } else {
       fmt::format_to(std::back_inserter(text), "{:.6g}", value);
     }
   }
 
+  bool exact_;
+
   std::map<std::string, std::size_t> index_;
   std::vector<const std::string*> texts_;
 };
 
-const char* word(plot::Mark mark) {
+const char* word(Mark mark) {
   switch (mark) {
-    case plot::Mark::kLine:
+    case Mark::kLine:
       return "line";
-    case plot::Mark::kDashes:
-      return "dashes";
-    case plot::Mark::kPoints:
+    case Mark::kPoints:
       return "points";
-    case plot::Mark::kLineWithPoints:
+    case Mark::kLineWithPoints:
       return "lineWithPoints";
   }
   return "line";
 }
 
-ordered_json axis_json(const plot::Axis& axis) {
+ordered_json axis_json(const Axis& axis) {
   ordered_json json = {
       {"label", axis.label}, {"unit", axis.unit}, {"logarithmic", axis.logarithmic}};
   if (!axis.categories.empty()) json["categories"] = axis.categories;
+  for (const Tick& tick : axis.ticks)
+    json["ticks"].push_back({{"at", tick.at}, {"label", tick.label}});
   return json;
 }
 
 class Writer {
  public:
-  explicit Writer(std::size_t most_points) : most_points_(most_points) {}
+  explicit Writer(std::size_t most_points)
+      : most_points_(most_points), columns_(most_points == 0) {}
 
   ordered_json figure(const ReportFigure& entry) {
-    const plot::Figure& figure = entry.figure;
+    const Figure& figure = entry.figure;
     ordered_json json = {{"id", figure.id},
                          {"title", figure.title},
                          {"caption", figure.caption},
@@ -88,11 +98,13 @@ class Writer {
                          {"variant", entry.variant},
                          {"x", axis_json(figure.x)},
                          {"y", axis_json(figure.y)},
-                         {"yDownwards", figure.y_downwards}};
+                         {"yDownwards", figure.y_downwards},
+                         {"equalAspect", figure.equal_aspect},
+                         {"wide", !figure.x.ticks.empty()}};
     json["series"] = ordered_json::array();
-    for (const plot::Series& series : figure.series) json["series"].push_back(of(series));
+    for (const Series& series : figure.series) json["series"].push_back(of(series));
     json["rules"] = ordered_json::array();
-    for (const plot::Rule& rule : figure.rules) {
+    for (const Rule& rule : figure.rules) {
       json["rules"].push_back(
           {{"vertical", rule.vertical}, {"at", rule.at}, {"label", rule.label}});
     }
@@ -101,7 +113,7 @@ class Writer {
   }
 
   ordered_json motion(const Experiment& experiment, double load_mass) {
-    const Channels& channels = experiment.trajectory;
+    const Channels& channels = experiment.drawn();
     ordered_json json = {{"experiment", experiment.name},
                          {"loadMass", std::isfinite(load_mass) ? load_mass : 0}};
     json.update(positions(channels, frames_stride(channels.time)));
@@ -116,7 +128,8 @@ class Writer {
   }
 
   ordered_json before(const Experiment& experiment) {
-    return positions(experiment.trajectory, frames_stride(experiment.trajectory.time));
+    const Channels& channels = experiment.drawn();
+    return positions(channels, frames_stride(channels.time));
   }
 
   std::string columns() const { return columns_.text(); }
@@ -135,7 +148,7 @@ class Writer {
     return std::max(by_rate, stride(time.size()));
   }
 
-  ordered_json of(const plot::Series& series) {
+  ordered_json of(const Series& series) {
     const std::size_t step = stride(series.x.size());
     ordered_json json = {{"name", series.name},
                          {"mark", word(series.mark)},
@@ -145,7 +158,7 @@ class Writer {
     return json;
   }
 
-  ordered_json of(const plot::HeatMap& map) {
+  ordered_json of(const HeatMap& map) {
     const std::size_t step = stride(map.x.size());
     double maximum = 0;
     ordered_json values = ordered_json::array();
@@ -177,7 +190,7 @@ class Writer {
   static Channels measured_positions(const Experiment& experiment) {
     const Channels& values = experiment.measured->values;
     if (!values.side.empty()) return values;
-    const Channels& model = experiment.trajectory;
+    const Channels& model = experiment.drawn();
     if (model.side.size() < values.angle.size() + 1 || model.time.empty()) return {};
     if (values.angle.size() != model.angle.size()) return {};
     Channels chain;
@@ -205,7 +218,7 @@ const Experiment* baseline_of(const Document& document, const std::string& name)
   const Round& first = document.diagnosis->rounds.front();
   if (!first.result) return nullptr;
   for (const Experiment& experiment : first.result->experiments) {
-    if (experiment.name == name && !experiment.trajectory.side.empty()) return &experiment;
+    if (experiment.name == name && !experiment.drawn().side.empty()) return &experiment;
   }
   return nullptr;
 }
@@ -217,7 +230,7 @@ std::string payload(const Document& document, const std::vector<ReportFigure>& f
   Writer writer(most_points);
   ordered_json motions = ordered_json::array();
   for (const Experiment& experiment : document.result.experiments) {
-    if (experiment.trajectory.time.empty() || experiment.trajectory.side.empty()) continue;
+    if (experiment.drawn().time.empty() || experiment.drawn().side.empty()) continue;
     motions.push_back(writer.motion(experiment, document.result.load_mass));
     if (const Experiment* before = baseline_of(document, experiment.name)) {
       motions.back()["before"] = writer.before(*before);
@@ -225,7 +238,7 @@ std::string payload(const Document& document, const std::vector<ReportFigure>& f
   }
   ordered_json entries = ordered_json::array();
   for (const ReportFigure& figure : figures) {
-    if (!figure.figure.equal_aspect) entries.push_back(writer.figure(figure));
+    entries.push_back(writer.figure(figure));
   }
   ordered_json head = {{"format", 1},
                        {"kind", "report"},

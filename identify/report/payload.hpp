@@ -15,18 +15,18 @@ namespace catena::report {
 ///      "columns": [[...], ...],             lists of numbers, each once; null for NaN
 ///      "figures": [{"id", "title", "caption", "section", "family", "experiment", "variantKind",
 ///      "variant",
-///                   "x": {"label", "unit", "logarithmic", "categories"}, "y": {...}, "yDownwards",
-///                   "series": [{"name", "mark", "colour", "x": column, "y": column, "low",
-///                   "high"}], "rules": [{"vertical", "at", "label"}], "map": {"x": column, "rows":
-///                   [names], "value": [columns], "scale", "signed", "maximum"}}],
-///      "motions": [{"experiment", "loadMass", "time": column, "side": [columns], "down":
-///      [columns],
-///                   "measured": {"time", "side", "down", "connected"}, "before": {"time", "side",
-///                   "down"}}]}
+///                   "x": {"label", "unit", "logarithmic", "categories", "ticks"}, "y": {...},
+///                   "yDownwards", "equalAspect", "wide",
+///                   "series": [{"name", "mark", "colour", "x": column, "y": column}],
+///                   "rules": [{"vertical", "at", "label"}],
+///                   "map": {"x": column, "rows": [names], "value": [columns], "scale", "signed",
+///                           "maximum"}}],
+///      "motions": [{"experiment", "loadMass", "time": column, "side": [columns],
+///                   "down": [columns], "measured": {"time", "side", "down", "connected"},
+///                   "before": {"time", "side", "down"}}]}
 ///
-/// Six significant digits. Longer series are thinned to every k-th value, so that at most
-/// `most_points` stay; zero keeps all. Figures with equal aspect are not among them (they are drawn
-/// as SVG).
+/// `most_points`: longer series are thinned to every k-th value, so that at most so many stay, and
+/// numbers have six significant digits; zero keeps all of both.
 std::string payload(const Document& document, const std::vector<ReportFigure>& figures,
                     std::size_t most_points);
 

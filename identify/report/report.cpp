@@ -6,11 +6,9 @@
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/report/figure.hpp"
-#include "identify/report/html.hpp"
+#include "identify/report/page.hpp"
 #include "identify/report/payload.hpp"
 #include "identify/report/report_figures.hpp"
-#include "identify/report/svg_plot.hpp"
-#include "identify/report/ticks.hpp"
 
 namespace catena::report {
 namespace {
@@ -28,12 +26,11 @@ std::string parameters_csv(const Result& result) {
   std::string text =
       "name,value,unit,free,standard_error,low_95,high_95,start,lower,upper,verdict,sets\n";
   for (const Parameter& p : result.parameters) {
-    const auto end = [&](double value) { return p.has_interval ? plot::exact(value) : ""; };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", plot::csv_field(p.name),
-                        plot::exact(p.value), plot::csv_field(p.unit), p.free,
-                        plot::exact(p.standard_error), end(p.low), end(p.high),
-                        plot::exact(p.start), plot::exact(p.lower), plot::exact(p.upper),
-                        plot::csv_field(p.verdict), plot::csv_field(p.sets));
+    const auto end = [&](double value) { return p.has_interval ? csv_field(value) : ""; };
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(p.name),
+                        csv_field(p.value), csv_field(p.unit), p.free, csv_field(p.standard_error),
+                        end(p.low), end(p.high), csv_field(p.start), csv_field(p.lower),
+                        csv_field(p.upper), csv_field(p.verdict), csv_field(p.sets));
   }
   return text;
 }
@@ -47,16 +44,10 @@ Written write_report(const Document& document, const ReportFiles& files) {
   if (!files.csv.empty()) {
     make_folder(files.csv);
     for (const ReportFigure& entry : figures) {
-      write_whole_file(files.csv / (entry.figure.id + ".csv"), plot::to_csv(entry.figure));
+      write_whole_file(files.csv / (entry.figure.id + ".csv"), to_csv(entry.figure));
     }
     if (!document.result.parameters.empty()) {
       write_whole_file(files.csv / "parameters.csv", parameters_csv(document.result));
-    }
-  }
-  if (!files.svg.empty()) {
-    make_folder(files.svg);
-    for (const ReportFigure& entry : figures) {
-      write_whole_file(files.svg / (entry.figure.id + ".svg"), plot::to_svg(entry.figure));
     }
   }
   if (!files.html.empty()) {

@@ -13,7 +13,6 @@ namespace catena::report {
 struct ReportFiles {
   std::filesystem::path html;  ///< one self-contained file
   std::filesystem::path csv;   ///< folder: <figure>.csv for each figure, parameters.csv
-  std::filesystem::path svg;   ///< folder: <figure>.svg for each figure
 };
 
 struct Written {

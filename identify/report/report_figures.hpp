@@ -12,7 +12,7 @@ namespace catena::report {
 /// A figure and its place in the report. Figures of one family are shown in one frame, a reader
 /// choosing experiment and variant; the figures of a family follow one another.
 struct ReportFigure {
-  plot::Figure figure;
+  Figure figure;
   std::string section;       ///< "motion", "residuals", "fit", "energy" or "diagnosis"
   std::string family;        ///< "positions_side"
   std::string experiment;    ///< name, or empty: of the whole result

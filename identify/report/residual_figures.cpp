@@ -14,9 +14,6 @@
 namespace catena::report {
 namespace {
 
-using plot::Figure;
-using plot::Mark;
-
 void add(std::vector<ReportFigure>& figures, const Experiment& experiment,
          const std::string& family, const std::string& point, Figure figure) {
   if (!std::isnan(experiment.fit_until) && figure.x.label == "time") {
@@ -79,7 +76,7 @@ void add_map(const Experiment& experiment, const Residuals& residuals,
   Figure figure;
   figure.title = "Size of the residual by point and time";
   figure.x = {"time", "s"};
-  plot::HeatMap map;
+  HeatMap map;
   map.x = residuals.time;
   for (const Point& point : residuals.points) map.rows.push_back(point.name);
   map.value = residuals.size;

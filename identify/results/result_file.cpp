@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/input_error.hpp"
-#include "identify/report/ticks.hpp"
+#include "identify/report/readable.hpp"
 
 namespace catena::report {
 namespace {
@@ -109,7 +109,7 @@ class Node {
   /// Whatever is there, in words.
   std::string words() const {
     if (value_->is_string()) return value_->get<std::string>();
-    if (value_->is_number_float()) return plot::for_people(value_->get<double>(), 5);
+    if (value_->is_number_float()) return for_people(value_->get<double>(), 5);
     return value_->dump();
   }
 
@@ -177,6 +177,10 @@ Experiment read_experiment(const Node& node) {
   if (node.has("trajectory")) {
     experiment.trajectory.time = node["trajectory"]["time"].row();
     read_positions(node["trajectory"], experiment.trajectory);
+  }
+  if (node.has("seen")) {
+    experiment.seen.time = node["seen"]["time"].row();
+    read_positions(node["seen"], experiment.seen);
   }
   if (node.has("measured")) {
     static const json kNothing = json::object();

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "identify/uncertainty/profile.hpp"
-
 /// What `catena report` reads: result.json of simulate and identify, diagnosis.json of diagnose
 /// (docs/file-formats.md). SI units, angles in rad. Numbers that are absent or null are NaN, lists
 /// that are absent are empty: the report leaves out what is not there.
@@ -54,6 +52,9 @@ struct Experiment {
   std::string name, use;
   double fit_until = kAbsent;  ///< s; later samples were held out
   Channels trajectory;         ///< points: support, far end of each link, load
+  /// The same points where the sensors see them, at their clock's times; empty where the model has
+  /// no sensor effects and the trajectory says it.
+  Channels seen;
   std::optional<Measured> measured;
   double error = kAbsent;
   Gap gap, gap_before;  ///< gap_before: at the start of the fit
@@ -62,6 +63,9 @@ struct Experiment {
   std::vector<EnergyItem> energy;
   double energy_imbalance = kAbsent;  ///< J
   Named statistics;
+
+  /// What is laid over the measurement.
+  const Channels& drawn() const { return seen.side.empty() ? trajectory : seen; }
 };
 
 struct Parameter {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// npm run build: bundles source/, uPlot and Temml into dist/, with their licences on top.
+// npm run build: bundles source/ and Temml into dist/, with its licence on top.
 import {build} from 'esbuild';
 import {readFileSync} from 'node:fs';
 
 const contains = (name, folder) =>
     `Contains ${name}:\n\n${readFileSync(`node_modules/${folder}/LICENSE`, 'utf8').trim()}\n`;
 const banner = `/* SPDX-License-Identifier: BSD-3-Clause AND MIT\n\n` +
-    `Built from identify/report/web; do not edit. ${contains('uPlot', 'uplot')}\n${contains('Temml', 'temml')}*/`;
+    `Built from identify/report/web; do not edit. ${contains('Temml', 'temml')}*/`;
 
 await build({
   entryPoints: {report: 'source/main.js'},
@@ -17,7 +17,4 @@ await build({
   target: ['chrome100', 'firefox100', 'safari15'],
   legalComments: 'none',
   banner: {js: banner, css: banner},
-  // uPlot reads the global devicePixelRatio; see source/pixel_ratio.js.
-  define: {devicePixelRatio: 'renderingPixelRatio'},
-  inject: ['source/pixel_ratio.js'],
 });

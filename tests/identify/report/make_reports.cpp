@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     const auto file = folder / (std::string(name) + ".json");
     std::ofstream(file) << result;
     const Written written =
-        write_report(read_document(file), {folder / (std::string(name) + ".html"), {}, {}});
+        write_report(read_document(file), {folder / (std::string(name) + ".html"), {}});
     std::cout << name << ": " << written.figures << " figures, " << written.html_bytes
               << " bytes\n";
   }

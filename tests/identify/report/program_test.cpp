@@ -16,14 +16,12 @@ TEST_CASE("catena report writes a page beside the result, or what else is asked 
 
   const ProcessResult plain = run_catena({"report", path});
   CHECK(plain.exit_status == 0);
-  CHECK(plain.output == path + "/report.html: 12 figures, 0.4 MB\n");
+  CHECK(plain.output == path + "/report.html: 12 figures, 0.5 MB\n");
   CHECK(text_of(folder.path() / "report.html").starts_with("<!DOCTYPE html>"));
   std::filesystem::remove(folder.path() / "report.html");
 
-  const ProcessResult figures =
-      run_catena({"report", path, "--svg", path + "/svg", "--csv", path + "/csv"});
+  const ProcessResult figures = run_catena({"report", path, "--csv", path + "/csv"});
   CHECK(figures.exit_status == 0);
-  CHECK(std::filesystem::exists(folder.path() / "svg/error_over_time.svg"));
   CHECK(std::filesystem::exists(folder.path() / "csv/error_over_time.csv"));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "report.html"));
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frame of one family of figures: title, choice of variant, legend with values, chart.
-import {Chart, isOverTime} from './chart.js';
-import {colourScale, cssGradient} from './colour_scale.js';
+import {Chart, describe, isOverTime} from './chart.js';
 import {element, select} from './element.js';
-import {drawSample} from './marks.js';
-import {axisTitle, forPeople, withUnit} from './numbers.js';
-import {renderingPixelRatio} from './pixel_ratio.js';
+import {sampleOf} from './marks.js';
+import {withUnit} from './numbers.js';
+import {saveCsv, savePng, saveSvg} from './save.js';
+
+const kSavedWidth = 640;  // px of a saved drawing; of a wide one as many as it has on the page
 
 export class Card {
   /** `figures`: all of the family, over experiments and variants. */
@@ -19,6 +20,7 @@ export class Card {
     state.on('theme', () => this.repaint());
     state.on('window', (window) => this.chart && isOverTime(this.figure) && this.chart.showWindow(window));
     state.on('time', (time) => this.chart && isOverTime(this.figure) && this.chart.showTime(time));
+    state.on('cursor', (x) => this.chart && isOverTime(this.figure) && this.showReadings(x));
   }
 
   /** The figure of the chosen experiment and variant; of variants it lacks, the first. */
@@ -43,26 +45,33 @@ export class Card {
   }
 
   build() {
-    this.chart?.destroy();
     const {figure, state} = this;
     const variants = this.figures.filter((f) => f.experiment === figure.experiment && f.variantKind)
         .map((f) => f.variant);
-    const plot = element('div', {class: 'plot', role: 'img', 'aria-label': describe(figure)});
+    const plot = element('div', {role: 'img', 'aria-label': describe(figure)});
     this.legend = element('div', {class: 'legend'});
     this.reading = element('span', {class: 'reading'});
+    const save = (format, what, action) => element('button', {type: 'button', title: `Save ${what} as ${format}`,
+      'aria-label': `Save ${what} of “${figure.title}” as ${format}`, onclick: action}, format);
+    const drawing = () => this.chart.drawing(Math.max(kSavedWidth, figure.wide ? this.chart.width : 0), true).svg;
     this.frame.replaceChildren(
         element('figcaption', {},
             element('h3', {}, figure.title),
             element('div', {class: 'tools'},
                 ...(variants.length > 1 ? [select(figure.variantKind, variants, figure.variant,
                     (variant) => state.choose(figure.variantKind, variant))] : []),
-                element('button', {type: 'button', title: 'Save the numbers as comma-separated values',
-                  'aria-label': `Save the numbers of “${figure.title}” as CSV`, onclick: () => save(figure, this.columns)}, 'CSV')),
+                save('CSV', 'the numbers', () => saveCsv(figure, this.columns)),
+                save('SVG', 'the drawing', () => saveSvg(figure.id, drawing())),
+                save('PNG', 'a picture', () => savePng(figure.id, drawing()))),
             figure.caption ? element('p', {}, figure.caption) : ''),
         this.legend, plot);
     this.chart = new Chart(plot, figure, this.columns, {
       zoom: (window) => (isOverTime(figure) ? state.set('window', window) : this.chart.showWindow(window)),
-      hover: (readings) => this.showReadings(readings),
+      point: (x, row) => {
+        this.row = row;
+        if (isOverTime(figure)) state.set('cursor', x);
+        else this.showReadings(x);
+      },
       pick: (x) => isOverTime(figure) && state.set('time', x),
     });
     if (isOverTime(figure)) {
@@ -73,83 +82,45 @@ export class Card {
   }
 
   buildLegend() {
-    const {figure} = this;
+    const {chart} = this;
     this.values = [];
     this.legend.replaceChildren();
-    if (figure.map) {
-      const {map} = figure;
-      const dark = document.documentElement.dataset.shown === 'dark';
-      this.legend.append(
-          element('span', {}, `${map.scale.label}: ${map.signed ? forPeople(-map.maximum, 3) : '0'}`),
-          element('span', {class: 'bar', style: `background: ${cssGradient(colourScale(map.signed, dark))}`}),
-          element('span', {}, withUnit(map.maximum, map.scale, 3)));
-    }
-    figure.series.forEach((series, k) => {
-      const sample = element('canvas', {class: 'sample', 'aria-hidden': 'true'});
-      drawSample(sample, series, renderingPixelRatio);
+    if (chart.map) this.legend.append(...chart.legendOfMap());
+    for (const series of chart.legend()) {
       const value = element('span', {class: 'value'});
-      const button = element('button', {type: 'button', class: 'series', 'aria-pressed': 'true',
+      const button = element('button', {type: 'button', class: 'series', 'aria-pressed': String(!chart.hidden.has(series.name)),
         title: 'Show or hide', onclick: () => {
-          this.chart.toggle(k);
-          button.setAttribute('aria-pressed', String(!this.chart.hidden[k]));
-        }}, sample, series.name, value);
+          chart.toggle(series.name);
+          button.setAttribute('aria-pressed', String(!chart.hidden.has(series.name)));
+        }}, sampleOf(series), series.name, value);
       this.values.push(value);
       this.legend.append(button);
-    });
+    }
     this.legend.append(this.reading);
   }
 
-  showReadings(readings) {
-    if (!this.values) return;
+  showReadings(x) {
     const {figure} = this;
+    const found = this.chart.showCursor(x);
     this.values.forEach((node, k) => {
-      node.textContent = readings ? withUnit(readings.values[k], figure.y) : '';
+      node.textContent = found ? withUnit(found.values[k], figure.y) : '';
     });
-    if (!readings) {
-      this.reading.textContent = '';
-      return;
-    }
-    const category = figure.x.categories?.[readings.x - 1];
-    const at = category ?? `${figure.x.label} ${withUnit(readings.x, figure.x)}`;
-    this.reading.textContent = figure.map
-        ? readings.row ? `${readings.row}, ${at}: ${withUnit(readings.values[0], figure.map.scale)}` : '' : at;
+    this.reading.textContent = '';
+    if (!found) return;
+    const at = figure.x.categories?.[found.x - 1] ?? `${figure.x.label} ${withUnit(found.x, figure.x)}`;
+    const row = figure.map?.rows[this.row];
+    if (row) this.reading.textContent = `${row}, ${at}: ${withUnit(found.values[this.row], figure.map.scale)}`;
+    else if (!figure.map) this.reading.textContent = at;
   }
 
+  /** The colours of a heat map are those of the theme. */
   repaint() {
-    if (!this.chart) return;
-    this.chart.repaint();
+    if (!this.chart?.map) return;
+    this.chart.draw();
     this.buildLegend();
   }
 
   resize() {
     this.chart?.resize();
   }
-}
-
-function describe(figure) {
-  if (figure.map) {
-    return `${figure.title}: ${axisTitle(figure.map.scale)} of ${figure.map.rows.length} rows over ${axisTitle(figure.x)}`;
-  }
-  const names = figure.series.map((series) => series.name).filter(Boolean).join(', ');
-  return `${figure.title}: ${axisTitle(figure.y)} over ${axisTitle(figure.x)}; ${names}`;
-}
-
-function save(figure, columns) {
-  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-  const number = (value) => value ?? '';
-  const lines = [];
-  if (figure.map) {
-    lines.push(['row', quoted(axisTitle(figure.x)), quoted(axisTitle(figure.map.scale))]);
-    figure.map.rows.forEach((row, r) => columns[figure.map.x].forEach((x, k) =>
-      lines.push([quoted(row), x, number(columns[figure.map.value[r]][k])])));
-  } else {
-    lines.push(['series', quoted(axisTitle(figure.x) || 'x'), quoted(axisTitle(figure.y) || 'y')]);
-    for (const series of figure.series) {
-      columns[series.x].forEach((x, k) => lines.push([quoted(series.name), number(x), number(columns[series.y][k])]));
-    }
-  }
-  const blob = new Blob([lines.map((line) => line.join(',')).join('\n') + '\n'], {type: 'text/csv'});
-  const link = element('a', {href: URL.createObjectURL(blob), download: `${figure.id}.csv`});
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

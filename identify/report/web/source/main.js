@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts charts and player into the page that html.cpp wrote, and joins them.
-import 'uplot/dist/uPlot.min.css';
+// Puts charts and player into the page that catena wrote (page.html), and joins them.
 import './report.css';
 import {Card} from './card.js';
 import {element, select} from './element.js';
@@ -36,12 +35,6 @@ function buildControls(state, experiments) {
   }));
 }
 
-function showDrawings(state) {
-  for (const drawing of document.querySelectorAll('.drawing')) {
-    drawing.hidden = drawing.dataset.experiment !== state.experiment;
-  }
-}
-
 function start() {
   const data = JSON.parse(document.getElementById('data').textContent);
   const state = new State();
@@ -50,8 +43,6 @@ function start() {
   state.experiment = experiments[0] ?? '';
   showTheme(state);
   buildControls(state, experiments);
-  showDrawings(state);
-  state.on('experiment', () => showDrawings(state));
 
   const cards = new Map();
   for (const frame of document.querySelectorAll('figure[data-family]')) {

@@ -1,69 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours, dashes and markers of series, as in palette.hpp and svg_elements.cpp. The colours
-// themselves are in report.css, for light and dark.
+// Colours, dashes and markers of series: a different one of each for every colour number, so that
+// grey prints can be read. The colours themselves are in report.css, for light and dark.
+import {svg} from './element.js';
 
-const dashes = [[], [], [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4], [5, 2, 1, 2, 1, 2]];
+const dashes = ['', '', '7 3', '2 2.5', '9 3 2 3', '12 4', '5 2 1 2 1 2'];
+const corners = {
+  3: [[-1, -1], [1, -1], [1, 1], [-1, 1]],
+  4: [[0, -1], [1, 1], [-1, 1]],
+  5: [[0, -1], [1, 0], [0, 1], [-1, 0]],
+  6: [[0, 1], [1, -1], [-1, -1]],
+};
 
-export const colourIndex = (colour) => (colour <= 0 ? 0 : 1 + ((colour - 1) % 6));
+const indexOf = (colour) => (colour <= 0 ? 0 : 1 + ((colour - 1) % 6));
 export const hasLine = (series) => series.mark !== 'points';
-export const hasPoints = (series) => series.mark === 'points' || series.mark === 'lineWithPoints';
+export const hasPoints = (series) => series.mark !== 'line';
+export const strokeOf = (colour) => `var(--c${indexOf(colour)})`;
 
-export function dashOf(series) {
-  const dash = dashes[colourIndex(series.colour)];
-  return series.mark === 'dashes' && dash.length === 0 ? dashes[2] : dash;
+/** The value of a colour of the style sheet, in the theme that is shown. */
+export const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+/** Path through the places [x, y]; null interrupts it. */
+export function linePath(places) {
+  let [path, pen] = ['', 'M'];
+  for (const at of places) {
+    if (at) path += `${pen}${at[0].toFixed(1)} ${at[1].toFixed(1)}`;
+    pen = at ? 'L' : 'M';
+  }
+  return path;
 }
 
-export function cssColour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+/** Path of a series' marker of radius r. */
+export function markerPath(colour, [x, y], r) {
+  const index = indexOf(colour);
+  const at = (dx, dy) => `${(x + r * dx).toFixed(1)} ${(y + r * dy).toFixed(1)}`;
+  if (index === 0) return `M${at(1, 0)}A${r} ${r} 0 1 1 ${at(-1, 0)}A${r} ${r} 0 1 1 ${at(1, 0)}Z`;
+  if (index === 1) return `M${at(-1, 0)}L${at(1, 0)}M${at(0, -1)}L${at(0, 1)}`;
+  if (index === 2) return `M${at(-1, -1)}L${at(1, 1)}M${at(-1, 1)}L${at(1, -1)}`;
+  return `M${corners[index].map(([dx, dy]) => at(dx, dy)).join('L')}Z`;
 }
 
-export const seriesColour = (colour) => cssColour(`c${colourIndex(colour)}`);
-
-/** Adds the outline of a series' marker to a path (canvas context or Path2D). */
-export function traceMarker(path, colour, x, y, r) {
-  const corners = {
-    3: [[-1, -1], [1, -1], [1, 1], [-1, 1]],
-    4: [[0, -1], [1, 1], [-1, 1]],
-    5: [[0, -1], [1, 0], [0, 1], [-1, 0]],
-    6: [[0, 1], [1, -1], [-1, -1]],
-  };
-  const index = colourIndex(colour);
-  if (index === 0) {
-    path.moveTo(x + r, y);
-    path.arc(x, y, r, 0, 2 * Math.PI);
-  } else if (index <= 2) {
-    const d = index === 2 ? r : 0;
-    path.moveTo(x - r, y - d);
-    path.lineTo(x + r, y + d);
-    path.moveTo(x - d, y + r);
-    path.lineTo(x + d, y - r);
-  } else {
-    corners[index].forEach(([dx, dy], k) => path[k ? 'lineTo' : 'moveTo'](x + r * dx, y + r * dy));
-    path.closePath();
-  }
+/** Line and markers of a series through the places. */
+export function marksOf(series, places, radius = 3) {
+  const stroke = {fill: 'none', stroke: strokeOf(series.colour)};
+  const seen = places.filter((at) => at !== null);
+  return [
+    ...(hasLine(series) ? [svg('path', {...stroke, 'stroke-width': 1.6, 'stroke-linejoin': 'round',
+      'stroke-dasharray': dashes[indexOf(series.colour)] || null, d: linePath(places)})] : []),
+    ...(hasPoints(series) ? [svg('path', {...stroke, 'stroke-width': 1.2,
+      d: seen.map((at) => markerPath(series.colour, at, radius)).join('')})] : []),
+  ];
 }
 
-/** A small canvas that shows how a series is drawn. */
-export function drawSample(canvas, series, ratio) {
-  const [width, height] = [30, 12];
-  canvas.width = width * ratio;
-  canvas.height = height * ratio;
-  const context = canvas.getContext('2d');
-  context.scale(ratio, ratio);
-  context.strokeStyle = seriesColour(series.colour);
-  if (hasLine(series)) {
-    context.lineWidth = 1.6;
-    context.setLineDash(dashOf(series));
-    context.beginPath();
-    context.moveTo(0, height / 2);
-    context.lineTo(width, height / 2);
-    context.stroke();
-  }
-  if (hasPoints(series)) {
-    context.lineWidth = 1.2;
-    context.setLineDash([]);
-    context.beginPath();
-    traceMarker(context, series.colour, width / 2, height / 2, 3.5);
-    context.stroke();
-  }
+/** A small drawing that shows how a series is drawn. */
+export function sampleOf(series) {
+  const ends = hasLine(series) ? marksOf({...series, mark: 'line'}, [[0, 6], [30, 6]]) : [];
+  const middle = hasPoints(series) ? marksOf({...series, mark: 'points'}, [[15, 6]], 3.5) : [];
+  return svg('svg', {class: 'sample', width: 30, height: 12, 'aria-hidden': 'true'}, ...ends, ...middle);
 }

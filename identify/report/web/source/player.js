@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Animates the cable, with what was measured over it.
-import {element, select} from './element.js';
-import {cssColour, traceMarker} from './marks.js';
-import {forPeople, linearTicks, tickLabels} from './numbers.js';
-import {renderingPixelRatio} from './pixel_ratio.js';
+import {element, select, svg} from './element.js';
+import {linePath, markerPath, strokeOf} from './marks.js';
+import {forPeople} from './numbers.js';
+import {plotArea} from './plot_area.js';
+import {savePng, saveSvg} from './save.js';
 
-const margin = {left: 56, right: 16, top: 12, bottom: 44};  // CSS pixels
+const height = 456;  // px at most
 const speeds = ['0.1', '0.25', '0.5', '1', '2', '4'];
 
 export class Player {
@@ -17,7 +18,6 @@ export class Player {
     this.running = null;
     this.build();
     state.on('experiment', () => this.load());
-    state.on('theme', () => this.paint());
     state.on('time', (time) => this.showTime(time));
     this.load();
   }
@@ -25,7 +25,7 @@ export class Player {
   build() {
     const button = (words, label, action) =>
       element('button', {type: 'button', title: label, 'aria-label': label, onclick: action}, words);
-    this.canvas = element('canvas', {role: 'img', 'aria-label': 'Animation of the cable: side over down, in metres'});
+    this.stage = element('div', {class: 'stage', role: 'img', 'aria-label': 'Animation of the cable: side over down, in metres'});
     this.playButton = button('▶', 'Play', () => this.toggle());
     this.slider = element('input', {type: 'range', min: 0, step: 1, value: 0, 'aria-label': 'Frame',
       oninput: () => this.seekFrame(Number(this.slider.value))});
@@ -42,22 +42,24 @@ export class Player {
         button('+1', '+1 frame', () => this.step(1)),
         this.slider, this.clock,
         select('Speed', speeds, '1', (speed) => { this.speed = Number(speed); }),
-        element('label', {class: 'choice'}, this.overlayBox, ' Shapes so far'));
+        element('label', {class: 'choice'}, this.overlayBox, ' Shapes so far'),
+        button('SVG', 'Save this frame as SVG', () => saveSvg(this.fileName(), this.area.svg)),
+        button('PNG', 'Save this frame as PNG', () => savePng(this.fileName(), this.area.svg)));
     this.controls.addEventListener('keydown', (event) => this.key_pressed(event));
-    this.host.append(this.canvas, this.key, this.controls);
-    new ResizeObserver(() => this.paint()).observe(this.host);
+    this.host.append(this.stage, this.key, this.controls);
+    new ResizeObserver(() => this.draw()).observe(this.host);
   }
 
   load() {
     this.pause();
     this.motion = this.motions.find((motion) => motion.experiment === this.state.experiment) ?? this.motions[0];
-    this.bounds = boundsOf(this.motion);
     this.slider.max = String(this.motion.time.length - 1);
     const {measured, before} = this.motion;
     this.key.replaceChildren(
         ...[['simulated', 'c1', '—●'], ...(measured ? [['measured', 'c0', '○']] : []), ...(before ? [['before', 'c2', '- -']] : [])]
             .map(([words, colour, sign]) => element('span', {},
                 element('span', {style: `color: var(--${colour})`, 'aria-hidden': 'true'}, sign), ` ${words} `)));
+    this.draw();
     this.seekFrame(0);
   }
 
@@ -132,51 +134,61 @@ export class Player {
     act();
   }
 
-  paint() {
-    const width = this.host.clientWidth;
-    if (width === 0) return;
-    const {bounds, canvas} = this;
-    const ratio = renderingPixelRatio;
-    const wide = width - margin.left - margin.right;
-    const scale = Math.min(wide / (bounds.right - bounds.left), 400 / (bounds.bottom - bounds.top));
-    const height = Math.round(scale * (bounds.bottom - bounds.top) + margin.top + margin.bottom);
-    canvas.style.height = `${height}px`;
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    const context = canvas.getContext('2d');
-    context.scale(ratio, ratio);
-    const offset = margin.left + (wide - scale * (bounds.right - bounds.left)) / 2;
-    const place = {
-      x: (side) => offset + scale * (side - bounds.left),
-      y: (down) => margin.top + scale * (down - bounds.top),
-      left: offset, right: offset + scale * (bounds.right - bounds.left), top: margin.top, bottom: height - margin.bottom,
-    };
-    paintGrid(context, place, bounds);
-    context.save();
-    context.beginPath();
-    context.rect(place.left, place.top, place.right - place.left, place.bottom - place.top);
-    context.clip();
-    this.paintMotion(context, place);
-    context.restore();
+  fileName() {
+    return `frame_${this.clock.textContent.split(' ')[0].replace('.', '_')}_s`;
   }
 
-  paintMotion(context, place) {
-    const {motion, frame} = this;
+  /** Axes; what moves is left to paint(). */
+  draw() {
+    const width = Math.max(240, this.stage.clientWidth);
+    const bounds = boundsOf(this.motion);
+    this.area = plotArea({width, height, equalAspect: true,
+      x: {axis: {label: 'side', unit: 'm'}, range: bounds.side},
+      y: {axis: {label: 'down', unit: 'm'}, range: bounds.down, reversed: true}});
+    this.area.svg.prepend(svg('rect', {width: '100%', height: '100%', fill: 'var(--paper)'}));
+    this.stage.replaceChildren(this.area.svg);
+    this.paint();
+  }
+
+  paint() {
+    if (!this.area) return;
+    const {motion, frame, area} = this;
     const now = motion.time[frame];
+    const cable = (part, at, attributes) => svg('path', {fill: 'none', 'stroke-linejoin': 'round',
+      d: linePath(places(area, part, at).filter((place) => place !== null)), ...attributes});
+    const drawn = [];
     if (this.overlay) {
       const step = Math.max(0.02, (motion.time.at(-1) - motion.time[0]) / 90);  // 0.02 s in figure 6.10
-      context.globalAlpha = 0.3;
       for (let at = motion.time[0]; at < now; at += step) {
-        paintCable(context, place, motion, nearest(motion.time, at), 'c1', [], 1);
+        drawn.push(cable(motion, nearest(motion.time, at), {stroke: strokeOf(1), opacity: 0.3}));
       }
-      context.globalAlpha = 1;
     }
-    if (motion.before) paintCable(context, place, motion.before, nearest(motion.before.time, now), 'c2', [7, 3], 1.6);
-    paintCable(context, place, motion, frame, 'c1', [], 2.2);
-    paintJoints(context, place, motion, frame);
-    if (motion.measured) paintMeasured(context, place, motion.measured, now);
+    if (motion.before) {
+      drawn.push(cable(motion.before, nearest(motion.before.time, now), {stroke: strokeOf(2), 'stroke-width': 1.6, 'stroke-dasharray': '7 3'}));
+    }
+    drawn.push(cable(motion, frame, {stroke: strokeOf(1), 'stroke-width': 2.2}));
+    const joints = places(area, motion, frame);
+    const small = joints.length > 30 ? 1.5 : 2.5;
+    const dots = joints.map((at, k) => (k + 1 === joints.length && motion.loadMass > 0 ? markerPath(0, at, 6) : markerPath(0, at, small)));
+    drawn.push(svg('path', {d: dots.join(''), fill: strokeOf(1)}),
+        svg('rect', {x: joints[0][0] - 7, y: joints[0][1] - 4, width: 14, height: 4, fill: 'var(--ink)'}));
+    const {measured} = motion;
+    const seen = measured ? nearest(measured.time, now) : null;
+    // The frame nearest in time, unless it is further away than the recording's step.
+    if (measured && Math.abs(measured.time[seen] - now) <= (measured.time.at(-1) - measured.time[0]) / Math.max(1, measured.time.length - 1)) {
+      if (measured.connected) drawn.push(cable(measured, seen, {stroke: strokeOf(0), 'stroke-width': 1.4, 'stroke-dasharray': '2 2.5'}));
+      const markers = places(area, measured, seen).filter((place) => place !== null).map((place) => markerPath(0, place, 4.5));
+      drawn.push(svg('path', {d: markers.join(''), fill: 'none', stroke: strokeOf(0), 'stroke-width': 1.4}));
+    }
+    area.inside.replaceChildren(...drawn);
   }
 }
+
+/** Places of the points in one frame; null: not seen. */
+const places = (area, part, frame) => part.side.map((side, p) => {
+  const [x, y] = [side[frame], part.down[p][frame]];
+  return x === null || y === null ? null : [area.x(x), area.y(y)];
+});
 
 function resolve(motion, columns) {
   const positions = ({time, side, down, ...rest}) => ({...rest, time: columns[time],
@@ -195,100 +207,20 @@ function nearest(times, at) {
   return low > 0 && at - times[low - 1] < times[low] - at ? low - 1 : low;
 }
 
+/** Ends of side and of down over all times, and a little more. */
 function boundsOf(motion) {
-  const bounds = {left: 0, right: 0, top: 0, bottom: 0};
-  for (const part of [motion, motion.measured, motion.before]) {
-    for (const row of part?.side ?? []) {
-      for (const side of row) {
-        if (side === null) continue;
-        bounds.left = Math.min(bounds.left, side);
-        bounds.right = Math.max(bounds.right, side);
+  const range = (name) => {
+    let [low, high] = [0, 0];
+    for (const part of [motion, motion.measured, motion.before]) {
+      for (const value of (part?.[name] ?? []).flat()) {
+        if (value === null) continue;
+        low = Math.min(low, value);
+        high = Math.max(high, value);
       }
     }
-    for (const row of part?.down ?? []) {
-      for (const down of row) {
-        if (down === null) continue;
-        bounds.top = Math.min(bounds.top, down);
-        bounds.bottom = Math.max(bounds.bottom, down);
-      }
-    }
-  }
-  const margin = 0.06 * Math.max(bounds.right - bounds.left, bounds.bottom - bounds.top, 1e-3);
-  return {left: bounds.left - margin, right: bounds.right + margin, top: bounds.top - margin, bottom: bounds.bottom + margin};
-}
-
-function paintGrid(context, place, bounds) {
-  context.strokeStyle = cssColour('grid');
-  context.fillStyle = cssColour('ink');
-  context.font = '12px system-ui, "Liberation Sans", Arial, sans-serif';
-  context.lineWidth = 1;
-  const sides = linearTicks(bounds.left, bounds.right, Math.max(2, (place.right - place.left) / 90));
-  const downs = linearTicks(bounds.top, bounds.bottom, Math.max(2, (place.bottom - place.top) / 60));
-  context.beginPath();
-  for (const side of sides) {
-    context.moveTo(place.x(side), place.top);
-    context.lineTo(place.x(side), place.bottom);
-  }
-  for (const down of downs) {
-    context.moveTo(place.left, place.y(down));
-    context.lineTo(place.right, place.y(down));
-  }
-  context.stroke();
-  context.textAlign = 'center';
-  tickLabels(sides).forEach((label, k) => context.fillText(label, place.x(sides[k]), place.bottom + 16));
-  context.fillText('side / m', (place.left + place.right) / 2, place.bottom + 36);
-  context.textAlign = 'right';
-  tickLabels(downs).forEach((label, k) => context.fillText(label, place.left - 6, place.y(downs[k]) + 4));
-  context.save();
-  context.translate(place.left - 42, (place.top + place.bottom) / 2);
-  context.rotate(-Math.PI / 2);
-  context.textAlign = 'center';
-  context.fillText('down / m', 0, 0);
-  context.restore();
-  context.strokeStyle = cssColour('ink');
-  context.strokeRect(place.left, place.top, place.right - place.left, place.bottom - place.top);
-}
-
-function paintCable(context, place, motion, frame, colour, dash, width) {
-  context.strokeStyle = cssColour(colour);
-  context.lineWidth = width;
-  context.lineJoin = 'round';
-  context.setLineDash(dash);
-  context.beginPath();
-  motion.side.forEach((side, p) => {
-    const [x, y] = [side[frame], motion.down[p][frame]];
-    if (x !== null && y !== null) context[p ? 'lineTo' : 'moveTo'](place.x(x), place.y(y));
-  });
-  context.stroke();
-  context.setLineDash([]);
-}
-
-function paintJoints(context, place, motion, frame) {
-  const last = motion.side.length - 1;
-  context.fillStyle = cssColour('c1');
-  motion.side.forEach((side, p) => {
-    const load = p === last && motion.loadMass > 0;
-    const radius = load ? 6 : motion.side.length > 30 ? 1.5 : 2.5;
-    context.beginPath();
-    context.arc(place.x(side[frame]), place.y(motion.down[p][frame]), radius, 0, 2 * Math.PI);
-    context.fill();
-  });
-  context.fillStyle = cssColour('ink');
-  context.fillRect(place.x(motion.side[0][frame]) - 7, place.y(motion.down[0][frame]) - 4, 14, 4);
-}
-
-/** The frame nearest in time, unless it is further away than the recording's step. */
-function paintMeasured(context, place, measured, now) {
-  const frame = nearest(measured.time, now);
-  const step = (measured.time.at(-1) - measured.time[0]) / Math.max(1, measured.time.length - 1);
-  if (Math.abs(measured.time[frame] - now) > step) return;
-  if (measured.connected) paintCable(context, place, measured, frame, 'c0', [2, 2.5], 1.4);
-  context.strokeStyle = cssColour('c0');
-  context.lineWidth = 1.4;
-  context.beginPath();
-  measured.side.forEach((side, p) => {
-    const [x, y] = [side[frame], measured.down[p][frame]];
-    if (x !== null && y !== null) traceMarker(context, 0, place.x(x), place.y(y), 4.5);
-  });
-  context.stroke();
+    return [low, high];
+  };
+  const [side, down] = [range('side'), range('down')];
+  const margin = 0.06 * Math.max(side[1] - side[0], down[1] - down[0], 1e-3);
+  return {side: [side[0] - margin, side[1] + margin], down: [down[0] - margin, down[1] + margin]};
 }

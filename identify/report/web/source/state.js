@@ -7,7 +7,8 @@ export class State {
     this.variant = {};     // by kind: {Point: 'marker 3'}
     this.window = null;    // [from, to] in s, or null: all
     this.time = null;      // s, of the player
-    this.listeners = {experiment: [], variant: [], window: [], time: [], theme: []};
+    this.cursor = null;    // s, under the pointer, or null
+    this.listeners = {experiment: [], variant: [], window: [], time: [], cursor: [], theme: []};
   }
 
   on(event, listener) {

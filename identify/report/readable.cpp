@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "identify/report/ticks.hpp"
+#include "identify/report/readable.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace catena::plot {
+namespace catena::report {
 namespace {
 
 constexpr std::string_view kMinus = "\u2212";
@@ -41,51 +41,7 @@ std::string without_trailing_zeros(std::string text) {
   return text == "-0" ? "0" : text;
 }
 
-/// Step of 1, 2 or 5 times a power of ten that cuts `span` into about `about` pieces.
-double nice_step(double span, int about) {
-  const double raw = span / about;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double leading = raw / power;
-  return power * (leading < 1.5 ? 1 : leading < 3.5 ? 2 : leading < 7.5 ? 5 : 10);
-}
-
 }  // namespace
-
-std::vector<Tick> linear_ticks(double low, double high, int about) {
-  if (low == high) {
-    const double margin = low == 0 ? 1 : std::abs(low) / 2;
-    low -= margin;
-    high += margin;
-  }
-  const double step = nice_step(high - low, about);
-  const double largest = std::max(std::abs(low), std::abs(high));
-  const bool plain = largest < 1e6 && step >= 1e-5;
-  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  std::vector<Tick> ticks;
-  const double slack = 1e-9 * step;
-  for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) {
-    const double at = k == 0 ? 0 : k * step;
-    ticks.push_back({at, plain ? with_minus_sign(fixed(at, decimals)) : for_people(at, 6)});
-  }
-  return ticks;
-}
-
-std::vector<Tick> logarithmic_ticks(double low, double high, int about) {
-  const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
-  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
-  const int stride = std::max(1, (last - first + about) / about);
-  const bool sparse = last - first < 1;
-  std::vector<Tick> ticks;
-  for (int decade = first - 1; decade <= last; ++decade) {
-    for (const int factor : {1, 2, 5}) {
-      const double at = factor * std::pow(10.0, decade);
-      if (at < low * (1 - 1e-9) || at > high * (1 + 1e-9)) continue;
-      const bool labelled = sparse || (factor == 1 && (decade - first) % stride == 0);
-      if (labelled || stride == 1) ticks.push_back({at, labelled ? for_people(at) : ""});
-    }
-  }
-  return ticks;
-}
 
 std::string for_people(double value, int digits) {
   if (std::isnan(value)) return "–";
@@ -119,11 +75,4 @@ std::string readable_unit(std::string unit) {
   return unit;
 }
 
-std::string exact(double value) {
-  if (std::isnan(value)) return "";
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end.ptr};
-}
-
-}  // namespace catena::plot
+}  // namespace catena::report
