@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common to the studies of the dissertation's chapters: runs of catena, tables, figures."""
+"""Common to the studies of the dissertation's chapters: runs of catena and tables."""
 import concurrent.futures
 import csv
 import json
@@ -9,23 +9,8 @@ import subprocess
 import sys
 
 import command_line
+import numpy as np
 from command_line import ROOT
-
-try:
-    import matplotlib
-    import numpy as np
-except ImportError as missing:
-    sys.exit(f"{sys.argv[0]}: {missing}; scripts/setup test installs it")
-
-matplotlib.use("svg")
-matplotlib.rcParams.update({
-    "svg.hashsalt": "catena", "svg.fonttype": "none", "figure.constrained_layout.use": True,
-    "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.3, "font.size": 10,
-    "axes.spines.top": False, "axes.spines.right": False,
-})  # fmt: skip
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
-
-BLUE, RED = "#0072b2", "#d55e00"  # told apart by everyone
 
 
 def folders(study):
@@ -131,8 +116,3 @@ def compare_methods(title, runs):
                   "to its end", "s", "error"], rows)  # fmt: skip
     print("Evaluations, processor time and error of Nelder-Mead, then of least squares on the same\n"
           "measure, stopped where it has that error or less, and to its end.")  # fmt: skip
-
-
-def save(figure, path):
-    figure.savefig(path, metadata={"Date": None})
-    plt.close(figure)

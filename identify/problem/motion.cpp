@@ -37,4 +37,52 @@ Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experimen
                          chosen.signals, keep_going);
 }
 
+SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment,
+                     const std::function<bool()>& keep_going) {
+  const Model& model = problem.model();
+  Experiment watched = problem.experiments()[static_cast<std::size_t>(experiment)];
+  const bool angles = watched.recording.channels.front().component == Component::kAngle;
+  watched.recording.points.clear();
+  watched.recording.channels.clear();
+  const auto watch = [&](PointSpec point) {
+    const auto index = static_cast<int>(watched.recording.points.size());
+    watched.recording.points.push_back(std::move(point));
+    if (angles) {
+      watched.recording.channels.push_back({index, Component::kAngle, ""});
+    } else {
+      watched.recording.channels.push_back({index, Component::kSide, ""});
+      watched.recording.channels.push_back({index, Component::kDown, ""});
+    }
+  };
+  for (int link = 1; link <= model.links(); ++link) {
+    PointSpec upper_end, lower_end;
+    upper_end.link = lower_end.joint = link;
+    watch(upper_end);
+    if (!angles) watch(lower_end);
+  }
+  PointSpec load;
+  load.load = true;
+  if (!angles) watch(load);
+  const Eigen::VectorXd parameters = problem.model_parameters(x, experiment);
+  const Eigen::MatrixXd reported =
+      predict_experiment(model, problem.the_case().simulation, watched, parameters,
+                         problem.initial_state(x, experiment), true, {}, keep_going)
+          .simulated;
+  SeenChain seen{watched.recording.time, {}, {}};
+  if (!angles) {
+    seen.side = reported(Eigen::seq(0, Eigen::last, 2), Eigen::all);
+    seen.down = reported(Eigen::seq(1, Eigen::last, 2), Eigen::all);
+    return seen;
+  }
+  const Eigen::VectorXd lengths =
+      parameters.segment(model.parameter_index("length_1"), model.links());
+  seen.side.setZero(model.links() + 1, reported.cols());
+  seen.down = seen.side;
+  for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+    seen.side.row(i + 1) = seen.side.row(i) + lengths[i] * reported.row(i).array().sin().matrix();
+    seen.down.row(i + 1) = seen.down.row(i) + lengths[i] * reported.row(i).array().cos().matrix();
+  }
+  return seen;
+}
+
 }  // namespace catena

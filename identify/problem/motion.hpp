@@ -16,6 +16,12 @@ struct Motion {
   Eigen::MatrixXd side, down;
 };
 
+/// A chain as the sensors of an experiment report it.
+struct SeenChain {
+  std::vector<double> time;    ///< s, of the frames
+  Eigen::MatrixXd side, down;  ///< m, points x frames
+};
+
 /// Simulates a model, energies included.
 ///
 /// `parameters`: the model's array. `initial`: the state at times[0]. `times`: s, increasing.
@@ -31,5 +37,13 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
 /// the experiment no start.
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
                  const std::function<bool()>& keep_going = {});
+
+/// What the sensors of one experiment (an index into problem.experiments()) report of the whole
+/// chain with the unknowns x: with their clock, tilt, scale, origin and offsets, to be laid over
+/// what was measured. Of markers: both ends of every link, then the load. Of angles: the chain of
+/// links with the angles reported, from the support. NaN where the simulation failed. Throws as
+/// motion_of.
+SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment,
+                     const std::function<bool()>& keep_going = {});
 
 }  // namespace catena

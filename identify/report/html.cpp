@@ -57,8 +57,7 @@ Html table(const std::string& caption, const std::vector<std::vector<Html>>& row
     body += element("tr", {}, cells);
   }
   return element(
-      "div",
-      {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}},
+      "div", {{"class", "table"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}},
       element("table", {},
               element("caption", {}, caption) + element("thead", {}, span("tr", {}, head)) +
                   element("tbody", {}, body)));

@@ -13,7 +13,7 @@ namespace catena::report {
 class Html {
  public:
   Html() = default;
-  Html(const std::string& text);  // NOLINT: text is a piece of a page, escaped
+  Html(const std::string& text);                       // NOLINT: text is a piece of a page, escaped
   Html(const char* text) : Html(std::string(text)) {}  // NOLINT
 
   /// Trusted markup as it is.

@@ -190,7 +190,7 @@ class Writer {
   static Channels measured_positions(const Experiment& experiment) {
     const Channels& values = experiment.measured->values;
     if (!values.side.empty()) return values;
-    const Channels& model = experiment.drawn();
+    const Channels& model = experiment.trajectory;
     if (model.side.size() < values.angle.size() + 1 || model.time.empty()) return {};
     if (values.angle.size() != model.angle.size()) return {};
     Channels chain;

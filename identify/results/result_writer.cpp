@@ -165,8 +165,8 @@ Json gap_json(const std::vector<Gap>& gaps, int experiment, const char* unit) {
   return {{"fit", rms(Part::kFit)}, {"validate", rms(Part::kValidation)}, {"unit", unit}};
 }
 
-Json experiments_json(const Problem& problem, const Evaluation* before, const Evaluation& after,
-                      const std::vector<Motion>& motions) {
+Json experiments_json(const Problem& problem, const Eigen::VectorXd& x, const Evaluation* before,
+                      const Evaluation& after, const std::vector<Motion>& motions) {
   const std::vector<Gap> gaps = gaps_of(problem, after);
   const std::vector<Gap> gaps_before = before ? gaps_of(problem, *before) : std::vector<Gap>{};
   Json out = Json::array();
@@ -179,6 +179,11 @@ Json experiments_json(const Problem& problem, const Evaluation* before, const Ev
     if (fitted > 0 && fitted < experiment.recording.time.size())
       json["fit_until"] = experiment.recording.time[fitted - 1];
     json.update(motion_json(problem, motions[e]));
+    if (problem.model().table().observes) {
+      const SeenChain seen = seen_chain(problem, x, static_cast<int>(e));
+      json["seen"] = {
+          {"time", numbers(seen.time)}, {"side", rows(seen.side)}, {"down", rows(seen.down)}};
+    }
     json["measured"] = measured_json(problem, experiment.recording);
     put_values(json["predicted"], experiment.recording, after.predictions[e].simulated);
     json["gap"] = gap_json(gaps, static_cast<int>(e), unit);
@@ -372,7 +377,7 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
                                    const Evaluation& evaluation,
                                    const std::vector<Motion>& motions) {
   Json json = head(problem, "simulate");
-  json["experiments"] = experiments_json(problem, nullptr, evaluation, motions);
+  json["experiments"] = experiments_json(problem, x, nullptr, evaluation, motions);
   json["measure"] = measure_json(problem, evaluation);
   json["parameters"] = parameters_json(problem, x);
   return text(json);
@@ -401,7 +406,8 @@ std::string identification_result_text(const Problem& problem, const Identificat
   json["status"] =
       found.fit.status == FitStatus::kConverged ? "success" : name_of(found.fit.status);
   json["message"] = found.fit.message;
-  json["experiments"] = experiments_json(problem, &found.before, found.after, found.motions);
+  json["experiments"] =
+      experiments_json(problem, found.fit.x, &found.before, found.after, found.motions);
   json["measure"] = measure_json(problem, found.after);
   json["parameters"] = parameters_json(problem, found.fit.x);
   json["optimiser"] = optimiser_json(problem, found.fit);

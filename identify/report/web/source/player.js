@@ -167,11 +167,11 @@ export class Player {
       drawn.push(cable(motion.before, nearest(motion.before.time, now), {stroke: strokeOf(2), 'stroke-width': 1.6, 'stroke-dasharray': '7 3'}));
     }
     drawn.push(cable(motion, frame, {stroke: strokeOf(1), 'stroke-width': 2.2}));
-    const joints = places(area, motion, frame);
+    const joints = places(area, motion, frame).filter((place) => place !== null);
     const small = joints.length > 30 ? 1.5 : 2.5;
     const dots = joints.map((at, k) => (k + 1 === joints.length && motion.loadMass > 0 ? markerPath(0, at, 6) : markerPath(0, at, small)));
-    drawn.push(svg('path', {d: dots.join(''), fill: strokeOf(1)}),
-        svg('rect', {x: joints[0][0] - 7, y: joints[0][1] - 4, width: 14, height: 4, fill: 'var(--ink)'}));
+    drawn.push(svg('path', {d: dots.join(''), fill: strokeOf(1)}));
+    if (joints.length > 0) drawn.push(svg('rect', {x: joints[0][0] - 7, y: joints[0][1] - 4, width: 14, height: 4, fill: 'var(--ink)'}));
     const {measured} = motion;
     const seen = measured ? nearest(measured.time, now) : null;
     // The frame nearest in time, unless it is further away than the recording's step.
