@@ -5,28 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "common/sha256.hpp"
-#include "description/formula.hpp"
+#include "identify/results/result_file.hpp"
 #include "identify/results/result_writer.hpp"
 
 namespace catena {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// null where there is no number: JSON knows neither NaN nor infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-template <class Range>
-Json numbers(const Range& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(number(value));
-  return out;
-}
 
 bool of_angles(const Diagnosis& d) {
   const auto& experiments = d.final.problem->the_case().experiments;
@@ -45,57 +29,49 @@ std::string model_name(const Stage& stage) {
   return name + fmt::format(", {} links", stage.links);
 }
 
-Json gap_json(const GapTest& fit, const GapTest& held_out, const std::string& unit) {
-  Json gap = {{"fit", number(fit.rms)},
-              {"validate", held_out.count > 0 ? number(held_out.rms) : Json(nullptr)},
-              {"unit", unit},
-              {"floor", number(fit.floor)},
-              {"misfit", number(fit.misfit)},
-              {"present", fit.present},
-              {"colour", number(fit.colour)},
-              {"size", number(fit.size)}};
-  return gap;
+/// Root mean square; NaN where nothing was held out.
+double rms_of(const GapTest& held_out) { return held_out.count > 0 ? held_out.rms : kNotGiven; }
+
+results::Gap gap_of(const GapTest& fit, const GapTest& held_out, const std::string& unit) {
+  return {fit.rms,    rms_of(held_out), unit,       fit.floor,
+          fit.misfit, fit.present,      fit.colour, fit.size};
 }
 
-Json candidate_json(const Explanation& explanation, const Workshop& workshop, int tried) {
-  Json json = {
-      {"id", explanation.id},
-      {"title", explanation.title},
-      {"kind", explanation.candidate < 0 ? "rival" : "effect"},
-      {"score", number(explanation.score.share)},
-      {"survives", number(explanation.score.survives)},
-      {"admissible", explanation.score.admissible},
-      {"significance",
-       number(std::pow(10, std::min(0.0, explanation.log10_p + std::log10(std::max(1, tried)))))},
-      {"note", explanation.note}};
-  Json& estimate = json["estimate"] = Json::object();
-  for (const auto& [name, value] : explanation.start) estimate[name] = number(value);
+results::Candidate candidate_of(const Explanation& explanation, const Workshop& workshop,
+                                int tried) {
+  const double log10_tried = std::log10(std::max(1, tried));
+  results::Candidate entry;
+  entry.id = explanation.id;
+  entry.title = explanation.title;
+  entry.kind = explanation.candidate < 0 ? "rival" : "effect";
+  entry.score = explanation.score.share;
+  entry.survives = explanation.score.survives;
+  entry.admissible = explanation.score.admissible;
+  entry.significance = std::pow(10, std::min(0.0, explanation.log10_p + log10_tried));
+  entry.note = explanation.note;
+  entry.estimate = explanation.start;
   if (explanation.refitted) {
-    Json& refit = json["refit"];
-    refit = {{"fit", number(explanation.fit.rms)},
-             {"validate",
-              explanation.held_out.count > 0 ? number(explanation.held_out.rms) : Json(nullptr)},
-             {"criterion", number(explanation.comparison.criterion)},
-             {"log10_p", number(explanation.comparison.log10_p + std::log10(std::max(1, tried)))},
-             {"misfit_share", number(explanation.comparison.misfit_share)},
-             {"colour", number(explanation.comparison.colour)}};
-    Json& found = refit["estimate"] = Json::object();
-    const Problem& problem = *explanation.model.problem;
-    for (std::size_t j = 0; j < problem.unknowns().size(); ++j)
-      if (problem.unknowns()[j].name.starts_with(explanation.id + "."))
-        found[problem.unknowns()[j].name] =
-            number(explanation.model.x[static_cast<Eigen::Index>(j)]);
+    results::Refit& refit = entry.refit.emplace();
+    refit.fit = explanation.fit.rms;
+    refit.validate = rms_of(explanation.held_out);
+    refit.criterion = explanation.comparison.criterion;
+    refit.log10_p = explanation.comparison.log10_p + log10_tried;
+    refit.misfit_share = explanation.comparison.misfit_share;
+    refit.autocorrelation = explanation.comparison.colour;
+    const auto& unknowns = explanation.model.problem->unknowns();
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      if (unknowns[j].name.starts_with(explanation.id + "."))
+        refit.estimate.emplace_back(unknowns[j].name,
+                                    explanation.model.x[static_cast<Eigen::Index>(j)]);
   }
   if (explanation.candidate >= 0) {
-    Json latex = Json::array(), mathml = Json::array();
-    for (const Formula& formula :
-         formulas(workshop.library()[static_cast<std::size_t>(explanation.candidate)].effect)) {
-      latex.push_back(formula.latex);
-      mathml.push_back(formula.mathml);
-    }
-    json["formulas"] = {{"latex", latex}, {"mathml", mathml}};
+    const Candidate& candidate =
+        workshop.library()[static_cast<std::size_t>(explanation.candidate)];
+    for (const CandidateParameter& parameter : candidate.parameters)
+      entry.units.emplace_back(parameter.name, parameter.unit);
+    entry.formulas = formula_entries(candidate.effect);
   }
-  return json;
+  return entry;
 }
 
 }  // namespace
@@ -185,129 +161,97 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   std::vector<std::pair<std::string, std::string>> files;
   const std::string unit = unit_of(d);
   const Case& the_case = d.stages.front().model.problem->the_case();
-  Json json;
-  json["format"] = 1;
-  json["kind"] = "diagnosis";
-  json["title"] = the_case.title;
-  json["versions"] = {{"catena", CATENA_VERSION}};
-  std::ifstream in(the_case.file, std::ios::binary);
-  std::ostringstream case_text;
-  case_text << in.rdbuf();
-  json["case"] = {{"file", the_case.file.filename().string()},
-                  {"text", case_text.str()},
-                  {"sha256", sha256_hex(case_text.str())}};
-  json["verdict"] = name_of(d.verdict);
-  json["sentence"] = d.sentence;
-  json["notes"] = d.notes;
-  json["floor"] = number(d.final_fit.floor);
-  json["unit"] = unit;
-  Json& noise = json["noise"] = Json::array();
+  const auto& experiments = d.final.problem->experiments();
+  results::Diagnosis result;
+  result.title = the_case.title;
+  result.versions = {{"catena", CATENA_VERSION}};
+  result.the_case = case_entry(the_case);
+  result.verdict = name_of(d.verdict);
+  result.sentence = d.sentence;
+  result.notes = d.notes;
+  result.noise = d.final_fit.floor;
+  result.unit = unit;
   for (std::size_t e = 0; e < d.noise.size(); ++e)
-    noise.push_back({{"experiment", d.final.problem->experiments()[e].spec.name},
-                     {"floor", number(d.floors[e])},
-                     {"coloured", d.noise[e].coloured}});
-  json["links"] = {{"given", d.stages.front().links}, {"used", d.stages.back().links}};
-  json["where"] = findings.places.words;
-  json["points"] = {{"name", findings.places.points}, {"rms", numbers(findings.places.point_rms)}};
+    result.experiment_noise.push_back({experiments[e].spec.name, d.floors[e], d.noise[e].coloured});
+  result.links = {d.stages.front().links, d.stages.back().links};
+  result.where = findings.places.words;
+  result.points.name = findings.places.points;
+  for (const double rms : findings.places.point_rms) result.points.rms.push_back(rms);
   if (findings.force.moment.size() > 0) {
-    Json rows = Json::array(), values = Json::array(), depends = Json::array();
+    results::MissingForce& force = result.missing_force.emplace();
+    force.experiment = experiments[static_cast<std::size_t>(findings.force.experiment)].spec.name;
+    for (const double time : findings.force.time) force.time.push_back(time);
+    force.unit = "N m";
     for (Eigen::Index i = 0; i < findings.force.moment.rows(); ++i) {
-      rows.push_back(fmt::format("joint {}", i + 1));
-      values.push_back(numbers(findings.force.moment.row(i)));
+      const auto moment = findings.force.moment.row(i);
+      force.rows.push_back(fmt::format("joint {}", i + 1));
+      force.value.emplace_back(moment.begin(), moment.end());
     }
+    force.noise = findings.force.noise;
+    force.resolution = findings.force.resolution;
     for (const auto& dependence : findings.force.dependence)
-      depends.push_back({{"on", dependence.on}, {"share", number(dependence.share)}});
-    json["missing_force"] = {
-        {"experiment",
-         d.final.problem->experiments()[static_cast<std::size_t>(findings.force.experiment)]
-             .spec.name},
-        {"time", numbers(findings.force.time)},
-        {"unit", "N m"},
-        {"rows", rows},
-        {"value", values},
-        {"noise", number(findings.force.noise)},
-        {"resolution", number(findings.force.resolution)},
-        {"depends", depends},
-        {"words", findings.force.words}};
+      force.depends.push_back({dependence.on, dependence.share});
+    force.words = findings.force.words;
   }
-  Json& rounds = json["rounds"] = Json::array();
   for (std::size_t s = 0; s < d.stages.size(); ++s) {
     const bool last = s + 1 == d.stages.size();
     const Stage& stage = d.stages[s];
-    Json round = {{"model", model_name(stage)},
-                  {"added", stage.added.empty() ? Json(nullptr) : Json(stage.added)},
-                  {"removed", stage.removed.empty() ? Json(nullptr) : Json(stage.removed)},
-                  {"links", stage.links},
-                  {"effects", stage.effects},
-                  {"gap", last ? gap_json(d.final_fit, d.final_held_out, unit)
-                               : gap_json(stage.fit, stage.held_out, unit)}};
+    results::Round& round = result.rounds.emplace_back();
+    round.model = model_name(stage);
+    round.added = stage.added;
+    round.removed = stage.removed;
+    round.links = stage.links;
+    round.effects = stage.effects;
+    round.gap = last ? gap_of(d.final_fit, d.final_held_out, unit)
+                     : gap_of(stage.fit, stage.held_out, unit);
+    round.result_file = fmt::format("round_{}/result.json", s);
     const FittedModel& model = last ? d.final : stage.model;
-    const std::string name = fmt::format("round_{}/result.json", s);
     std::vector<Motion> motions;
     for (std::size_t e = 0; e < model.problem->experiments().size(); ++e)
       motions.push_back(motion_of(*model.problem, model.x, static_cast<int>(e)));
     files.emplace_back(
-        name, comparison_result_text(*model.problem, model.x,
-                                     evaluate(*model.problem, model.x, true, false), motions));
-    round["result"] = name;
+        round.result_file,
+        comparison_result_text(*model.problem, model.x,
+                               evaluate(*model.problem, model.x, true, false), motions));
     if (stage.finer.links > 0)
-      round["finer_chain"] = {{"links", stage.finer.links},
-                              {"predicted_change", number(stage.finer.predicted)},
-                              {"refitted", stage.finer.refitted},
-                              {"taken", stage.finer.taken},
-                              {"note", stage.finer.note}};
-    Json& candidates = round["candidates"] = Json::array();
+      round.finer_chain = {stage.finer.links, stage.finer.predicted, stage.finer.refitted,
+                           stage.finer.taken, stage.finer.note};
     for (const Explanation& explanation : stage.explanations)
-      candidates.push_back(candidate_json(explanation, workshop, d.tried));
-    rounds.push_back(std::move(round));
+      round.candidates.push_back(candidate_of(explanation, workshop, d.tried));
   }
-  Json& effects = json["effects"] = Json::array();
   for (const std::string& id : d.effects) {
     const Candidate& candidate = *workshop.find(id);
-    Json formula = Json::array();
-    for (const Formula& each : formulas(candidate.effect))
-      formula.push_back({{"what", each.what}, {"latex", each.latex}, {"mathml", each.mathml}});
-    effects.push_back({{"id", id}, {"title", candidate.title}, {"formulas", formula}});
+    result.effects.push_back({id, candidate.title, "", formula_entries(candidate.effect)});
   }
-  Json& parameters = json["parameters"] = Json::array();
   for (const FinalParameter& parameter : d.parameters) {
     const double half = 1.96 * parameter.standard_error;
-    parameters.push_back(
-        {{"name", parameter.name},
-         {"unit", parameter.unit},
-         {"effect", parameter.effect.empty() ? Json(nullptr) : Json(parameter.effect)},
-         {"value", number(parameter.value)},
-         {"standard_error", number(parameter.standard_error)},
-         {"interval", {number(parameter.value - half), number(parameter.value + half)}}});
+    result.parameters.push_back(
+        {parameter.name, parameter.unit, parameter.effect, parameter.value,
+         parameter.standard_error,
+         results::Interval{parameter.value - half, parameter.value + half}});
   }
-  Json members = d.effects;
-  const auto others = [&](const std::vector<Alternative>& list, bool telling) {
-    Json out = Json::array();
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      Json entry = {{"id", list[i].explanation.id},
-                    {"instead_of", list[i].instead_of},
-                    {"fit", number(list[i].explanation.fit.rms)},
-                    {"validate", number(list[i].explanation.held_out.rms)},
-                    {"difference", number(list[i].decision.difference)},
-                    {"behind", number(list[i].decision.lead)}};
-      if (telling && i < findings.telling.size())
-        entry["experiment_that_tells"] = {{"words", findings.telling[i].words},
-                                          {"difference", number(findings.telling[i].difference)}};
-      out.push_back(std::move(entry));
-    }
-    return out;
+  const auto others = [](const std::vector<Alternative>& list) {
+    std::vector<results::OtherEffect> entries;
+    for (const Alternative& other : list)
+      entries.push_back({other.explanation.id, other.instead_of, other.explanation.fit.rms,
+                         other.explanation.held_out.rms, other.decision.difference,
+                         other.decision.lead, std::nullopt});
+    return entries;
   };
+  result.members = d.effects;
   for (const Alternative& alternative : d.alternatives)
-    members.push_back(alternative.explanation.id);
-  json["members"] = members;
-  json["undecided"] = others(d.alternatives, true);
-  json["forms"] = others(d.forms, false);
-  json["runners_up"] = others(d.runners_up, false);
-  if (!findings.telling.empty()) json["experiment_that_tells"] = findings.telling.front().words;
-  json["equality_at_neutral"] = number(d.equality);
-  json["candidates_tried"] = d.tried;
-  json["seconds"] = number(d.seconds);
-  files.emplace_back("diagnosis.json", json.dump(1) + "\n");
+    result.members.push_back(alternative.explanation.id);
+  result.undecided = others(d.alternatives);
+  for (std::size_t i = 0; i < std::min(result.undecided.size(), findings.telling.size()); ++i)
+    result.undecided[i].experiment_that_tells = {findings.telling[i].words,
+                                                 findings.telling[i].difference};
+  result.forms = others(d.forms);
+  result.runners_up = others(d.runners_up);
+  if (!findings.telling.empty()) result.experiment_that_tells = findings.telling.front().words;
+  result.equality_at_neutral = d.equality;
+  result.candidates_tried = d.tried;
+  result.seconds = d.seconds;
+  files.emplace_back("diagnosis.json", results::text_of(result));
   return files;
 }
 

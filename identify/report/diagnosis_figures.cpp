@@ -53,7 +53,7 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
                                     [](double value) { return !std::isnan(value); });
   if (held_out) figure.series.push_back(std::move(validate));
   figure.rules.push_back({false, 0, ""});
-  if (!std::isnan(diagnosis.floor)) figure.rules.push_back({false, 1e3 * diagnosis.floor, "noise"});
+  if (!std::isnan(diagnosis.noise)) figure.rules.push_back({false, 1e3 * diagnosis.noise, "noise"});
   add(figures, "gap", std::move(figure));
 }
 

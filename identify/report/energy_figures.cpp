@@ -15,9 +15,9 @@ std::string readable(std::string name) {
 }
 
 /// Stored plus dissipated minus supplied, less the same at the start: zero but for the integrator.
-Row imbalance(const Experiment& experiment) {
-  Row sum(experiment.energy_time.size(), 0.0);
-  for (const EnergyItem& item : experiment.energy) {
+Row imbalance(const Energy& energy) {
+  Row sum(energy.time.size(), 0.0);
+  for (const EnergyItem& item : energy.items) {
     const double sign = item.kind == "supplied" ? -1 : 1;
     for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += sign * item.value[t];
   }
@@ -29,7 +29,8 @@ Row imbalance(const Experiment& experiment) {
 }  // namespace
 
 void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>& figures) {
-  if (experiment.energy.empty()) return;
+  if (!experiment.energy) return;
+  const Energy& energy = *experiment.energy;
   const auto add = [&](const std::string& family, Figure figure) {
     figures.push_back({std::move(figure), "energy", family, experiment.name, "", ""});
   };
@@ -40,9 +41,9 @@ void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>&
       "(supplied) since.";
   figure.x = {"time", "s"};
   figure.y = {"energy", "J"};
-  Row stored(experiment.energy_time.size(), 0.0);
+  Row stored(energy.time.size(), 0.0);
   int colour = 1;
-  for (const EnergyItem& item : experiment.energy) {
+  for (const EnergyItem& item : energy.items) {
     const bool is_stored = item.kind == "stored";
     Row value = item.value;
     const double start = is_stored && !value.empty() ? value.front() : 0;
@@ -53,9 +54,9 @@ void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>&
     const bool nothing = std::all_of(value.begin(), value.end(), [](double v) { return v == 0; });
     if (nothing) continue;
     figure.series.push_back({readable(item.name) + (is_stored ? "" : " (" + item.kind + ")"),
-                             experiment.energy_time, std::move(value), Mark::kLine, colour++});
+                             energy.time, std::move(value), Mark::kLine, colour++});
   }
-  figure.series.push_back({"all stored", experiment.energy_time, stored, Mark::kLine, 0});
+  figure.series.push_back({"all stored", energy.time, stored, Mark::kLine, 0});
   add("energy", std::move(figure));
 
   Figure balance;
@@ -63,8 +64,7 @@ void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>&
   balance.caption = "Stored plus dissipated minus supplied, less its value at the start.";
   balance.x = {"time", "s"};
   balance.y = {"imbalance", "J"};
-  balance.series.push_back(
-      {"imbalance", experiment.energy_time, imbalance(experiment), Mark::kLine, 1});
+  balance.series.push_back({"imbalance", energy.time, imbalance(energy), Mark::kLine, 1});
   add("energy_balance", std::move(balance));
 }
 

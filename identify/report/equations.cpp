@@ -21,7 +21,7 @@ bool is_built_in(const std::string& id) {
 EquationGroup formulas_of(const EffectEntry& entry) {
   EquationGroup group{entry.title.empty() ? entry.id : entry.title, {}};
   if (!entry.formulas.empty()) {
-    group.equations = entry.formulas;
+    group.formulas = entry.formulas;
     return group;
   }
   if (entry.text.empty() && !is_built_in(entry.id)) return group;
@@ -29,9 +29,8 @@ EquationGroup formulas_of(const EffectEntry& entry) {
       entry.text.empty() ? built_in_effect(entry.id)
                          : read_effect(TomlTable::parse(entry.text, entry.id + ".toml", "effect"));
   group.heading = effect.title;
-  for (const Formula& formula : formulas(effect)) {
-    group.equations.push_back({formula.what, formula.mathml, formula.latex});
-  }
+  for (const catena::Formula& formula : formulas(effect))
+    group.formulas.push_back({formula.what, formula.latex, formula.mathml});
   return group;
 }
 

@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "identify/results/result_file.hpp"
+#include "identify/results/result.hpp"
 
 namespace catena::report {
+
+using namespace results;
 
 /// Formulas under one heading.
 struct EquationGroup {
   std::string heading;
-  std::vector<Equation> equations;
+  std::vector<Formula> formulas;
 };
 
 /// What an effect adds to the equations: as the result says, else from the effect's text, else from

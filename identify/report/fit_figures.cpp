@@ -46,30 +46,28 @@ std::vector<const Parameter*> free_parameters(const Result& result) {
 }
 
 void add_history(const Result& result, std::vector<ReportFigure>& figures) {
-  if (result.history_step.empty()) return;
+  if (!result.optimiser || result.optimiser->history.step.empty()) return;
+  const History& history = result.optimiser->history;
+  const std::string unit = result.measure ? result.measure->unit : "";
   Figure figure;
   figure.title = "Error against step of the optimiser";
   figure.x = {"step", "1"};
-  figure.y = {result.measure.empty() ? "error" : result.measure, result.measure_unit,
-              spans_decade(result.history_error)};
+  figure.y = {result.measure ? result.measure->name : "error", unit, spans_decade(history.error)};
   std::replace(figure.y.label.begin(), figure.y.label.end(), '_', ' ');
-  const Row least = running_least(result.history_error);
-  if (least != result.history_error) {
-    figure.series.push_back(
-        {"this step", result.history_step, result.history_error, Mark::kPoints, 1});
+  const Row least = running_least(history.error);
+  if (least != history.error) {
+    figure.series.push_back({"this step", history.step, history.error, Mark::kPoints, 1});
   }
-  figure.series.push_back({"best so far", result.history_step, least, Mark::kLine, 0});
+  figure.series.push_back({"best so far", history.step, least, Mark::kLine, 0});
   add(figures, "error_by_step", std::move(figure));
 
   const auto free = free_parameters(result);
-  for (std::size_t k = 0; k < std::min(free.size(), result.history_parameters.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(free.size(), history.parameters.size()); ++k) {
     Figure path;
     path.title = fmt::format("{} against step of the optimiser", free[k]->name);
     path.x = {"step", "1"};
-    path.y = {free[k]->name, readable_unit(free[k]->unit),
-              spans_decade(result.history_parameters[k])};
-    path.series.push_back(
-        {free[k]->name, result.history_step, result.history_parameters[k], Mark::kLine, 1});
+    path.y = {free[k]->name, readable_unit(free[k]->unit), spans_decade(history.parameters[k])};
+    path.series.push_back({free[k]->name, history.step, history.parameters[k], Mark::kLine, 1});
     add(figures, "parameter_by_step", std::move(path), free[k]->name);
   }
 }
@@ -96,7 +94,7 @@ void add_waterfall(const Result& result, std::vector<ReportFigure>& figures) {
       result.starts.size(),
       failed == 0 ? "" : fmt::format(", {} failed and are not shown", failed));
   figure.x = {"rank of the start", "1"};
-  figure.y = {"error", result.measure_unit, spans_decade(errors)};
+  figure.y = {"error", result.measure ? result.measure->unit : "", spans_decade(errors)};
   figure.series.push_back({"starts", rank, errors, Mark::kLineWithPoints, 1});
   add(figures, "waterfall", std::move(figure));
 }
@@ -160,7 +158,7 @@ void add_links_study(const Result& result, std::vector<ReportFigure>& figures) {
   Figure figure;
   figure.title = "Error against number of links";
   figure.x = {"links", "1", true};
-  figure.y = {"error", result.measure_unit, spans_decade(errors)};
+  figure.y = {"error", result.measure ? result.measure->unit : "", spans_decade(errors)};
   figure.series.push_back({"refitted", links, errors, Mark::kLineWithPoints, 1});
   add(figures, "error_by_links", std::move(figure));
 }

@@ -231,7 +231,8 @@ std::string payload(const Document& document, const std::vector<ReportFigure>& f
   ordered_json motions = ordered_json::array();
   for (const Experiment& experiment : document.result.experiments) {
     if (experiment.drawn().time.empty() || experiment.drawn().side.empty()) continue;
-    motions.push_back(writer.motion(experiment, document.result.load_mass));
+    motions.push_back(
+        writer.motion(experiment, document.result.model ? document.result.model->load_mass : 0));
     if (const Experiment* before = baseline_of(document, experiment.name)) {
       motions.back()["before"] = writer.before(*before);
     }

@@ -9,6 +9,8 @@
 
 namespace catena::report {
 
+using namespace results;
+
 /// The report's data as JSON, for the script of the HTML report and for other programs:
 ///
 ///     {"format": 1, "kind": "report", "title": ..., "command": ...,

@@ -26,11 +26,14 @@ std::string parameters_csv(const Result& result) {
   std::string text =
       "name,value,unit,free,standard_error,low_95,high_95,start,lower,upper,verdict,sets\n";
   for (const Parameter& p : result.parameters) {
-    const auto end = [&](double value) { return p.has_interval ? csv_field(value) : ""; };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(p.name),
-                        csv_field(p.value), csv_field(p.unit), p.free, csv_field(p.standard_error),
-                        end(p.low), end(p.high), csv_field(p.start), csv_field(p.lower),
-                        csv_field(p.upper), csv_field(p.verdict), csv_field(p.sets));
+    const auto end = [&](double Interval::*at) {
+      return p.interval ? csv_field((*p.interval).*at) : "";
+    };
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(p.name), csv_field(p.value),
+                    csv_field(p.unit), p.free, csv_field(p.standard_error), end(&Interval::low),
+                    end(&Interval::high), csv_field(p.start), csv_field(p.lower),
+                    csv_field(p.upper), csv_field(p.verdict), csv_field(p.sets));
   }
   return text;
 }

@@ -9,6 +9,8 @@
 
 namespace catena::report {
 
+using namespace results;
+
 /// Where to write; empty: not at all.
 struct ReportFiles {
   std::filesystem::path html;  ///< one self-contained file

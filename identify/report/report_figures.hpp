@@ -9,6 +9,8 @@
 
 namespace catena::report {
 
+using namespace results;
+
 /// A figure and its place in the report. Figures of one family are shown in one frame, a reader
 /// choosing experiment and variant; the figures of a family follow one another.
 struct ReportFigure {

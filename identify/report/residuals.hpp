@@ -7,6 +7,8 @@
 
 namespace catena::report {
 
+using namespace results;
+
 /// Measured minus predicted at the measured times, in mm, or mrad for angles; NaN where a point was
 /// not seen.
 struct Residuals {

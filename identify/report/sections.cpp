@@ -41,24 +41,21 @@ Html experiments_table(const Result& result) {
   const bool measured = std::any_of(experiments.begin(), experiments.end(),
                                     [](const Experiment& e) { return e.measured.has_value(); });
   if (!measured) return {};
-  const bool before = std::any_of(experiments.begin(), experiments.end(), [](const Experiment& e) {
-    return !std::isnan(e.gap_before.fit) || !std::isnan(e.gap_before.validate);
-  });
-  const bool floor = std::any_of(experiments.begin(), experiments.end(),
-                                 [](const Experiment& e) { return !std::isnan(e.gap.floor); });
+  const bool before = std::any_of(experiments.begin(), experiments.end(),
+                                  [](const Experiment& e) { return e.gap_before.has_value(); });
   Cells heading = {"Experiment", "Used to", "Gap, fitted part", "Gap, held out"};
   if (before) {
     heading.insert(heading.end(), {"Fitted part, at the start", "Held out, at the start"});
   }
-  if (floor) heading.emplace_back("Noise");
   std::vector<Cells> rows = {heading};
   for (const Experiment& e : experiments) {
-    Cells row = {e.name, e.use, length(e.gap.fit, e.gap.unit), length(e.gap.validate, e.gap.unit)};
-    if (before) {
-      row.push_back(length(e.gap_before.fit, e.gap_before.unit));
-      row.push_back(length(e.gap_before.validate, e.gap_before.unit));
-    }
-    if (floor) row.push_back(length(e.gap.floor, e.gap.unit));
+    Cells row = {e.name, e.use};
+    const auto put = [&](const Gap& gap) {
+      row.push_back(length(gap.fit, gap.unit));
+      row.push_back(length(gap.validate, gap.unit));
+    };
+    put(e.gap.value_or(Gap()));
+    if (before) put(e.gap_before.value_or(Gap()));
     rows.push_back(std::move(row));
   }
   return table("Root mean square of the residuals, by experiment", rows);
@@ -73,9 +70,9 @@ Html warnings(const Result& result) {
 }
 
 std::string interval(const Parameter& parameter) {
-  if (!parameter.has_interval) return "–";
-  return fmt::format("{}\u00a0…\u00a0{}", for_people(parameter.low, 5),
-                     for_people(parameter.high, 5));
+  if (!parameter.interval) return "–";
+  return fmt::format("{}\u00a0…\u00a0{}", for_people(parameter.interval->low, 5),
+                     for_people(parameter.interval->high, 5));
 }
 
 /// A probability of which the decimal logarithm is given; it may be too small for a number.
@@ -88,10 +85,14 @@ Html chance(double log10_p) {
 
 std::string estimates(const Candidate& candidate) {
   std::vector<std::string> parts;
-  for (const auto& [name, value] : candidate.estimate) {
+  for (const auto& [name, value] : candidate.refit && !candidate.refit->estimate.empty()
+                                       ? candidate.refit->estimate
+                                       : candidate.estimate) {
     const bool own = name.starts_with(candidate.id + ".");
     parts.push_back(fmt::format("{} = {}", own ? name.substr(candidate.id.size() + 1) : name,
                                 for_people(value)));
+    for (const auto& [named, unit] : candidate.units)
+      if (named == name && unit != "1") parts.back() += "\u00a0" + readable_unit(unit);
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -105,10 +106,11 @@ Html candidates_table(const Round& round, const std::string& unit) {
   std::vector<Cells> rows = {{"Effect", "Score", "Chance", "Survives", "Estimate", "Refit, fitted",
                               "Refit, held out", "Chance, refit", "Note"}};
   for (const Candidate& c : candidates) {
+    const Refit refit = c.refit.value_or(Refit());
     const std::string note = !c.admissible && c.note.empty() ? "not admissible" : c.note;
     rows.push_back({c.title.empty() ? c.id : c.title, percent(c.score),
                     chance(std::log10(c.significance)), percent(c.survives), estimates(c),
-                    length(c.refit_fit, unit), length(c.refit_validate, unit), chance(c.log10_p),
+                    length(refit.fit, unit), length(refit.validate, unit), chance(refit.log10_p),
                     note});
   }
   return table(
@@ -119,16 +121,16 @@ Html candidates_table(const Round& round, const std::string& unit) {
 }
 
 /// LaTeX, which the script typesets.
-Html formula_html(const Equation& equation) {
+Html formula_html(const std::string& title, const std::string& latex) {
   Html html;
-  if (!equation.title.empty()) html += element("p", {}, equation.title + ":");
-  return html + element("div", {{"class", "latex scrolls"}, {"tabindex", "0"}}, equation.latex);
+  if (!title.empty()) html += element("p", {}, title + ":");
+  return html + element("div", {{"class", "latex scrolls"}, {"tabindex", "0"}}, latex);
 }
 
 Html group_html(const EquationGroup& group) {
   Html html;
-  for (const Equation& equation : group.equations)
-    if (!equation.latex.empty()) html += formula_html(equation);
+  for (const Formula& formula : group.formulas)
+    if (!formula.latex.empty()) html += formula_html(formula.what, formula.latex);
   return html.empty() ? html : element("h3", {}, group.heading) + html;
 }
 
@@ -167,11 +169,12 @@ Html undecided_html(const Diagnosis& diagnosis) {
                         diagnosis.undecided);
   std::vector<std::string> experiments;
   for (const OtherEffect& other : diagnosis.undecided) {
-    if (other.experiment_that_tells.empty()) continue;
-    experiments.push_back(title_of(diagnosis, other.id) + ": " + other.experiment_that_tells);
-    if (!std::isnan(other.difference_there))
+    if (!other.experiment_that_tells || other.experiment_that_tells->words.empty()) continue;
+    const TellingExperiment& telling = *other.experiment_that_tells;
+    experiments.push_back(title_of(diagnosis, other.id) + ": " + telling.words);
+    if (!std::isnan(telling.difference))
       experiments.back() += fmt::format("; the predictions differ by {} times the noise there",
-                                        for_people(other.difference_there, 3));
+                                        for_people(telling.difference, 3));
   }
   if (experiments.empty() && !diagnosis.experiment_that_tells.empty())
     experiments.push_back(diagnosis.experiment_that_tells);
@@ -186,14 +189,14 @@ Html undecided_html(const Diagnosis& diagnosis) {
 
 /// How many links were needed, and what more of them would change.
 Html links_html(const Diagnosis& diagnosis) {
-  if (diagnosis.links_used == 0) return {};
-  const bool more = diagnosis.links_used != diagnosis.links_given;
-  Html html = element("h3", {}, "Links") +
-              element("p", {},
-                      more ? fmt::format("The case has {} links; the final model has {}.",
-                                         diagnosis.links_given, diagnosis.links_used)
-                           : fmt::format("The case's {} links are those of the final model.",
-                                         diagnosis.links_given));
+  if (!diagnosis.links) return {};
+  const auto& [given, used] = *diagnosis.links;
+  Html html =
+      element("h3", {}, "Links") +
+      element("p", {},
+              used != given
+                  ? fmt::format("The case has {} links; the final model has {}.", given, used)
+                  : fmt::format("The case's {} links are those of the final model.", given));
   std::vector<Cells> rows = {
       {"Asked of", "Links", "Change of the prediction", "Refitted", "Taken", "Note"}};
   for (const Round& round : diagnosis.rounds) {
@@ -241,28 +244,24 @@ Html summary_section(const Document& document) {
   if (!result.message.empty()) html += element("p", {}, result.message);
   Facts facts;
   if (!result.status.empty()) facts.emplace_back("Status", spaced(result.status));
-  if (result.links > 0) facts.emplace_back("Links", std::to_string(result.links));
-  if (!std::isnan(result.load_mass)) {
-    facts.emplace_back("Load", for_people(result.load_mass) + " kg");
-  }
-  if (!std::isnan(result.measure_value)) {
-    facts.emplace_back(result.measure.empty() ? "Error" : "Error, " + spaced(result.measure),
-                       length(result.measure_value, result.measure_unit));
-  }
-  if (!std::isnan(result.measure_validation)) {
-    facts.emplace_back("The same, held out",
-                       length(result.measure_validation, result.measure_unit));
-  }
+  if (result.model && result.model->links > 0)
+    facts.emplace_back("Links", std::to_string(result.model->links));
+  if (result.model && !std::isnan(result.model->load_mass))
+    facts.emplace_back("Load", for_people(result.model->load_mass) + " kg");
+  const Measure measure = result.measure.value_or(Measure());
+  if (!std::isnan(measure.value))
+    facts.emplace_back("Error, " + spaced(measure.name), length(measure.value, measure.unit));
+  if (!std::isnan(measure.validation))
+    facts.emplace_back("The same, held out", length(measure.validation, measure.unit));
   html += definitions(facts);
   html += experiments_table(result);
   html += warnings(result);
-  if (!result.measure_parts.empty()) {
+  if (!measure.parts.empty()) {
     std::vector<Cells> rows = {{"Part", "Value"}};
-    for (const auto& [name, value] : result.measure_parts) {
-      rows.push_back({name, length(value, result.measure_unit)});
-    }
+    for (const MeasurePart& part : measure.parts)
+      rows.push_back({part.name, length(part.value, measure.unit)});
     html += disclosed("Error by parts", table("The error and its parts", rows),
-                      result.measure_parts.size() <= 8);
+                      measure.parts.size() <= 8);
   }
   return html;
 }
@@ -329,16 +328,28 @@ Html parameters_section(const Result& result) {
 
 Html fit_section(const Result& result) {
   Facts facts;
-  for (const auto& [name, value] : result.optimiser)
-    if (!value.empty()) facts.emplace_back(spaced(name), spaced(value));
+  if (result.optimiser) {
+    const Optimiser& optimiser = *result.optimiser;
+    const std::string unit = result.measure ? result.measure->unit : "";
+    for (const auto& [name, words] :
+         {std::pair("Method", &optimiser.method), std::pair("Strategy", &optimiser.strategy),
+          std::pair("Status", &optimiser.status), std::pair("Message", &optimiser.message)})
+      if (!words->empty()) facts.emplace_back(name, spaced(*words));
+    facts.emplace_back("Evaluations", std::to_string(optimiser.evaluations));
+    facts.emplace_back("Simulations worth", for_people(optimiser.simulations_worth));
+    facts.emplace_back("Failures", std::to_string(optimiser.failures));
+    facts.emplace_back("Seed", std::to_string(optimiser.seed));
+    facts.emplace_back("Error at the start", length(optimiser.start_error, unit));
+    facts.emplace_back("Error", length(optimiser.error, unit));
+  }
   Html html = definitions(facts);
   if (!result.links_study.empty()) {
-    std::vector<Cells> rows = {{"Links", "Error", "Gap", "Time"}};
-    for (const LinksRow& row : result.links_study) {
-      rows.push_back({std::to_string(row.links), length(row.error, result.measure_unit),
-                      length(row.gap, result.measure_unit),
-                      std::isnan(row.seconds) ? "–" : for_people(row.seconds, 3) + " s"});
-    }
+    std::vector<Cells> rows = {{"Links", "Error", "Error, held out", "Evaluations", "Status"}};
+    const std::string unit = result.measure ? result.measure->unit : "";
+    for (const LinksRow& row : result.links_study)
+      rows.push_back({std::to_string(row.links), length(row.error, unit),
+                      length(row.validation_error, unit), std::to_string(row.evaluations),
+                      spaced(row.status)});
     html += table("Refitted with other numbers of links", rows);
   }
   return html;
@@ -357,18 +368,16 @@ Html diagnosis_section(const Diagnosis& diagnosis) {
     if (!round.added.empty() && !said && round.added != kTooFewLinks) name += " + " + round.added;
     if (!round.removed.empty() && round.removed != kTooFewLinks)
       name += ", no longer " + round.removed;
-    const double noise = std::isnan(round.gap.floor) ? diagnosis.floor : round.gap.floor;
+    const double noise = std::isnan(round.gap.noise) ? diagnosis.noise : round.gap.noise;
     rows.push_back({name, round.links > 0 ? std::to_string(round.links) : "–",
                     length(round.gap.fit, diagnosis.unit),
                     length(round.gap.validate, diagnosis.unit),
                     for_people(round.gap.fit / noise, 3)});
   }
   if (rows.size() > 1) {
-    const std::string floor =
-        std::isnan(diagnosis.floor)
-            ? ""
-            : fmt::format("; noise {}", length(diagnosis.floor, diagnosis.unit));
-    html += table("Gap, round by round" + floor, rows);
+    const std::string level =
+        std::isnan(diagnosis.noise) ? "" : "; noise " + length(diagnosis.noise, diagnosis.unit);
+    html += table("Gap, round by round" + level, rows);
   }
   html += links_html(diagnosis);
   html += members_html(diagnosis);
@@ -399,35 +408,38 @@ Html equations_section(const Result& result) {
                                                          {"role", "region"},
                                                          {"aria-label", "Equations of the chain"}},
                                                         Html::markup(asset_chain_equations()));
-  for (const EffectEntry& effect : result.effects) html += group_html(formulas_of(effect));
-  if (result.derived.empty()) return html;
+  if (!result.model) return html;
+  const ModelEntry& model = *result.model;
+  for (const EffectEntry& effect : model.effects) html += group_html(formulas_of(effect));
+  if (!model.derived) return html;
   Html derived;
-  for (const Equation& equation : result.derived) derived += formula_html(equation);
+  for (const DerivedEquation& equation : model.derived->equations)
+    derived += formula_html(equation.title, equation.latex);
   return html + disclosed(fmt::format("As derived from the Lagrangian{}, with {} link{}",
-                                      result.effects.empty() ? "" : " and the effects",
-                                      result.derived_links, result.derived_links == 1 ? "" : "s"),
+                                      model.effects.empty() ? "" : " and the effects",
+                                      model.derived->links, model.derived->links == 1 ? "" : "s"),
                           derived, true);
 }
 
 Html provenance_section(const Result& result) {
   Facts facts;
   for (const auto& [name, value] : result.versions) facts.emplace_back(name, value);
-  if (!result.description_hash.empty())
-    facts.emplace_back("model",
-                       Html(fmt::format("{}, {} links, SHA-256 ", result.model_id, result.links)) +
-                           span("code", {}, result.description_hash));
+  const ModelEntry model = result.model.value_or(ModelEntry());
+  if (!model.description_hash.empty())
+    facts.emplace_back("model", Html(fmt::format("{}, {} links, SHA-256 ", model.id, model.links)) +
+                                    span("code", {}, model.description_hash));
   Html html = definitions(facts);
   const auto code = [](const std::string& text) {
     return element("pre", {{"tabindex", "0"}}, span("code", {}, text));
   };
-  if (!result.case_text.empty())
-    html += disclosed("Case " + result.case_file, code(result.case_text), true);
-  if (!result.description.empty())
-    html += disclosed("Model description", code(result.description), false);
+  if (result.the_case)
+    html += disclosed("Case " + result.the_case->file, code(result.the_case->text), true);
+  if (!model.description.empty())
+    html += disclosed("Model description", code(model.description), false);
   for (const Experiment& experiment : result.experiments) {
     Facts numbers;
-    for (const auto& [name, value] : experiment.statistics)
-      numbers.emplace_back(spaced(name), value);
+    for (const auto& [name, count] : experiment.statistics)
+      numbers.emplace_back(spaced(name), std::to_string(count));
     if (!numbers.empty())
       html += disclosed("Integration of " + experiment.name, definitions(numbers), false);
   }

@@ -7,6 +7,8 @@
 /// The sections of the page that are words and tables. Each is empty where there is nothing to say.
 namespace catena::report {
 
+using namespace results;
+
 Html summary_section(const Document& document);
 /// Mean sizes of the residuals of every point, over all frames.
 Html residuals_section(const Result& result);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "common/sha256.hpp"
@@ -12,119 +11,85 @@
 #include "description/formula.hpp"
 #include "identify/cases/case_words.hpp"
 #include "identify/models/model_provider.hpp"
+#include "identify/results/result_file.hpp"
 #include "identify/uncertainty/profile.hpp"
 
 namespace catena {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// null where there is no number: JSON knows neither NaN nor infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 template <class Range>
-Json numbers(const Range& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(number(value));
-  return out;
+results::Row row_of(const Range& values) {
+  return results::Row(values.begin(), values.end());
 }
 
-/// One array per row.
-Json rows(const Eigen::MatrixXd& matrix) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) out.push_back(numbers(matrix.row(i)));
-  return out;
+results::Rows rows_of(const Eigen::MatrixXd& matrix) {
+  results::Rows rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back(row_of(matrix.row(i)));
+  return rows;
 }
 
-std::string text_of(const std::filesystem::path& file) {
+std::string contents_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
 }
 
-Json head(const Problem& problem, const char* command) {
+/// Everything about the case and its model.
+results::Result result_for(const Problem& problem, const char* command) {
   const Case& the_case = problem.the_case();
-  const std::string text = text_of(the_case.file);
-  Json json;
-  json["format"] = 1;
-  json["kind"] = "result";
-  json["command"] = command;
-  json["title"] = the_case.title;
-  json["status"] = "success";
-  json["message"] = "";
-  json["versions"] = {{"catena", CATENA_VERSION}};
-  json["case"] = {
-      {"file", the_case.file.filename().string()}, {"text", text}, {"sha256", sha256_hex(text)}};
-  Json& model = json["model"];
-  model["id"] = problem.model().table().id;
-  model["links"] = problem.model().links();
-  model["description_hash"] = problem.model().table().description_hash;
-  model["load_mass"] = the_case.cable.load_mass;
+  results::Result result;
+  result.command = command;
+  result.title = the_case.title;
+  result.status = "success";
+  result.versions = {{"catena", CATENA_VERSION}};
+  result.the_case = case_entry(the_case);
+  results::ModelEntry& model = result.model.emplace();
+  model.id = problem.model().table().id;
+  model.links = problem.model().links();
+  model.description_hash = problem.model().table().description_hash;
+  model.load_mass = the_case.cable.load_mass;
   const std::string derived = derived_equations(the_case.description, problem.model().links());
-  if (!derived.empty()) model["derived"] = Json::parse(derived);
-  model["effects"] = Json::array();
+  if (!derived.empty()) model.derived = results::read_derived(derived);
   if (!the_case.description.empty()) {
-    model["description"] = text_of(the_case.description);
-    for (const Effect& effect : read_description(the_case.description).effects) {
-      Json formulas_of = Json::array();
-      for (const Formula& formula : formulas(effect))
-        formulas_of.push_back(
-            {{"what", formula.what}, {"latex", formula.latex}, {"mathml", formula.mathml}});
-      model["effects"].push_back(
-          {{"id", effect.id}, {"title", effect.title}, {"formulas", formulas_of}});
+    model.description = contents_of(the_case.description);
+    for (const Effect& effect : read_description(the_case.description).effects)
+      model.effects.push_back({effect.id, effect.title, "", formula_entries(effect)});
+  }
+  return result;
+}
+
+void put_motion(results::Experiment& experiment, const Problem& problem, const Motion& motion) {
+  const Simulation& simulation = motion.simulation;
+  const Trajectory& path = simulation.trajectory;
+  experiment.trajectory = {path.time, rows_of(motion.side), rows_of(motion.down),
+                           rows_of(path.q.topRows(problem.model().links()))};
+  if (path.energy.size()) {
+    static const char* const kKinds[] = {"stored", "dissipated", "supplied"};
+    results::Energy& energy = experiment.energy.emplace();
+    energy.time = path.time;
+    energy.imbalance = simulation.energy_imbalance;
+    for (int i = 0; i < problem.model().energies(); ++i) {
+      const auto& item = problem.model().table().energy_item[i];
+      energy.items.push_back({item.name, kKinds[item.kind], row_of(path.energy.row(i))});
     }
   }
-  return json;
-}
-
-Json energy_of(const Model& model, const Simulation& simulation) {
-  static const char* const kKinds[] = {"stored", "dissipated", "supplied"};
-  Json items = Json::array();
-  for (int i = 0; i < model.energies(); ++i)
-    items.push_back({{"name", model.table().energy_item[i].name},
-                     {"kind", kKinds[model.table().energy_item[i].kind]},
-                     {"value", numbers(simulation.trajectory.energy.row(i))}});
-  return {{"time", numbers(simulation.trajectory.time)},
-          {"items", items},
-          {"imbalance", number(simulation.energy_imbalance)}};
-}
-
-Json motion_json(const Problem& problem, const Motion& motion) {
-  const Simulation& simulation = motion.simulation;
-  Json json;
-  json["trajectory"] = {{"time", numbers(simulation.trajectory.time)},
-                        {"side", rows(motion.side)},
-                        {"down", rows(motion.down)},
-                        {"angle", rows(simulation.trajectory.q.topRows(problem.model().links()))}};
-  if (simulation.trajectory.energy.size()) json["energy"] = energy_of(problem.model(), simulation);
   const Statistics& statistics = simulation.statistics;
-  json["statistics"] = {{"steps", statistics.steps},
-                        {"residual_evaluations", statistics.residual_evaluations},
-                        {"jacobian_evaluations", statistics.jacobian_evaluations},
-                        {"newton_iterations", statistics.newton_iterations},
-                        {"error_test_failures", statistics.error_test_failures},
-                        {"newton_failures", statistics.newton_failures}};
-  return json;
+  experiment.statistics = {{"steps", statistics.steps},
+                           {"residual_evaluations", statistics.residual_evaluations},
+                           {"jacobian_evaluations", statistics.jacobian_evaluations},
+                           {"newton_iterations", statistics.newton_iterations},
+                           {"error_test_failures", statistics.error_test_failures},
+                           {"newton_failures", statistics.newton_failures}};
 }
 
-/// Rows of one component, one per point.
-Json component_rows(const Recording& recording, const Eigen::MatrixXd& values,
-                    Component component) {
-  Json out = Json::array();
+/// Values of a recording's channels: rows for each component, one per point.
+void put_values(results::Channels& channels, const Recording& recording,
+                const Eigen::MatrixXd& values) {
+  results::Rows* const rows[] = {&channels.side, &channels.down, &channels.angle};
   for (std::size_t c = 0; c < recording.channels.size(); ++c)
-    if (recording.channels[c].component == component)
-      out.push_back(numbers(values.row(static_cast<Eigen::Index>(c))));
-  return out;
-}
-
-void put_values(Json& json, const Recording& recording, const Eigen::MatrixXd& values) {
-  if (recording.channels.front().component == Component::kAngle) {
-    json["angle"] = component_rows(recording, values, Component::kAngle);
-  } else {
-    json["side"] = component_rows(recording, values, Component::kSide);
-    json["down"] = component_rows(recording, values, Component::kDown);
-  }
+    rows[static_cast<int>(recording.channels[c].component)]->push_back(
+        row_of(values.row(static_cast<Eigen::Index>(c))));
 }
 
 double arc_of(const Problem& problem, const PointSpec& point) {
@@ -135,69 +100,62 @@ double arc_of(const Problem& problem, const PointSpec& point) {
   return point.joint ? lengths.head(point.joint).sum() : lengths.sum();
 }
 
-Json measured_json(const Problem& problem, const Recording& recording) {
+results::Measured measured_of(const Problem& problem, const Recording& recording,
+                              const Eigen::MatrixXd& predicted) {
   const bool angles = recording.channels.front().component == Component::kAngle;
-  Json json = {{"kind", angles ? "angles" : "markers"}, {"time", numbers(recording.time)}};
-  json["points"] = Json::array();
-  for (const PointSpec& point : recording.points) {
-    Json entry = {{"name", point.name}};
-    if (angles)
-      entry["link"] = point.link;
-    else
-      entry["arc"] = arc_of(problem, point);
-    json["points"].push_back(entry);
-  }
-  put_values(json, recording, recording.measured);
-  return json;
+  results::Measured measured;
+  measured.kind = angles ? "angles" : "markers";
+  measured.values.time = recording.time;
+  for (const PointSpec& point : recording.points)
+    measured.points.push_back(
+        {point.name, angles ? results::kAbsent : arc_of(problem, point), angles ? point.link : 0});
+  put_values(measured.values, recording, recording.measured);
+  put_values(measured.predicted, recording, predicted);
+  return measured;
 }
 
-const Gap* find(const std::vector<Gap>& gaps, int experiment, Part part) {
+results::Gap gap_of(const std::vector<Gap>& gaps, int experiment, const char* unit) {
+  results::Gap found;
+  found.unit = unit;
   for (const Gap& gap : gaps)
-    if (gap.experiment == experiment && gap.part == part) return &gap;
-  return nullptr;
+    if (gap.experiment == experiment)
+      (gap.part == Part::kFit ? found.fit : found.validate) = gap.rms;
+  return found;
 }
 
-Json gap_json(const std::vector<Gap>& gaps, int experiment, const char* unit) {
-  const auto rms = [&](Part part) {
-    const Gap* gap = find(gaps, experiment, part);
-    return gap ? number(gap->rms) : Json(nullptr);
-  };
-  return {{"fit", rms(Part::kFit)}, {"validate", rms(Part::kValidation)}, {"unit", unit}};
-}
-
-Json experiments_json(const Problem& problem, const Eigen::VectorXd& x, const Evaluation* before,
-                      const Evaluation& after, const std::vector<Motion>& motions) {
+std::vector<results::Experiment> experiments_of(const Problem& problem, const Eigen::VectorXd& x,
+                                                const Evaluation* before, const Evaluation& after,
+                                                const std::vector<Motion>& motions) {
   const std::vector<Gap> gaps = gaps_of(problem, after);
   const std::vector<Gap> gaps_before = before ? gaps_of(problem, *before) : std::vector<Gap>{};
-  Json out = Json::array();
+  std::vector<results::Experiment> all;
   for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
     const Experiment& experiment = problem.experiments()[e];
-    const bool angles = experiment.spec.kind == DataKind::kAngles;
-    const char* unit = angles ? "rad" : "m";
-    Json json = {{"name", experiment.spec.name}, {"use", experiment.fitted() ? "fit" : "validate"}};
-    const auto fitted = static_cast<std::size_t>(experiment.recording.fit_frames);
-    if (fitted > 0 && fitted < experiment.recording.time.size())
-      json["fit_until"] = experiment.recording.time[fitted - 1];
-    json.update(motion_json(problem, motions[e]));
+    const Recording& recording = experiment.recording;
+    const auto index = static_cast<int>(e);
+    const char* unit = experiment.spec.kind == DataKind::kAngles ? "rad" : "m";
+    results::Experiment& entry = all.emplace_back();
+    entry.name = experiment.spec.name;
+    entry.use = experiment.fitted() ? "fit" : "validate";
+    const auto fitted = static_cast<std::size_t>(recording.fit_frames);
+    if (fitted > 0 && fitted < recording.time.size()) entry.fit_until = recording.time[fitted - 1];
+    put_motion(entry, problem, motions[e]);
     if (problem.model().table().observes) {
-      const SeenChain seen = seen_chain(problem, x, static_cast<int>(e));
-      json["seen"] = {
-          {"time", numbers(seen.time)}, {"side", rows(seen.side)}, {"down", rows(seen.down)}};
+      const SeenChain seen = seen_chain(problem, x, index);
+      entry.seen = {seen.time, rows_of(seen.side), rows_of(seen.down), {}};
     }
-    json["measured"] = measured_json(problem, experiment.recording);
-    put_values(json["predicted"], experiment.recording, after.predictions[e].simulated);
-    json["gap"] = gap_json(gaps, static_cast<int>(e), unit);
-    if (before) json["gap_before"] = gap_json(gaps_before, static_cast<int>(e), unit);
-    json["warnings"] = experiment.recording.warnings;
-    out.push_back(json);
+    entry.measured = measured_of(problem, recording, after.predictions[e].simulated);
+    entry.gap = gap_of(gaps, index, unit);
+    if (before) entry.gap_before = gap_of(gaps_before, index, unit);
+    entry.warnings = recording.warnings;
   }
-  return out;
+  return all;
 }
 
 /// The chosen measure of the fitted part, and the mean absolute difference of every channel.
-Json measure_json(const Problem& problem, const Evaluation& evaluation) {
+results::Measure measure_of(const Problem& problem, const Evaluation& evaluation) {
+  results::Measure result;
   const Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
-  Json parts = Json::array();
   for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
     const Recording& recording = problem.experiments()[e].recording;
     std::vector<double> sum(recording.channels.size(), 0), count(recording.channels.size(), 0);
@@ -207,13 +165,11 @@ Json measure_json(const Problem& problem, const Evaluation& evaluation) {
       sum[c] += std::abs(residuals.value[static_cast<Eigen::Index>(i)]);
       ++count[c];
     }
+    const std::string of =
+        problem.experiments().size() > 1 ? problem.experiments()[e].spec.name + ": " : "";
     for (std::size_t c = 0; c < sum.size(); ++c)
       if (count[c] > 0)
-        parts.push_back(
-            {{"name", (problem.experiments().size() > 1 ? problem.experiments()[e].spec.name + ": "
-                                                        : std::string()) +
-                          recording.channels[c].name},
-             {"value", sum[c] / count[c]}});
+        result.parts.push_back({of + recording.channels[c].name, sum[c] / count[c]});
   }
   bool noise_given = false, angles = false;
   for (const Experiment& experiment : problem.experiments()) {
@@ -222,61 +178,54 @@ Json measure_json(const Problem& problem, const Evaluation& evaluation) {
   }
   const Measure measure = problem.the_case().error.measure;
   const bool in_noise = noise_given && measure == Measure::kLeastSquares;
-  return {{"name", kMeasureWords[static_cast<std::size_t>(measure)]},
-          {"unit", in_noise ? "1"
-                   : angles ? "rad"
-                            : "m"},
-          {"value", number(error_of(problem, evaluation, Part::kFit))},
-          {"validation", residuals_of(problem, evaluation, Part::kValidation).value.size()
-                             ? number(error_of(problem, evaluation, Part::kValidation))
-                             : Json(nullptr)},
-          {"parts", parts}};
+  result.name = kMeasureWords[static_cast<std::size_t>(measure)];
+  result.unit = in_noise ? "1" : angles ? "rad" : "m";
+  result.value = error_of(problem, evaluation, Part::kFit);
+  if (residuals_of(problem, evaluation, Part::kValidation).value.size())
+    result.validation = error_of(problem, evaluation, Part::kValidation);
+  return result;
 }
 
-Json unknown_json(const Unknown& unknown, const std::string& sets, double value) {
+std::vector<results::Parameter> parameters_of(const Problem& problem, const Eigen::VectorXd& x) {
   static const char* const kGroups[] = {"physics", "initial", "sensor"};
-  return {{"name", unknown.name},
-          {"sets", sets},
-          {"unit", unknown.unit},
-          {"free", true},
-          {"group", kGroups[static_cast<int>(unknown.group)]},
-          {"scale", kScaleWords[static_cast<std::size_t>(unknown.scale)]},
-          {"value", number(value)},
-          {"start", number(unknown.start)},
-          {"lower", number(unknown.lower)},
-          {"upper", number(unknown.upper)}};
-}
-
-Json parameters_json(const Problem& problem, const Eigen::VectorXd& x) {
   const Case& the_case = problem.the_case();
-  Json out = Json::array();
+  std::vector<results::Parameter> all;
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
-    const std::string sets =
-        unknown.parameter >= 0
-            ? the_case.parameters[static_cast<std::size_t>(unknown.parameter)].sets
-            : "initial";
-    out.push_back(unknown_json(unknown, sets, x[static_cast<Eigen::Index>(j)]));
+    results::Parameter& entry = all.emplace_back();
+    entry.name = unknown.name;
+    entry.sets = unknown.parameter >= 0
+                     ? the_case.parameters[static_cast<std::size_t>(unknown.parameter)].sets
+                     : "initial";
+    entry.unit = unknown.unit;
+    entry.free = true;
+    entry.group = kGroups[static_cast<int>(unknown.group)];
+    entry.scale = kScaleWords[static_cast<std::size_t>(unknown.scale)];
+    entry.value = x[static_cast<Eigen::Index>(j)];
+    entry.start = unknown.start;
+    entry.lower = unknown.lower;
+    entry.upper = unknown.upper;
   }
-  for (const ParameterSpec& parameter : the_case.parameters)
-    if (!parameter.free)
-      out.push_back({{"name", parameter.name},
-                     {"sets", parameter.sets},
-                     {"unit", parameter.unit},
-                     {"free", false},
-                     {"value", number(parameter.value)},
-                     {"verdict", "fixed"}});
-  return out;
+  for (const ParameterSpec& parameter : the_case.parameters) {
+    if (parameter.free) continue;
+    results::Parameter& entry = all.emplace_back();
+    entry.name = parameter.name;
+    entry.sets = parameter.sets;
+    entry.unit = parameter.unit;
+    entry.value = parameter.value;
+    entry.verdict = "fixed";
+  }
+  return all;
 }
 
-void put_uncertainty(Json& json, const Problem& problem, const Identification& found) {
+void put_uncertainty(results::Result& result, const Problem& problem, const Identification& found) {
   const Uncertainty& uncertainty = *found.uncertainty;
-  Json& parameters = json["parameters"];
   for (std::size_t j = 0; j < uncertainty.estimates.size(); ++j) {
     const Estimate& estimate = uncertainty.estimates[j];
-    parameters[j]["standard_error"] = number(estimate.standard_error);
-    parameters[j]["interval"] = {number(estimate.lower), number(estimate.upper)};
-    parameters[j]["verdict"] = name_of(estimate.verdict);
+    results::Parameter& entry = result.parameters[j];
+    entry.standard_error = estimate.standard_error;
+    entry.interval = {estimate.lower, estimate.upper};
+    entry.verdict = name_of(estimate.verdict);
   }
   if (found.bootstrap.rows() > 0)
     for (Eigen::Index j = 0; j < found.bootstrap.cols(); ++j) {
@@ -286,134 +235,122 @@ void put_uncertainty(Json& json, const Problem& problem, const Identification& f
         return column[static_cast<Eigen::Index>(share * static_cast<double>(column.size() - 1) +
                                                 0.5)];
       };
-      parameters[static_cast<std::size_t>(j)]["bootstrap_interval"] = {at(0.025), at(0.975)};
+      result.parameters[static_cast<std::size_t>(j)].bootstrap_interval = {at(0.025), at(0.975)};
     }
-  json["correlation"] = rows(uncertainty.correlation);
-  Json& noise = json["residuals"];
-  noise = {{"deviation", number(uncertainty.noise)},
-           {"lag_one_correlation", number(uncertainty.autocorrelation)},
-           {"coloured", uncertainty.autocorrelated},
-           {"singular_values", numbers(uncertainty.singular_values)}};
-  noise["channels"] = Json::array();
+  result.correlation = rows_of(uncertainty.correlation);
+  results::ResidualNoise& noise = result.residuals.emplace();
+  noise.deviation = uncertainty.noise;
+  noise.autocorrelation = uncertainty.autocorrelation;
+  noise.autocorrelated = uncertainty.autocorrelated;
+  noise.singular_values = row_of(uncertainty.singular_values);
   const Residuals residuals = residuals_of(problem, found.after, Part::kFit);
   for (const ChannelNoise& channel : channels_of(problem, residuals)) {
     const Estimate estimate = noise_estimate(channel, uncertainty);
-    noise["channels"].push_back({{"name", channel.name},
-                                 {"noise", number(channel.deviation)},
-                                 {"interval", {number(estimate.lower), number(estimate.upper)}}});
+    noise.channels.push_back(
+        {channel.name, channel.deviation, results::Interval{estimate.lower, estimate.upper}});
   }
-  noise["weak_directions"] = Json::array();
   for (const WeakDirection& weak : uncertainty.weak)
-    noise["weak_directions"].push_back(
-        {{"deviation", number(weak.deviation)}, {"direction", weak.text}});
-  json["profiles"] = Json::array();
+    noise.weak_directions.push_back({weak.deviation, weak.text});
   for (const Profile& profile : found.profiles)
-    json["profiles"].push_back(
-        {{"parameter", problem.unknowns()[static_cast<std::size_t>(profile.unknown)].name},
-         {"value", numbers(profile.value)},
-         {"cost", numbers(profile.cost)},
-         {"threshold", profile.threshold},
-         {"verdict", name_of(profile.verdict)}});
+    result.profiles.push_back({problem.unknowns()[static_cast<std::size_t>(profile.unknown)].name,
+                               row_of(profile.value), row_of(profile.cost), profile.threshold,
+                               name_of(profile.verdict)});
 }
 
-Json starts_json(const std::vector<FitResult>& starts) {
-  Json out = Json::array();
-  for (const FitResult& start : starts)
-    out.push_back(
-        {{"error", number(start.error)},
-         {"status", name_of(start.status)},
-         {"start", start.history.empty() ? Json::array() : numbers(start.history.front().x)},
-         {"start_error", number(start.start_error)},
-         {"evaluations", start.evaluations},
-         {"parameters", numbers(start.x)}});
-  return out;
+results::Start start_of(const FitResult& start) {
+  return {start.error,
+          name_of(start.status),
+          start.history.empty() ? results::Row() : row_of(start.history.front().x),
+          start.start_error,
+          start.evaluations,
+          row_of(start.x)};
 }
 
-Json optimiser_json(const Problem& problem, const FitResult& fit) {
+results::Optimiser optimiser_of(const Problem& problem, const FitResult& fit) {
   const OptimiserSpec& spec = problem.the_case().optimiser;
-  Json history;
-  Json step = Json::array(), error = Json::array();
-  std::vector<Json> parameters(problem.unknowns().size(), Json::array());
-  for (std::size_t k = 0; k < fit.history.size(); ++k) {
-    step.push_back(k + 1);
-    error.push_back(number(fit.history[k].error));
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      parameters[j].push_back(number(fit.history[k].x[static_cast<Eigen::Index>(j)]));
-  }
-  history["step"] = step;
-  history["error"] = error;
-  history["parameters"] = parameters;
-  Json failed = Json::array();
+  results::Optimiser result;
+  result.method = kMethodWords[static_cast<std::size_t>(spec.method)];
+  result.strategy = strategy_of(problem);
+  result.status = name_of(fit.status);
+  result.message = fit.message;
+  result.evaluations = fit.evaluations;
+  result.simulations_worth = fit.work;
+  result.failures = fit.failures;
   for (const Failure& failure : fit.failed)
-    failed.push_back({{"parameters", numbers(failure.x)}, {"message", failure.message}});
-  return {{"method", kMethodWords[static_cast<std::size_t>(spec.method)]},
-          {"strategy", strategy_of(problem)},
-          {"status", name_of(fit.status)},
-          {"message", fit.message},
-          {"evaluations", fit.evaluations},
-          {"simulations_worth", fit.work},
-          {"failures", fit.failures},
-          {"failed", failed},
-          {"seed", spec.seed},
-          {"start_error", number(fit.start_error)},
-          {"error", number(fit.error)},
-          {"history", history}};
+    result.failed.push_back({row_of(failure.x), failure.message});
+  result.seed = spec.seed;
+  result.start_error = fit.start_error;
+  result.error = fit.error;
+  result.history.parameters.resize(problem.unknowns().size());
+  for (std::size_t k = 0; k < fit.history.size(); ++k) {
+    result.history.step.push_back(static_cast<double>(k + 1));
+    result.history.error.push_back(fit.history[k].error);
+    for (std::size_t j = 0; j < result.history.parameters.size(); ++j)
+      result.history.parameters[j].push_back(fit.history[k].x[static_cast<Eigen::Index>(j)]);
+  }
+  return result;
 }
-
-std::string text(const Json& json) { return json.dump(1) + "\n"; }
 
 }  // namespace
 
+results::CaseEntry case_entry(const Case& the_case) {
+  const std::string text = contents_of(the_case.file);
+  return {the_case.file.filename().string(), text, sha256_hex(text)};
+}
+
+std::vector<results::Formula> formula_entries(const Effect& effect) {
+  std::vector<results::Formula> entries;
+  for (const Formula& formula : formulas(effect))
+    entries.push_back({formula.what, formula.latex, formula.mathml});
+  return entries;
+}
+
 std::string simulation_result_text(const Problem& problem, const Motion& motion) {
-  Json json = head(problem, "simulate");
-  Json experiment = {{"name", "simulation"}};
-  experiment.update(motion_json(problem, motion));
-  json["experiments"] = Json::array({experiment});
-  json["parameters"] = parameters_json(problem, problem.start());
-  return text(json);
+  results::Result result = result_for(problem, "simulate");
+  results::Experiment& experiment = result.experiments.emplace_back();
+  experiment.name = "simulation";
+  put_motion(experiment, problem, motion);
+  result.parameters = parameters_of(problem, problem.start());
+  return results::text_of(result);
 }
 
 std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd& x,
                                    const Evaluation& evaluation,
                                    const std::vector<Motion>& motions) {
-  Json json = head(problem, "simulate");
-  json["experiments"] = experiments_json(problem, x, nullptr, evaluation, motions);
-  json["measure"] = measure_json(problem, evaluation);
-  json["parameters"] = parameters_json(problem, x);
-  return text(json);
+  results::Result result = result_for(problem, "simulate");
+  result.experiments = experiments_of(problem, x, nullptr, evaluation, motions);
+  result.measure = measure_of(problem, evaluation);
+  result.parameters = parameters_of(problem, x);
+  return results::text_of(result);
 }
 
-std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& results) {
-  Json json = {
-      {"format", 1}, {"kind", "result"}, {"command", "identify"}, {"title", the_case.title}};
-  json["links_study"] = Json::array();
-  for (const LinksResult& result : results) {
-    Json parameters;
-    for (std::size_t j = 0; j < result.names.size(); ++j)
-      parameters[result.names[j]] = number(result.fit.x[static_cast<Eigen::Index>(j)]);
-    json["links_study"].push_back({{"links", result.links},
-                                   {"status", name_of(result.fit.status)},
-                                   {"error", number(result.fit.error)},
-                                   {"validation_error", number(result.validation_error)},
-                                   {"evaluations", result.fit.evaluations},
-                                   {"parameters", parameters}});
+std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& studied) {
+  results::Result result;
+  result.command = "identify";
+  result.title = the_case.title;
+  for (const LinksResult& one : studied) {
+    results::Numbers parameters;
+    for (std::size_t j = 0; j < one.names.size(); ++j)
+      parameters.emplace_back(one.names[j], one.fit.x[static_cast<Eigen::Index>(j)]);
+    result.links_study.push_back({one.links, name_of(one.fit.status), one.fit.error,
+                                  one.validation_error, one.fit.evaluations, parameters});
   }
-  return text(json);
+  return results::text_of(result);
 }
 
 std::string identification_result_text(const Problem& problem, const Identification& found) {
-  Json json = head(problem, "identify");
-  json["status"] =
-      found.fit.status == FitStatus::kConverged ? "success" : name_of(found.fit.status);
-  json["message"] = found.fit.message;
-  json["experiments"] =
-      experiments_json(problem, found.fit.x, &found.before, found.after, found.motions);
-  json["measure"] = measure_json(problem, found.after);
-  json["parameters"] = parameters_json(problem, found.fit.x);
-  json["optimiser"] = optimiser_json(problem, found.fit);
-  if (found.starts.size() > 1) json["starts"] = starts_json(found.starts);
-  if (found.uncertainty) put_uncertainty(json, problem, found);
-  return text(json);
+  results::Result result = result_for(problem, "identify");
+  if (found.fit.status != FitStatus::kConverged) result.status = name_of(found.fit.status);
+  result.message = found.fit.message;
+  result.experiments =
+      experiments_of(problem, found.fit.x, &found.before, found.after, found.motions);
+  result.measure = measure_of(problem, found.after);
+  result.parameters = parameters_of(problem, found.fit.x);
+  result.optimiser = optimiser_of(problem, found.fit);
+  if (found.starts.size() > 1)
+    for (const FitResult& start : found.starts) result.starts.push_back(start_of(start));
+  if (found.uncertainty) put_uncertainty(result, problem, found);
+  return results::text_of(result);
 }
 
 }  // namespace catena

@@ -9,10 +9,13 @@
 #include "identify/fit/fit.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/problem/motion.hpp"
+#include "identify/results/result.hpp"
 #include "identify/uncertainty/profile.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 
 namespace catena {
+
+struct Effect;
 
 /// Everything a result file of `catena identify` says, see docs/file-formats.md.
 struct Identification {
@@ -25,6 +28,11 @@ struct Identification {
   Eigen::MatrixXd bootstrap;  ///< one row per refit
 };
 
+/// The case as its file has it.
+results::CaseEntry case_entry(const Case& the_case);
+/// What an effect adds to the equations.
+std::vector<results::Formula> formula_entries(const Effect& effect);
+
 /// result.json of `catena simulate`: a motion without data.
 std::string simulation_result_text(const Problem& problem, const Motion& motion);
 /// result.json of `catena simulate` where the case has data: motions and comparison at x.
@@ -34,6 +42,6 @@ std::string comparison_result_text(const Problem& problem, const Eigen::VectorXd
 /// result.json of `catena identify`.
 std::string identification_result_text(const Problem& problem, const Identification& found);
 /// links_study.json of `catena identify --links-study`.
-std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& results);
+std::string links_study_result_text(const Case& the_case, const std::vector<LinksResult>& studied);
 
 }  // namespace catena

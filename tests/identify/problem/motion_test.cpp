@@ -20,8 +20,8 @@ constexpr int kLinks = 2;
 constexpr Index kFrames = 40;
 
 /// A case whose model has all sensor effects, those given with these values, the others neutral.
-Problem seen_with(const Model& model,
-                  const std::vector<std::pair<std::string, double>>& effects, DataKind kind) {
+Problem seen_with(const Model& model, const std::vector<std::pair<std::string, double>>& effects,
+                  DataKind kind) {
   Case the_case = testing::sections(testing::kTwoLinks);
   for (const auto& [name, value] : effects) {
     ParameterSpec parameter;
@@ -84,8 +84,8 @@ TEST_CASE("the chain that is laid over a measurement runs through what the senso
       for (Index k = 0; k < kFrames; ++k) {
         CHECK(drawn(seen.side, k) == doctest::Approx(predicted(row, k)).epsilon(1e-9));
         CHECK(drawn(seen.down, k) == doctest::Approx(predicted(row + 1, k)).epsilon(1e-9));
-        const double cable = (1 - at.fraction) * motion.side(at.link, k) +
-                             at.fraction * motion.side(at.link + 1, k);
+        const double cable =
+            (1 - at.fraction) * motion.side(at.link, k) + at.fraction * motion.side(at.link + 1, k);
         apart = std::max(apart, std::abs(cable - predicted(row, k)));
       }
     }

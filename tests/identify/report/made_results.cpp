@@ -239,9 +239,9 @@ void add_fit(json& result) {
   result["links_study"] = json::array();
   for (const int links : {6, 12, 24, 60}) {
     result["links_study"].push_back({{"links", links},
+                                     {"status", "converged"},
                                      {"error", 0.0185 + 0.5 / (links * links)},
-                                     {"gap", 0.001},
-                                     {"seconds", 0.1 * links}});
+                                     {"evaluations", 10 * links}});
   }
 }
 
@@ -298,7 +298,8 @@ json made_diagnosis() {
          {"title", "Quadratic air drag"},
          {"score", round == 0 ? 0.83 : 0.002},
          {"significance", round == 0 ? 1e-12 : 0.7},
-         {"estimate", {{"normal", 0.0091}}},
+         {"estimate", {{"air_drag_quadratic.normal", 0.0091}}},
+         {"units", {{"air_drag_quadratic.normal", "kg/m^2"}}},
          {"survives", 0.07},
          {"refit",
           {{"fit", 0.00175}, {"validate", 0.0018}, {"criterion", -812.0}, {"log10_p", -523.4}}}});
@@ -310,12 +311,10 @@ json made_diagnosis() {
                           {"survives", 0.2},
                           {"admissible", false},
                           {"note", "estimate on the wrong side of its bound"}});
-    candidates.push_back(
-        {{"id", "a_user_s_own"},
-         {"title", "A user's own"},
-         {"score", 0.01},
-         {"mathml", json::array({"<math><mi>D</mi></math>", "<math><mi>V</mi></math>"})},
-         {"latex", json::array({"D", "V"})}});
+    candidates.push_back({{"id", "a_user_s_own"},
+                          {"title", "A user's own"},
+                          {"score", 0.01},
+                          {"formulas", json::array({{{"latex", "D"}}, {{"latex", "V"}}})}});
     rounds.push_back({{"model", round == 0 ? "plain chain" : "plain chain with air_drag_quadratic"},
                       {"added", round == 0 ? json() : json("air_drag_quadratic")},
                       {"links", 12},

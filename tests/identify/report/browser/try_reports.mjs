@@ -97,7 +97,7 @@ for (const report of reports) {
     assert.equal(await mathematics.count(), await host.count());
     assert.equal(await host.count() > 0, JSON.stringify(derived).includes('"derived"'), 'equations left out');
     assert.equal(await page.locator('.latex mtable mi', {hasText: 'θ'}).count() > 0, await host.count() > 0);
-    for (const box of await mathematics.evaluateAll((all) => all.map((one) => one.getBoundingClientRect().height))) {
+    for (const box of await page.locator('.latex > math:has(mtable)').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().height))) {
       assert(box > 25, `${box} px high: not in lines`);
     }
   });
