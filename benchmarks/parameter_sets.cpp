@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Forward dynamics of eight parameter sets at once, per set, against one call each: as EightSets
+// Forward dynamics of eight parameter sets at once, per set, against one call each: as BatchDynamics
 // has it on this processor, with states put in before and accelerations taken out after each
 // evaluation or without, and the emitted text for each kind of processor that this one can be.
 // Results are compared bit for bit first.
@@ -16,12 +16,12 @@
 #include "generated/chain_3.hpp"
 #include "generated/chain_4.hpp"
 #include "generated/chain_60.hpp"
-#include "runtime/eight_sets.hpp"
+#include "runtime/batch_dynamics.hpp"
 #include "runtime/state.hpp"
 
 namespace {
 
-using catena::EightSets;
+using catena::BatchDynamics;
 using catena::Lanes;
 using catena::Point;
 
@@ -34,7 +34,7 @@ template <int sets>
 inline int evaluate(int links, int parameters, const Arrays& arrays) {
   using Number = Lanes<sets>;
   int failed = 0;
-  for (int first = 0; first < EightSets::kSets; first += sets) {
+  for (int first = 0; first < BatchDynamics::kBatch; first += sets) {
     const auto group = [&](const double* of, int entries) {
       return reinterpret_cast<const Number*>(of + first * entries);
     };
@@ -77,15 +77,15 @@ __attribute__((target("arch=x86-64-v4"), flatten)) int avx512(int links, int par
 int main() {
   const std::vector<std::pair<int, Evaluate*>> processors{{4, avx2}, {8, avx512}};
   std::printf(
-      "links,one_ns,eight_sets_ns_per_set,with_states_ns_per_set,avx2_ns_per_set,"
+      "links,one_ns,batch_ns_per_set,with_states_ns_per_set,avx2_ns_per_set,"
       "avx512_ns_per_set\n");
   for (const int n : {2, 3, 4, 12, 60}) {
     const auto model = catena::Model::built_in(n);
     const catena::benchmark::Cable cable(n);
-    EightSets eight(model);
+    BatchDynamics eight(model);
     std::vector<catena::State> states;
     std::vector<Eigen::VectorXd> parameters;
-    for (int k = 0; k < EightSets::kSets; ++k) {
+    for (int k = 0; k < BatchDynamics::kBatch; ++k) {
       catena::State state = catena::State::zero(model);
       state.q = cable.start() * (1.0 + 0.1 * k);
       state.v = cable.start() * (0.1 * k);
@@ -98,7 +98,7 @@ int main() {
       }
     }
     Eigen::VectorXd a(n);
-    Eigen::MatrixXd all(n, EightSets::kSets);
+    Eigen::MatrixXd all(n, BatchDynamics::kBatch);
     const auto one = [&](std::size_t k) {
       const catena_point at{0.0,     states[k].q.data(),  states[k].v.data(), nullptr, nullptr,
                             nullptr, parameters[k].data()};
@@ -114,30 +114,30 @@ int main() {
 
     std::vector<std::function<void()>> calls;
     calls.push_back([&] {
-      for (std::size_t k = 0; k < EightSets::kSets; ++k) one(k);
+      for (std::size_t k = 0; k < BatchDynamics::kBatch; ++k) one(k);
     });
     calls.push_back([&] {
       if (eight.evaluate(0.0) != 0) std::abort();
     });
     calls.push_back([&] {
-      for (int k = 0; k < EightSets::kSets; ++k)
+      for (int k = 0; k < BatchDynamics::kBatch; ++k)
         for (int i = 0; i < n; ++i) {
           eight.q(k, i) = states[static_cast<std::size_t>(k)].q[i];
           eight.v(k, i) = states[static_cast<std::size_t>(k)].v[i];
         }
       if (eight.evaluate(0.0) != 0) std::abort();
-      for (int k = 0; k < EightSets::kSets; ++k)
+      for (int k = 0; k < BatchDynamics::kBatch; ++k)
         for (int i = 0; i < n; ++i) all(i, k) = eight.acceleration(k, i);
     });
     calls[1]();
-    for (std::size_t k = 0; k < EightSets::kSets; ++k) {
+    for (std::size_t k = 0; k < BatchDynamics::kBatch; ++k) {
       one(k);
       for (int i = 0; i < n; ++i)
-        if (!same(i, eight.acceleration(static_cast<int>(k), i))) return fail("EightSets");
+        if (!same(i, eight.acceleration(static_cast<int>(k), i))) return fail("BatchDynamics");
     }
 
     struct alignas(64) Block {
-      double value[EightSets::kSets];
+      double value[BatchDynamics::kBatch];
     };
     std::vector<std::vector<Block>> arrays;  // kept while they are measured
     for (const auto& [sets, function] : processors) {
@@ -148,7 +148,7 @@ int main() {
       const auto pack = [&](int entries, auto value) {
         arrays.emplace_back(static_cast<std::size_t>(entries));
         double* to = reinterpret_cast<double*>(arrays.back().data());
-        for (int k = 0; k < EightSets::kSets; ++k)
+        for (int k = 0; k < BatchDynamics::kBatch; ++k)
           for (int i = 0; i < entries; ++i)
             to[place(k, i, entries)] = value(static_cast<std::size_t>(k), i);
         return to;
@@ -162,7 +162,7 @@ int main() {
         if (function(n, size, packed) != 0) std::abort();
       });
       calls.back()();
-      for (std::size_t k = 0; k < EightSets::kSets; ++k) {
+      for (std::size_t k = 0; k < BatchDynamics::kBatch; ++k) {
         one(k);
         for (int i = 0; i < n; ++i)
           if (!same(i, packed.a[place(static_cast<int>(k), i, n)])) return fail("eight at once");
@@ -170,7 +170,7 @@ int main() {
     }
     std::printf("%d", n);
     for (const double time : catena::benchmark::nanoseconds(calls))
-      std::printf(",%.1f", time / EightSets::kSets);
+      std::printf(",%.1f", time / BatchDynamics::kBatch);
     for (std::size_t c = calls.size(); c < 5; ++c) std::printf(",not measured");
     std::printf("\n");
   }

@@ -11,10 +11,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 #include "common/input_error.hpp"
 #include "identify/models/model_provider.hpp"
+#include "runtime/adjoint.hpp"
+#include "runtime/any_links.hpp"
+#include "runtime/batch_dynamics.hpp"
+#include "runtime/internal_forces.hpp"
 #include "runtime/model.hpp"
 #include "runtime/positions.hpp"
 #include "runtime/rest_states.hpp"
@@ -49,6 +57,8 @@ py::array rows_per_time(const Eigen::MatrixXd& matrix, py::handle owner) {
 }
 
 namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 template <class Member>
 auto view_of(Member member) {
@@ -117,7 +127,6 @@ py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& paramet
   const auto points = static_cast<Eigen::Index>(model.links() + 2);
   const auto times = static_cast<Eigen::Index>(trajectory.time.size());
   py::array_t<double> side({times, points}), down({times, points});
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::Map<Rows> side_rows(side.mutable_data(), times, points);
   Eigen::Map<Rows> down_rows(down.mutable_data(), times, points);
   for (Eigen::Index k = 0; k < times; ++k) {
@@ -127,6 +136,127 @@ py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& paramet
     down_rows.row(k) = at.down;
   }
   return py::make_tuple(side, down);
+}
+
+void check_rows(const char* name, const Rows& rows, Eigen::Index count, int columns) {
+  if (rows.rows() != count || rows.cols() != columns)
+    throw std::invalid_argument(std::string(name) + ": " + std::to_string(rows.rows()) + " x " +
+                                std::to_string(rows.cols()) + " entries; " + std::to_string(count) +
+                                " x " + std::to_string(columns) + " are expected");
+}
+
+/// Row by row, eight rows at once.
+Rows accelerations(const Model& model, const Rows& parameters, const Rows& q, const Rows& v,
+                   const std::optional<Rows>& z, double t) {
+  constexpr int kBatch = BatchDynamics::kBatch;
+  if (model.signals() > 0)
+    throw std::invalid_argument(
+        "accelerations: the model asks for signals; which catena.Case reads");
+  check_rows("parameters", parameters, q.rows(), model.parameters());
+  check_rows("q", q, q.rows(), model.coordinates());
+  check_rows("v", v, q.rows(), model.coordinates());
+  if (z || model.states() > 0) check_rows("z", z.value_or(Rows()), q.rows(), model.states());
+  const auto count = static_cast<int>(q.rows());
+  Rows a(count, model.coordinates());
+  BatchDynamics batch(model);
+  for (int first = 0; first < count; first += kBatch) {
+    const auto row_of = [&](int k) { return std::min(first + k, count - 1); };  // the last repeats
+    for (int k = 0; k < kBatch; ++k) {
+      batch.set_parameters(k, parameters.row(row_of(k)));
+      for (int i = 0; i < model.coordinates(); ++i) {
+        batch.q(k, i) = q(row_of(k), i);
+        batch.v(k, i) = v(row_of(k), i);
+      }
+      for (int i = 0; i < model.states(); ++i) batch.z(k, i) = (*z)(row_of(k), i);
+    }
+    if (const int pivot = batch.evaluate(t))
+      throw ComputationError("accelerations: the mass matrix is not positive definite at " +
+                             std::string(model.table().coordinate[pivot - 1].name) +
+                             " in one of the rows " + std::to_string(first) + " to " +
+                             std::to_string(row_of(kBatch - 1)));
+    for (int k = 0; k < kBatch && first + k < count; ++k)
+      for (int i = 0; i < model.coordinates(); ++i) a(first + k, i) = batch.acceleration(k, i);
+  }
+  return a;
+}
+
+/// Failures are statuses of the results: one of a thousand simulations does not cost the others.
+std::vector<Simulation> run_batch(const Model& model,
+                                  const std::vector<Eigen::VectorXd>& parameters,
+                                  const std::vector<State>& initial,
+                                  const std::vector<double>& times, int threads,
+                                  double relative_tolerance, double absolute_tolerance_position,
+                                  double absolute_tolerance_velocity, long max_steps) {
+  SignalCheck check;
+  std::mutex one_at_a_time;  // threads ask whether to go on
+  SimulationOptions options = options_of(relative_tolerance, absolute_tolerance_position,
+                                         absolute_tolerance_velocity, max_steps, check);
+  options.keep_going = [&](double) {
+    const std::lock_guard lock(one_at_a_time);
+    return check();
+  };
+  std::vector<Simulation> simulations;
+  {
+    py::gil_scoped_release unlock;
+    simulations = simulate_batch(model, parameters, initial, times, threads, options);
+  }
+  check.rethrow();
+  return simulations;
+}
+
+/// A new array of times x columns from a matrix of columns x times.
+py::array_t<double> rows_of(const Eigen::MatrixXd& matrix) {
+  return py::array_t<double>({matrix.cols(), matrix.rows()}, matrix.data());
+}
+
+/// (times x links) moments, tensions, curvatures.
+py::tuple internal_forces_over_time(const Model& model, const Eigen::VectorXd& parameters,
+                                    const Trajectory& trajectory) {
+  const InternalForces forces = internal_forces(model, parameters, trajectory);
+  return py::make_tuple(rows_of(forces.moment), rows_of(forces.tension), rows_of(forces.curvature));
+}
+
+/// What `slope` returns of a motion: dJ/dq, or a tuple that begins with it and goes on with dJ/dv
+/// and dJ/dz, each times x entries.
+void read_slope(const py::object& given, Trajectory& slope) {
+  const py::tuple parts =
+      py::isinstance<py::tuple>(given) ? py::tuple(given) : py::make_tuple(given);
+  Eigen::MatrixXd* const into[] = {&slope.q, &slope.v, &slope.z};
+  if (parts.size() < 1 || parts.size() > 3)
+    throw std::invalid_argument(
+        "slope: " + std::to_string(parts.size()) +
+        " arrays; dJ/dq, or a tuple with dJ/dv and dJ/dz after it, is expected");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto rows = parts[k].cast<Eigen::MatrixXd>();
+    if (rows.rows() != into[k]->cols() || rows.cols() != into[k]->rows())
+      throw std::invalid_argument(
+          "slope: array " + std::to_string(k + 1) + " has " + std::to_string(rows.rows()) + " x " +
+          std::to_string(rows.cols()) + " entries; " + std::to_string(into[k]->cols()) +
+          " times x " + std::to_string(into[k]->rows()) + " are expected");
+    *into[k] = rows.transpose();
+  }
+}
+
+AdjointSimulation run_with_gradient(const Model& model, const Eigen::VectorXd& parameters,
+                                    const State& initial, const std::vector<double>& times,
+                                    const py::function& slope, double relative_tolerance,
+                                    double absolute_tolerance_position,
+                                    double absolute_tolerance_velocity, long max_steps) {
+  SignalCheck check;
+  AdjointSimulation simulation;
+  {
+    py::gil_scoped_release unlock;
+    simulation = simulate_with_gradient(
+        model, parameters, initial, times,
+        [&](const Trajectory& motion, Trajectory& result) {
+          py::gil_scoped_acquire lock;
+          read_slope(slope(motion), result);
+        },
+        options_of(relative_tolerance, absolute_tolerance_position, absolute_tolerance_velocity,
+                   max_steps, check));
+  }
+  require_success(simulation, check);
+  return simulation;
 }
 
 std::vector<std::string> parameter_names(const Model& model) {
@@ -171,10 +301,15 @@ Eigen::VectorXd parameters_from(const Model& model, const py::kwargs& values) {
 void add_model(py::module_& module) {
   py::class_<Model>(
       module, "Model",
-      "An emitted model of a chain of links. Model(12) is the plain chain of 12 links.")
-      .def(py::init(&Model::built_in), "links"_a)
+      "A model of a chain of links. Model(12) is the plain chain of 12 links; any number of links "
+      "works.")
+      .def(py::init([](int links) {
+             return Model::has_built_in(links) ? Model::built_in(links) : any_links_model(links);
+           }),
+           "links"_a)
       .def_static("load", &Model::load, "shared_library"_a, "A model compiled as a shared library.")
-      .def_static("built_in_links", &Model::built_in_links, "Numbers of links that are built in.")
+      .def_static("built_in_links", &Model::built_in_links,
+                  "The link counts whose equations are compiled on their own: a little faster.")
       .def_property_readonly("links", &Model::links)
       .def_property_readonly("coordinates", &Model::coordinates)
       .def_property_readonly("states", &Model::states)
@@ -235,6 +370,11 @@ void add_simulation(py::module_& module) {
       .def_readonly("newton_failures", &Statistics::newton_failures)
       .def_readonly("cpu_seconds", &Statistics::cpu_seconds);
   py::class_<Simulation>(module, "Simulation", "A motion and how it was computed.")
+      .def_property_readonly(
+          "status", [](const Simulation& simulation) { return status_name(simulation.status); },
+          "\"success\", or what failed.")
+      .def_readonly("message", &Simulation::message,
+                    "Empty on success; else what failed, in which state and when.")
       .def_readonly("trajectory", &Simulation::trajectory)
       .def_readonly("statistics", &Simulation::statistics)
       .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
@@ -252,6 +392,11 @@ void add_simulation(py::module_& module) {
       .def_readwrite("v", &SensitivityDirection::v)
       .def_readwrite("z", &SensitivityDirection::z);
 
+  py::class_<AdjointSimulation, Simulation>(module, "AdjointSimulation",
+                                            "A simulation with the gradient of one number.")
+      .def_readonly("gradient", &AdjointSimulation::gradient,
+                    "dJ with respect to every parameter and to the initial state.");
+
   const SimulationOptions defaults;
   module.def(
       "simulate", &run, "model"_a, "parameters"_a, "initial"_a, "times"_a, py::kw_only(),
@@ -268,6 +413,34 @@ void add_simulation(py::module_& module) {
              "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
              "max_steps"_a = defaults.max_steps,
              "simulate, with the derivative of the motion along each direction.");
+  module.def(
+      "simulate_with_gradient", &run_with_gradient, "model"_a, "parameters"_a, "initial"_a,
+      "times"_a, "slope"_a, py::kw_only(), "relative_tolerance"_a = defaults.relative_tolerance,
+      "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
+      "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
+      "max_steps"_a = defaults.max_steps,
+      "simulate, with the gradient of one number J with respect to every parameter and the initial "
+      "state, by the adjoint equations: the price does not depend on their number. "
+      "slope(trajectory) returns dJ/dq at the times (times x coordinates), or a tuple of dJ/dq, "
+      "dJ/dv and dJ/dz.");
+  module.def("simulate_batch", &run_batch, "model"_a, "parameters"_a, "initial"_a, "times"_a,
+             "threads"_a = std::max(1u, std::thread::hardware_concurrency()), py::kw_only(),
+             "relative_tolerance"_a = defaults.relative_tolerance,
+             "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
+             "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
+             "max_steps"_a = defaults.max_steps,
+             "simulate for parameters[i] from initial[i], for every i, on several threads. The "
+             "results are those of simulate, bit for bit. A simulation that fails raises nothing: "
+             "its status says so.");
+  module.def("accelerations", &accelerations, "model"_a, "parameters"_a, "q"_a, "v"_a,
+             "z"_a = py::none(), "t"_a = 0.0,
+             "The second time derivatives of the coordinates, rad/s^2, for many parameter sets and "
+             "states: every argument has one row for each, and so has the result. Eight rows at a "
+             "time go through the processor's vector registers; each gets the bits it has alone.");
+  module.def("internal_forces", &internal_forces_over_time, "model"_a, "parameters"_a,
+             "trajectory"_a,
+             "moment at each joint (N m), tension at the upper end of each link (N), curvature at "
+             "each joint (rad/m): arrays of times x links.");
   module.def(
       "positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
       "side and down (m), times x (links + 2): the support, the far end of each link, the load.");
@@ -287,6 +460,7 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetString(type.ptr(), error.what());
     }
   });
+  module.attr("__version__") = CATENA_VERSION;
   add_model(module);
   add_simulation(module);
   add_cases(module);

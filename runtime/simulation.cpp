@@ -100,11 +100,11 @@ Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const
   return simulate_with_sensitivities(model, parameters, initial, {}, times, options, signals);
 }
 
-std::vector<Simulation> simulate_sets(const Model& model,
-                                      const std::vector<Eigen::VectorXd>& parameters,
-                                      const std::vector<State>& initial,
-                                      const std::vector<double>& times, int threads,
-                                      const SimulationOptions& options, const Signals& signals) {
+std::vector<Simulation> simulate_batch(const Model& model,
+                                       const std::vector<Eigen::VectorXd>& parameters,
+                                       const std::vector<State>& initial,
+                                       const std::vector<double>& times, int threads,
+                                       const SimulationOptions& options, const Signals& signals) {
   if (parameters.size() != initial.size())
     refuse(std::to_string(parameters.size()) + " parameter sets, but " +
            std::to_string(initial.size()) + " initial states; give as many of both");

@@ -91,11 +91,11 @@ Simulation simulate(const Model& model, const Eigen::VectorXd& parameters, const
 /// one result for each i: that of simulate, bit for bit, but for Statistics::cpu_seconds. Throws as
 /// simulate does, before the first simulation, with a message that names i + 1, and if the numbers
 /// of `parameters` and `initial` differ. options.keep_going is called from several threads.
-std::vector<Simulation> simulate_sets(const Model& model,
-                                      const std::vector<Eigen::VectorXd>& parameters,
-                                      const std::vector<State>& initial,
-                                      const std::vector<double>& times, int threads,
-                                      const SimulationOptions& options = {},
-                                      const Signals& signals = {});
+std::vector<Simulation> simulate_batch(const Model& model,
+                                       const std::vector<Eigen::VectorXd>& parameters,
+                                       const std::vector<State>& initial,
+                                       const std::vector<double>& times, int threads,
+                                       const SimulationOptions& options = {},
+                                       const Signals& signals = {});
 
 }  // namespace catena

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <vector>
-
-#include "runtime/model.hpp"
 
 namespace catena {
 
@@ -20,11 +17,5 @@ struct Trajectory {
   /// dissipated and supplied powers integrated since the first time. Empty if not asked for.
   Eigen::MatrixXd energy;
 };
-
-/// Writes `trajectory` of `model` as CSV, 17 significant digits. Columns: time, the coordinates,
-/// their rates (name_rate), the extra states. The file is written whole or not at all. Throws
-/// InputError that names the file if it cannot be written.
-void write_trajectory_csv(const std::filesystem::path& file, const Model& model,
-                          const Trajectory& trajectory);
 
 }  // namespace catena

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "identify/problem/problem.hpp"
+#include "runtime/internal_forces.hpp"
 
 namespace catena {
 
-/// A simulation with the positions of its points.
+/// A simulation with the positions of its points and the forces inside the cable.
 struct Motion {
   Simulation simulation;
   /// m, (links + 2) x times: the support, the far end of each link, the load.
   Eigen::MatrixXd side, down;
+  InternalForces forces;
 };
 
 /// A chain as the sensors of an experiment report it.

@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
+#include "identify/results/csv_tables.hpp"
 
 namespace catena {
 namespace {
@@ -56,12 +57,19 @@ std::filesystem::path output_folder(const CommonOptions& options) {
   return options.case_file.stem().string() + "_result";
 }
 
-std::string file_name(const Problem& problem, int experiment, const std::string& stem) {
-  if (problem.experiments().size() < 2) return stem + ".csv";
-  std::string name = problem.experiments()[static_cast<std::size_t>(experiment)].spec.name;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-  return stem + "_" + name + ".csv";
+void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
+                      OutputFiles& files) {
+  std::string suffix = ".csv";
+  if (problem.experiments().size() > 1) {
+    std::string name = problem.experiments()[static_cast<std::size_t>(experiment)].spec.name;
+    for (char& c : name)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+    suffix = "_" + name + ".csv";
+  }
+  files.emplace_back("positions" + suffix, positions_csv(motion));
+  files.emplace_back("angles" + suffix, angles_csv(problem.model(), motion));
+  files.emplace_back("forces" + suffix, forces_csv(motion));
+  files.emplace_back("energy" + suffix, energy_csv(problem.model(), motion));
 }
 
 }  // namespace catena

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "identify/models/model_provider.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/problem/problem.hpp"
 
 namespace catena {
@@ -37,7 +38,9 @@ using OutputFiles = std::vector<std::pair<std::string, std::string>>;
 void write_output(const std::filesystem::path& folder, const OutputFiles& files);
 std::filesystem::path output_folder(const CommonOptions& options);
 
-/// "positions.csv", or "positions_run_1.csv" where there are several experiments.
-std::string file_name(const Problem& problem, int experiment, const std::string& stem);
+/// positions.csv, angles.csv, forces.csv and energy.csv of a motion; where there are several
+/// experiments, positions_run_1.csv and so on, by the name of the experiment.
+void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
+                      OutputFiles& files);
 
 }  // namespace catena

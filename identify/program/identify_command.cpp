@@ -43,12 +43,8 @@ struct IdentifyOptions : CommonOptions {
 OutputFiles files_of(const Problem& problem, const Identification& found,
                      const std::filesystem::path& folder, const std::string& result) {
   OutputFiles files;
-  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e) {
-    const Motion& motion = found.motions[static_cast<std::size_t>(e)];
-    files.emplace_back(file_name(problem, e, "positions"), positions_csv(motion));
-    files.emplace_back(file_name(problem, e, "angles"), angles_csv(problem.model(), motion));
-    files.emplace_back(file_name(problem, e, "energy"), energy_csv(problem.model(), motion));
-  }
+  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e)
+    add_motion_files(problem, e, found.motions[static_cast<std::size_t>(e)], files);
   files.emplace_back("residuals.csv", residuals_csv(problem, found.after));
   files.emplace_back("history.csv", history_csv(problem, found.fit));
   files.emplace_back("fitted.toml", case_text(problem.with(found.fit.x), folder));
@@ -211,7 +207,8 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   command->footer(
       "Example:\n  catena identify cable.toml --output fit\n"
       "writes fit/result.json, fitted.toml (the case with what was found),\n"
-      "history.csv, residuals.csv, positions.csv, angles.csv, energy.csv and run.log.\n"
+      "history.csv, residuals.csv, positions.csv, angles.csv, forces.csv,\nenergy.csv and "
+      "run.log.\n"
       "Ctrl-C ends with the best so far.");
   add_common_options(*command, options);
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");

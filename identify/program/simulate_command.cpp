@@ -35,13 +35,6 @@ bool succeeded(const Simulation& simulation, const std::string& name) {
   return true;
 }
 
-void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
-                      OutputFiles& files) {
-  files.emplace_back(file_name(problem, experiment, "positions"), positions_csv(motion));
-  files.emplace_back(file_name(problem, experiment, "angles"), angles_csv(problem.model(), motion));
-  files.emplace_back(file_name(problem, experiment, "energy"), energy_csv(problem.model(), motion));
-}
-
 /// The case alone, for as long as it says.
 int simulate_alone(const Problem& problem, const CommonOptions& options) {
   const Case& the_case = problem.the_case();
@@ -108,8 +101,8 @@ void add_simulate_command(CLI::App& program, int& exit_status) {
   CLI::App* command = program.add_subcommand("simulate", "simulate the cable of a case file");
   command->footer(
       "Example:\n  catena simulate cable.toml --output swing\n"
-      "writes swing/result.json, positions.csv, angles.csv and energy.csv; with data\n"
-      "in the case also residuals.csv.");
+      "writes swing/result.json, positions.csv, angles.csv, forces.csv and energy.csv;\n"
+      "with data in the case also residuals.csv.");
   add_common_options(*command, options);
   command->callback([&exit_status] { exit_status = simulate_case(options); });
 }

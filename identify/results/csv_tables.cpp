@@ -2,6 +2,7 @@
 #include "identify/results/csv_tables.hpp"
 
 #include <cmath>
+#include <tuple>
 
 #include "common/number_text.hpp"
 
@@ -79,6 +80,26 @@ std::string angles_csv(const Model& model, const Motion& motion) {
     for (const double value : path.q.col(k)) csv.number(value);
     for (const double value : path.v.col(k)) csv.number(value);
     for (const double value : path.z.col(k)) csv.number(value);
+    csv.end_line();
+  }
+  return csv.take();
+}
+
+std::string forces_csv(const Motion& motion) {
+  const InternalForces& forces = motion.forces;
+  const std::tuple<const char*, const char*, const Eigen::MatrixXd&> kinds[] = {
+      {"moment_", "_N_m", forces.moment},
+      {"tension_", "_N", forces.tension},
+      {"curvature_", "_rad_m", forces.curvature}};
+  Csv csv;
+  csv.name("time_s");
+  for (const auto& [name, unit, values] : kinds)
+    for (Eigen::Index i = 1; i <= values.rows(); ++i) csv.name(name + std::to_string(i) + unit);
+  csv.end_line();
+  for (Eigen::Index k = 0; k < forces.moment.cols(); ++k) {
+    csv.number(motion.simulation.trajectory.time[static_cast<std::size_t>(k)]);
+    for (const auto& [name, unit, values] : kinds)
+      for (const double value : values.col(k)) csv.number(value);
     csv.end_line();
   }
   return csv.take();

@@ -16,6 +16,9 @@ namespace catena {
 std::string positions_csv(const Motion& motion);
 /// time_s, coordinates, their rates, extra states: theta_1_rad .. rate_1_rad_s ..
 std::string angles_csv(const Model& model, const Motion& motion);
+/// time_s, then moment_i_N_m of every joint, tension_i_N of every link, curvature_i_rad_m of every
+/// joint: InternalForces.
+std::string forces_csv(const Motion& motion);
 /// time_s and every energy item in J.
 std::string energy_csv(const Model& model, const Motion& motion);
 

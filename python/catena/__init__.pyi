@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__version__: str
+
 Array = NDArray[np.float64]
 
 class InputError(ValueError): ...
@@ -76,11 +78,19 @@ class Statistics:
 
 class Simulation:
     @property
+    def status(self) -> str: ...
+    @property
+    def message(self) -> str: ...
+    @property
     def trajectory(self) -> Trajectory: ...
     @property
     def statistics(self) -> Statistics: ...
     @property
     def energy_imbalance(self) -> float: ...
+
+class AdjointSimulation(Simulation):
+    @property
+    def gradient(self) -> SensitivityDirection: ...
 
 class SensitiveSimulation(Simulation):
     @property
@@ -241,6 +251,41 @@ def simulate_with_sensitivities(
     absolute_tolerance_velocity: float = ...,
     max_steps: int = ...,
 ) -> SensitiveSimulation: ...
+def simulate_with_gradient(
+    model: Model,
+    parameters: ArrayLike,
+    initial: State,
+    times: Sequence[float] | Array,
+    slope: Callable[[Trajectory], ArrayLike | tuple[ArrayLike, ...]],
+    *,
+    relative_tolerance: float = ...,
+    absolute_tolerance_position: float = ...,
+    absolute_tolerance_velocity: float = ...,
+    max_steps: int = ...,
+) -> AdjointSimulation: ...
+def simulate_batch(
+    model: Model,
+    parameters: Sequence[ArrayLike] | Array,
+    initial: Sequence[State],
+    times: Sequence[float] | Array,
+    threads: int = ...,
+    *,
+    relative_tolerance: float = ...,
+    absolute_tolerance_position: float = ...,
+    absolute_tolerance_velocity: float = ...,
+    max_steps: int = ...,
+) -> list[Simulation]: ...
+def accelerations(
+    model: Model,
+    parameters: ArrayLike,
+    q: ArrayLike,
+    v: ArrayLike,
+    z: ArrayLike | None = None,
+    t: float = 0.0,
+) -> Array: ...
+def internal_forces(
+    model: Model, parameters: ArrayLike, trajectory: Trajectory
+) -> tuple[Array, Array, Array]: ...
 def positions(
     model: Model, parameters: ArrayLike, trajectory: Trajectory
 ) -> tuple[Array, Array]: ...

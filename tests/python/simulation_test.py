@@ -49,10 +49,25 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(catena.InputError, "gravity"):
             catena.Model(12).parameters(gravty=9.81)
 
-    def test_a_count_without_model_names_those_there_are(self):
-        with self.assertRaisesRegex(catena.InputError, "12"):
-            catena.Model(13)
+    def test_any_number_of_links_works(self):
+        for links in (2, 3, 4, 5, 12, 13, 60, 1000):
+            model = catena.Model(links)
+            self.assertEqual(model.links, links)
+            self.assertEqual(len(model.parameter_names), 6 * links + 2)
+        few, many = cable(5), cable(33)  # both at once
+        for (model, parameters), links in ((few, 5), (many, 33)):
+            run = catena.simulate(model, parameters, catena.straight(model, 0.5), [0.0, 0.1])
+            self.assertEqual(run.trajectory.q.shape, (2, links))
+            self.assertLess(abs(run.energy_imbalance), 1e-4)
+
+    def test_impossible_numbers_of_links(self):
+        for links in (-3, 0, 1, 10_001):
+            with self.assertRaisesRegex(catena.InputError, f"{links} links"):
+                catena.Model(links)
         self.assertTrue(issubclass(catena.InputError, ValueError))
+
+    def test_the_version(self):
+        self.assertRegex(catena.__version__, r"^\d+\.\d+\.\d+$")
 
 
 class Motion(unittest.TestCase):
@@ -112,6 +127,92 @@ class Motion(unittest.TestCase):
         difference = (ends[0] - ends[1]) / (2 * step)
         scale = np.abs(difference).max()
         np.testing.assert_allclose(run.sensitivity[0].q, difference, atol=2e-3 * scale)
+
+    def test_the_gradient_is_that_of_the_sensitivities(self):
+        model, parameters = cable(5)
+        start, times = catena.straight(model, 0.5), [0.0, 0.2, 0.4]
+
+        def slope(motion):  # of J = |q|^2 / 2 + |v|^2 / 200 at the last time
+            dq, dv = np.zeros_like(motion.q), np.zeros_like(motion.v)
+            dq[-1], dv[-1] = motion.q[-1], motion.v[-1] / 100
+            return dq, dv
+
+        run = catena.simulate_with_gradient(model, parameters, start, times, slope)
+        for name in ("load_mass", "stiffness_2", "length_5"):
+            index = model.parameter_index(name)
+            direction = catena.SensitivityDirection.parameter(model, index)
+            along = catena.simulate_with_sensitivities(model, parameters, start, [direction], times)
+            motion, change = along.trajectory, along.sensitivity[0]
+            expected = motion.q[-1] @ change.q[-1] + motion.v[-1] @ change.v[-1] / 100
+            scale = np.abs(motion.q[-1] * change.q[-1]).sum()
+            self.assertAlmostEqual(run.gradient.parameters[index], expected, delta=5e-3 * scale)
+        self.assertEqual(run.gradient.q.shape, (5,))
+        with self.assertRaisesRegex(ValueError, "slope: array 1 has 1 x 5 entries; 3 times x 5"):
+            catena.simulate_with_gradient(
+                model, parameters, start, times, lambda motion: motion.q[:1]
+            )
+        with self.assertRaises(ZeroDivisionError):
+            catena.simulate_with_gradient(model, parameters, start, times, lambda motion: 1 / 0)
+
+    def test_a_batch_gives_what_each_alone_gives(self):
+        model, parameters = cable(5)
+        batch = [parameters * factor for factor in (1.0, 1.1, 1.2, 1.3, 1.4)]
+        starts = [catena.straight(model, 0.1 * k) for k in range(5)]
+        times = np.linspace(0, 0.3, 4)
+        runs = catena.simulate_batch(model, batch, starts, times, threads=3)
+        self.assertEqual(len(runs), 5)
+        for run, p, start in zip(runs, batch, starts):
+            alone = catena.simulate(model, p, start, times)
+            self.assertEqual(run.status, "success")
+            np.testing.assert_array_equal(run.trajectory.q, alone.trajectory.q)
+        few = catena.simulate_batch(model, batch, starts, times, max_steps=3)
+        self.assertEqual({run.status for run in few[1:]}, {"too many steps"})
+        self.assertRegex(few[1].message, "t = ")
+        with self.assertRaisesRegex(ValueError, "2.*5"):
+            catena.simulate_batch(model, batch[:2], starts, times)
+
+    def test_accelerations_row_by_row(self):
+        model, parameters = cable(5)
+        random = np.random.default_rng(1)
+        q, v = random.uniform(-1, 1, (2, 11, 5))
+        many = parameters * random.uniform(0.9, 1.1, (11, 1))
+        a = catena.accelerations(model, many, q, v)
+        self.assertEqual(a.shape, (11, 5))
+        for k in range(11):  # a row alone, and the start of its motion
+            alone = catena.accelerations(model, many[k : k + 1], q[k : k + 1], v[k : k + 1])
+            np.testing.assert_array_equal(a[k], alone[0])
+        start = catena.from_angles(model, q[3])
+        start.v = v[3]
+        tight = dict(relative_tolerance=1e-10, absolute_tolerance_velocity=1e-12)
+        run = catena.simulate(model, many[3], start, [0.0, 1e-7], **tight)
+        rate = (run.trajectory.v[1] - run.trajectory.v[0]) / 1e-7
+        np.testing.assert_allclose(rate, a[3], rtol=2e-3, atol=2e-3 * np.abs(a[3]).max())
+        with self.assertRaisesRegex(ValueError, "v: 10 x 5 entries; 11 x 5 are expected"):
+            catena.accelerations(model, many, q, v[:10])
+        many[9, model.parameter_index("mass_5")] = -1.0
+        with self.assertRaisesRegex(ValueError, "mass_5 = -1 kg is below"):
+            catena.accelerations(model, many, q, v)
+
+    def test_internal_forces_hold_the_cable_at_rest(self):
+        model, parameters = cable(7)
+        weight = 9.81 * 0.1424 * 3.39 / 7
+        run = catena.simulate(model, parameters, catena.straight(model, 0.0), [0.0, 0.1])
+        moment, tension, curvature = catena.internal_forces(model, parameters, run.trajectory)
+        hanging = 9.81 * 1.47 + weight * np.arange(7, 0, -1)
+        np.testing.assert_allclose(tension, np.broadcast_to(hanging, (2, 7)), rtol=1e-12)
+        np.testing.assert_array_equal(moment, np.zeros((2, 7)))
+        np.testing.assert_array_equal(curvature, np.zeros((2, 7)))
+
+    def test_internal_forces_are_springs_and_dampers_in_motion(self):
+        model, parameters = cable(7)
+        run = catena.simulate(model, parameters, catena.straight(model, 0.4), [0.0, 0.1, 0.2])
+        moment, tension, curvature = catena.internal_forces(model, parameters, run.trajectory)
+        bend = np.diff(run.trajectory.q, prepend=0.0)
+        rate = np.diff(run.trajectory.v, prepend=0.0)
+        np.testing.assert_allclose(moment, -47.448 * bend - 1e-3 * rate, atol=1e-12)
+        spacing = 3.39 / 7 * np.where(np.arange(7) == 0, 0.5, 1.0)
+        np.testing.assert_allclose(curvature, bend / spacing, atol=1e-12)
+        self.assertTrue((tension > 0).all())
 
     def test_bad_arguments(self):
         model, parameters = cable()

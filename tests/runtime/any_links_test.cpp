@@ -14,7 +14,7 @@
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
 #include "runtime/adjoint.hpp"
-#include "runtime/eight_sets.hpp"
+#include "runtime/batch_dynamics.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "tests/runtime/cable_case.hpp"
@@ -240,14 +240,14 @@ TEST_CASE("eight sets at once, where they fit") {
     CAPTURE(n);
     const Model model = any_links_model(n);
     CHECK((model.table().batch == 1) == (n > 1000 || any_links_model(7).table().batch == 1));
-    catena::EightSets sets(model);
+    catena::BatchDynamics sets(model);
     const VectorXd p = catena::testing::cable_parameters(model, 20.0, 0.1);
-    for (int k = 0; k < catena::EightSets::kSets; ++k) {
+    for (int k = 0; k < catena::BatchDynamics::kBatch; ++k) {
       sets.set_parameters(k, p);
       for (int i = 0; i < n; ++i) sets.q(k, i) = 0.1 * k + 0.001 * i;
     }
     REQUIRE(sets.evaluate(0.0) == 0);
-    for (int k = 0; k < catena::EightSets::kSets; ++k) {
+    for (int k = 0; k < catena::BatchDynamics::kBatch; ++k) {
       VectorXd q(n), a(n);
       for (int i = 0; i < n; ++i) q[i] = 0.1 * k + 0.001 * i;
       const VectorXd zero = VectorXd::Zero(n);

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "runtime/eight_sets.hpp"
+#include "runtime/batch_dynamics.hpp"
 #include "runtime/newton_matrix.hpp"
 #include "runtime/simulation.hpp"
 
@@ -107,9 +107,9 @@ TEST_CASE("eight sets with extra states have the bits of eight calls") {
   const Model model = Model::load(WITH_STATES);
   const int n = model.coordinates();
   Random random;
-  catena::EightSets sets(model);
+  catena::BatchDynamics sets(model);
   std::vector<VectorXd> q, v, z, p;
-  for (int k = 0; k < catena::EightSets::kSets; ++k) {
+  for (int k = 0; k < catena::BatchDynamics::kBatch; ++k) {
     q.push_back(random.vector(n, -3.0, 3.0));
     v.push_back(random.vector(n, -4.0, 4.0));
     z.push_back(random.vector(n, -0.02, 0.02));
@@ -122,7 +122,7 @@ TEST_CASE("eight sets with extra states have the bits of eight calls") {
     }
   }
   REQUIRE(sets.evaluate(0.0) == 0);
-  for (int k = 0; k < catena::EightSets::kSets; ++k) {
+  for (int k = 0; k < catena::BatchDynamics::kBatch; ++k) {
     const auto set = static_cast<std::size_t>(k);
     VectorXd a(n);
     const catena_point at{0.0,           q[set].data(), v[set].data(), nullptr,

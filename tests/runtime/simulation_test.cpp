@@ -62,7 +62,7 @@ TEST_CASE("many sets on several threads give the bits of one at a time") {
     initial.push_back(catena::straight(model, 0.1 * (i + 1)));
   }
   const auto together =
-      catena::simulate_sets(model, parameters, initial, times(0.2, 5), 3, SimulationOptions{});
+      catena::simulate_batch(model, parameters, initial, times(0.2, 5), 3, SimulationOptions{});
   REQUIRE(together.size() == 7);
   for (std::size_t i = 0; i < 7; ++i) {
     const auto alone = catena::simulate(model, parameters[i], initial[i], times(0.2, 5));
@@ -73,14 +73,14 @@ TEST_CASE("many sets on several threads give the bits of one at a time") {
     CHECK(largest_difference(together[i].trajectory.v, alone.trajectory.v) == 0.0);
     CHECK(together[i].energy_imbalance == alone.energy_imbalance);
   }
-  CHECK(catena::simulate_sets(model, {}, {}, times(0.2, 5), 3).empty());
-  CHECK_THROWS_WITH_AS(catena::simulate_sets(model, parameters, {}, times(0.2, 5), 3),
+  CHECK(catena::simulate_batch(model, {}, {}, times(0.2, 5), 3).empty());
+  CHECK_THROWS_WITH_AS(catena::simulate_batch(model, parameters, {}, times(0.2, 5), 3),
                        "7 parameter sets, but 0 initial states; give as many of both",
                        std::invalid_argument);
   parameters[4][0] = std::nan("");
   std::string message;
   try {
-    catena::simulate_sets(model, parameters, initial, times(0.2, 5), 3);
+    catena::simulate_batch(model, parameters, initial, times(0.2, 5), 3);
   } catch (const std::invalid_argument& error) {
     message = error.what();
   }

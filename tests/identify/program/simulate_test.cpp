@@ -18,7 +18,7 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(run.output.find("\033") == std::string::npos);  // no terminal, no colours, no progress
   CHECK(run.output.find("\r") == std::string::npos);
   CHECK(run_catena({"simulate", the_case, "--output", second, "--quiet"}).output.empty());
-  for (const char* name : {"result.json", "positions.csv", "angles.csv", "energy.csv"}) {
+  for (const char* name : {"result.json", "positions.csv", "angles.csv", "forces.csv", "energy.csv"}) {
     CAPTURE(std::string(name));
     const std::string text = testing::text_of(std::filesystem::path(first) / name);
     CHECK(text.size() > 500);
@@ -32,6 +32,18 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(positions.column("down_2_m").front() == doctest::Approx(std::cos(0.6)).epsilon(1e-15));
   CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() ==
         0.6);
+  // Two links askew, held still: joint 1 is bent by 0.6 over half a link of 0.5 m, joint 2 is not.
+  const Table forces = read_table(std::filesystem::path(first) / "forces.csv");
+  CHECK(forces.names.size() == 1 + 3 * 2);
+  CHECK(forces.rows() == 51);
+  CHECK(forces.column("moment_1_N_m").front() == doctest::Approx(-0.1 * 0.6).epsilon(1e-15));
+  CHECK(forces.column("moment_2_N_m").front() == 0.0);
+  CHECK(forces.column("curvature_1_rad_m").front() == doctest::Approx(0.6 / 0.25).epsilon(1e-15));
+  CHECK(forces.column("curvature_2_rad_m").front() == 0.0);
+  // All points begin to move across the links: along them each carries the weight below its end.
+  const double along = 9.81 * std::cos(0.6);
+  CHECK(forces.column("tension_1_N").front() == doctest::Approx(0.5 * along).epsilon(1e-12));
+  CHECK(forces.column("tension_2_N").front() == doctest::Approx(0.35 * along).epsilon(1e-12));
   const ProcessResult json = run_catena({"simulate", the_case, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);

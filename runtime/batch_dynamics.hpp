@@ -9,17 +9,17 @@
 
 namespace catena {
 
-/// The forward dynamics of eight parameter sets and states at once, for studies that evaluate many:
-/// the processor's vector registers hold a number of several sets each (8 with AVX-512, 4 with
-/// AVX2, else 2, or 1), chosen when the program runs. Every set gets the bits that
-/// Model::table().acceleration gives it alone. Allocates when made, not when used; not to be shared
-/// between threads.
-class EightSets {
+/// The forward dynamics of a batch of eight parameter sets and states, for studies that evaluate
+/// many: the processor's vector registers hold the same number of several sets (8 with AVX-512, 4
+/// with AVX2, else 2, or 1), chosen when the program runs. Every set gets the bits that
+/// Model::acceleration gives it alone. Allocates when made, not when used; not to be shared between
+/// threads.
+class BatchDynamics {
  public:
-  static constexpr int kSets = 8;
+  static constexpr int kBatch = 8;
 
   /// All parameters, states and signals are zero until set.
-  explicit EightSets(const Model& model);
+  explicit BatchDynamics(const Model& model);
 
   /// Of set k = 0..7. Throws std::invalid_argument if there is no such set or the model does not
   /// take the parameters (Model::check_parameters).
@@ -44,7 +44,7 @@ class EightSets {
   class Packed {
    public:
     Packed(int entries, int sets)
-        : entries_(entries), sets_(sets), values_(static_cast<std::size_t>(kSets * entries)) {}
+        : entries_(entries), sets_(sets), values_(static_cast<std::size_t>(kBatch * entries)) {}
     double* group(int first) { return values_.data() + first * entries_; }
     double& of(int k, int i) { return values_[place(k, i)]; }
     double of(int k, int i) const { return values_[place(k, i)]; }

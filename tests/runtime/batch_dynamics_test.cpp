@@ -2,7 +2,7 @@
 //
 // Eight parameter sets and states at once, by the widest registers of this processor, give the bits
 // of eight calls for one.
-#include "runtime/eight_sets.hpp"
+#include "runtime/batch_dynamics.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@
 
 namespace {
 
-using catena::EightSets;
+using catena::BatchDynamics;
 using catena::Model;
 using catena::State;
 
@@ -28,10 +28,10 @@ TEST_CASE("eight sets have the bits of eight calls") {
   for (const int n : Model::built_in_links()) {
     CAPTURE(n);
     const Model model = Model::built_in(n);
-    EightSets sets(model);
+    BatchDynamics sets(model);
     std::vector<Eigen::VectorXd> parameters;
     std::vector<State> states;
-    for (int k = 0; k < EightSets::kSets; ++k) {
+    for (int k = 0; k < BatchDynamics::kBatch; ++k) {
       Eigen::VectorXd p(model.parameters());
       for (int i = 0; i < p.size(); ++i) p[i] = uniform(0.1, 1.0);
       State state = State::zero(model);
@@ -48,7 +48,7 @@ TEST_CASE("eight sets have the bits of eight calls") {
       states.push_back(state);
     }
     REQUIRE(sets.evaluate(0.0) == 0);
-    for (int k = 0; k < EightSets::kSets; ++k) {
+    for (int k = 0; k < BatchDynamics::kBatch; ++k) {
       const auto set = static_cast<std::size_t>(k);
       Eigen::VectorXd a(n);
       const catena_point at{0.0,     states[set].q.data(),  states[set].v.data(), nullptr, nullptr,
@@ -64,7 +64,7 @@ TEST_CASE("eight sets have the bits of eight calls") {
 
 TEST_CASE("what does not fit the model is refused") {
   const Model model = Model::built_in(12);
-  EightSets sets(model);
+  BatchDynamics sets(model);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(model.parameters());
   sets.set_parameters(7, ones);
   CHECK_THROWS_WITH_AS(sets.set_parameters(8, ones), "set 8: there are sets 0 to 7",
@@ -75,7 +75,7 @@ TEST_CASE("what does not fit the model is refused") {
 
 TEST_CASE("a mass matrix without a pivot is reported") {
   const Model model = Model::built_in(4);
-  EightSets sets(model);  // all masses zero
+  BatchDynamics sets(model);  // all masses zero
   CHECK(sets.evaluate(0.0) != 0);
 }
 
@@ -107,8 +107,8 @@ TEST_CASE("eight sets are handed on in groups of as many as the processor takes"
     table.accelerations = function;
     table.batch = at_once;
     const Model model(&table);
-    EightSets sets(model);
-    for (int k = 0; k < EightSets::kSets; ++k) {
+    BatchDynamics sets(model);
+    for (int k = 0; k < BatchDynamics::kBatch; ++k) {
       Eigen::VectorXd p = Eigen::VectorXd::Ones(model.parameters());
       p[13] = k;
       sets.set_parameters(k, p);
@@ -120,11 +120,11 @@ TEST_CASE("eight sets are handed on in groups of as many as the processor takes"
       sets.u(k, 2) = k + 1;
     }
     REQUIRE(sets.evaluate(0.5) == 0);
-    for (int k = 0; k < EightSets::kSets; ++k)
+    for (int k = 0; k < BatchDynamics::kBatch; ++k)
       for (int i = 0; i < 2; ++i)
         CHECK(sets.acceleration(k, i) ==
               0.5 + (8 * i + k) + 10 * (7 + 8 * i - k) + 100 * (k + 2) + 1e3 * (k + 1) + 1e4 * k);
-    for (int k = 0; k < EightSets::kSets; ++k) {  // one that fails is enough
+    for (int k = 0; k < BatchDynamics::kBatch; ++k) {  // one that fails is enough
       const double velocity = std::exchange(sets.v(k, 1), -1);
       CHECK(sets.evaluate(0.5) == 2);
       sets.v(k, 1) = velocity;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runtime/eight_sets.hpp"
+#include "runtime/batch_dynamics.hpp"
 
 #include <stdexcept>
 #include <string>
 
 namespace catena {
 
-EightSets::EightSets(const Model& model)
+BatchDynamics::BatchDynamics(const Model& model)
     : model_(model),
       q_(model.coordinates(), model.table().batch),
       v_(q_),
@@ -15,15 +15,15 @@ EightSets::EightSets(const Model& model)
       p_(model.parameters(), model.table().batch),
       a_(q_) {}
 
-void EightSets::set_parameters(int k, const Eigen::VectorXd& p) {
-  if (k < 0 || k >= kSets)
+void BatchDynamics::set_parameters(int k, const Eigen::VectorXd& p) {
+  if (k < 0 || k >= kBatch)
     throw std::invalid_argument("set " + std::to_string(k) + ": there are sets 0 to 7");
   model_.check_parameters(p);
   for (int i = 0; i < model_.parameters(); ++i) p_.of(k, i) = p[i];
 }
 
-int EightSets::evaluate(double t) {
-  for (int first = 0; first < kSets; first += model_.table().batch) {
+int BatchDynamics::evaluate(double t) {
+  for (int first = 0; first < kBatch; first += model_.table().batch) {
     const catena_point at{t,
                           q_.group(first),
                           v_.group(first),

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runtime/internal_forces.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "common/number_text.hpp"
+#include "runtime/dynamics.hpp"
+
+namespace catena {
+
+InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parameters,
+                               const Trajectory& trajectory, const Signals& signals) {
+  Dynamics dynamics(model, parameters, signals);
+  const Eigen::Index times = trajectory.q.cols();
+  const Eigen::MatrixXd empty(model.links(), times);
+  InternalForces result{empty, empty, empty};
+  Eigen::VectorXd a(model.coordinates());
+  for (Eigen::Index k = 0; k < times; ++k) {
+    const double t = trajectory.time[static_cast<std::size_t>(k)];
+    const catena_point at =
+        dynamics.at(t, trajectory.q.col(k).data(), trajectory.v.col(k).data(), a.data(),
+                    model.states() > 0 ? trajectory.z.col(k).data() : dynamics.zero());
+    if (const int pivot = model.acceleration(at, a.data()))
+      throw std::runtime_error("internal forces: the mass matrix is not positive definite at " +
+                               std::string(model.table().coordinate[pivot - 1].name) +
+                               " at t = " + number_text(t) + " s");
+    model.internal_forces(at, result.moment.col(k).data(), result.tension.col(k).data(),
+                          result.curvature.col(k).data());
+  }
+  return result;
+}
+
+}  // namespace catena

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "runtime/model.hpp"
+#include "runtime/signals.hpp"
+#include "runtime/trajectory.hpp"
+
+namespace catena {
+
+/// Forces inside the cable over time: links x times, row i - 1 for joint or link i.
+struct InternalForces {
+  /// Moment of joint i, N m: acts on link i from link i - 1 (from the support for i = 1), positive
+  /// towards growing theta.
+  Eigen::MatrixXd moment;
+  /// Tension of link i at its upper end, N: positive pulls.
+  Eigen::MatrixXd tension;
+  /// Curvature at joint i, rad/m: the change of angle over the distance between the middles of its
+  /// links; at joint 1, the clamp, over half of link 1.
+  Eigen::MatrixXd curvature;
+};
+
+/// The internal forces along a motion of the model: accelerations follow from the equations of
+/// motion (3.4) at each time.
+///
+/// `parameters`: one entry per parameter of the model. `trajectory`: a motion with these
+/// parameters, its q, v and z. `signals`: those of the motion.
+/// Throws std::runtime_error that names the coordinate and the time where the mass matrix is not
+/// positive definite.
+InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parameters,
+                               const Trajectory& trajectory, const Signals& signals = {});
+
+}  // namespace catena
