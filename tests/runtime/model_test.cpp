@@ -11,6 +11,7 @@
 
 #include "common/input_error.hpp"
 #include "tests/runtime/reference_model.hpp"
+#include "tests/support/data.hpp"
 
 namespace {
 
@@ -72,7 +73,7 @@ TEST_CASE("what cannot be loaded is named with the reason") {
   };
   const Row rows[] = {
       {"no/such/file.so", "no such file"},
-      {std::filesystem::path(CATENA_SOURCE_DIR) / "CMakeLists.txt", "cannot be loaded"},
+      {catena::tests::source_folder() / "CMakeLists.txt", "cannot be loaded"},
       {LOADABLE_WITHOUT_ENTRY, "does not export catena_model_table"},
       {LOADABLE_OTHER_ABI,
        "interface version 1, this program needs version 2; derive and compile it again"},

@@ -12,4 +12,8 @@ namespace catena::tests {
 // a line on standard output says that the running test is skipped, and the test should return.
 std::optional<std::filesystem::path> published_data(std::string_view name);
 
+// The checkout, and the build folder: programs are in its bin/.
+std::filesystem::path source_folder();
+std::filesystem::path build_folder();
+
 }  // namespace catena::tests

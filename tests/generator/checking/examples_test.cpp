@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/generator/checking/text.hpp"
+#include "tests/support/data.hpp"
 
 using namespace catena;
 using namespace catena::checking;
@@ -62,8 +63,8 @@ TEST_CASE("the shipped examples get their verdicts") {
 TEST_CASE("every example file is in the table") {
   std::set<std::string> known;
   for (const Row& row : rows()) known.insert(row.file);
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(CATENA_SOURCE_DIR) +
-                                                               "/examples/derivations")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(source_folder() / "examples" / "derivations")) {
     INFO(entry.path().string());
     CHECK(known.count(entry.path().filename().string()) == 1);
   }

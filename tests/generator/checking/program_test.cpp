@@ -11,6 +11,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/data.hpp"
+
 namespace {
 
 struct Outcome {
@@ -20,7 +22,7 @@ struct Outcome {
 
 Outcome run(const std::string& arguments) {
   const std::string command =
-      std::string(CATENA_BINARY_DIR) + "/bin/catena-derive check " + arguments + " 2>&1";
+      catena::tests::build_folder().string() + "/bin/catena-derive check " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
   Outcome outcome{0, ""};
@@ -33,7 +35,7 @@ Outcome run(const std::string& arguments) {
 }
 
 std::string example(const std::string& name) {
-  return std::string(CATENA_SOURCE_DIR) + "/examples/derivations/" + name;
+  return catena::tests::source_folder() / "examples" / "derivations" / name;
 }
 
 bool contains(const std::string& text, const std::string& part) {

@@ -8,11 +8,12 @@
 
 #include "generator/checking/evaluator.hpp"
 #include "generator/checking/parser.hpp"
+#include "tests/support/data.hpp"
 
 namespace catena::tests {
 
 std::string example(const std::string& name) {
-  const std::string path = std::string(CATENA_SOURCE_DIR) + "/examples/derivations/" + name;
+  const std::string path = source_folder() / "examples" / "derivations" / name;
   std::ifstream stream(path);
   if (!stream) throw std::runtime_error("cannot read " + path);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

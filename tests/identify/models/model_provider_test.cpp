@@ -13,6 +13,7 @@
 #include "identify/fit/error.hpp"
 #include "runtime/any_links.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -26,7 +27,7 @@ const char* const kSensors =
 ProviderOptions options_for(const testing::TemporaryFolder& folder,
                             std::vector<std::string>* notices) {
   ProviderOptions options;
-  options.derive_program = std::filesystem::path(CATENA_BINARY_DIR) / "bin" / "catena-derive";
+  options.derive_program = tests::build_folder() / "bin" / "catena-derive";
   options.cache_directory = folder.path() / "cache";
   if (notices) options.notice = [notices](const std::string& line) { notices->push_back(line); };
   return options;

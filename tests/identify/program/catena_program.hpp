@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "identify/models/process.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace catena::testing {
 
 /// catena as a user runs it: exit status and what it printed.
 inline ProcessResult run_catena(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), std::string(CATENA_BINARY_DIR) + "/bin/catena");
+  arguments.insert(arguments.begin(), tests::build_folder() / "bin" / "catena");
   return run_process(arguments, true);
 }
 

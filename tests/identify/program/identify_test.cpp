@@ -67,7 +67,7 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
       "[simulation]\nrelative_tolerance = 1e-11\n";
   const auto the_case = twin.folder.write("fit.toml", slow);
   const std::filesystem::path out = twin.folder.path() / "out";
-  const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
+  const std::string program = tests::build_folder() / "bin" / "catena";
   const pid_t child = fork();
   if (child == 0) {
     execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", out.c_str(), "-q",
@@ -93,7 +93,7 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
 
 TEST_CASE("a run killed at random times and resumed ends as an undisturbed one does") {
   const Twin twin;
-  const std::string program = std::string(CATENA_BINARY_DIR) + "/bin/catena";
+  const std::string program = tests::build_folder() / "bin" / "catena";
   for (const char* method : {"nelder_mead", "least_squares"}) {
     CAPTURE(std::string(method));
     const bool simplex = method == std::string("nelder_mead");
