@@ -181,6 +181,19 @@ struct SimulationSpec {
   long max_steps = 1'000'000;
 };
 
+/// A whole case: read by case_reader.hpp, written by case_writer.hpp, or made in a program:
+///
+///     Case the_case;
+///     the_case.links = 12;
+///     the_case.cable.length = 2.585;     // m
+///     the_case.cable.density = 0.1424;   // kg/m
+///     the_case.cable.load_mass = 1.381;  // kg
+///     ParameterSpec stiffness;
+///     stiffness.name = "EI";
+///     stiffness.sets = "bending_stiffness";
+///     stiffness.value = 0.04;  // N m^2
+///     stiffness.free = true;
+///     the_case.parameters.push_back(stiffness);
 struct Case {
   std::filesystem::path file;  ///< where it was read from
   std::string title;
