@@ -28,10 +28,9 @@ void write_model(const Diagnosis& found, const Workshop& workshop, const fs::pat
                                     the_case.description);
     const ProcessResult derived = run_process(
         {find_derive_program().string(), "derive", "--description", the_case.description.string(),
-         "--links", std::to_string(the_case.links), "--output", (folder / "model").string()},
-        true);
+         "--links", std::to_string(the_case.links), "--output", (folder / "model").string()});
     if (derived.exit_status != 0)
-      throw ModelError("deriving the model again failed: " + derived.output);
+      throw ModelError("deriving the model again failed: " + derived.errors);
   }
   write_case(the_case, folder / "diagnosed.toml");
 }

@@ -5,7 +5,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
@@ -22,14 +24,6 @@ namespace fs = std::filesystem;
 const char* environment(const char* name) {
   const char* value = std::getenv(name);
   return value && *value ? value : nullptr;
-}
-
-fs::path cache_directory(const ProviderOptions& options) {
-  if (!options.cache_directory.empty()) return options.cache_directory;
-  if (const char* chosen = environment("CATENA_CACHE")) return chosen;
-  if (const char* base = environment("XDG_CACHE_HOME")) return fs::path(base) / "catena";
-  if (const char* home = environment("HOME")) return fs::path(home) / ".cache" / "catena";
-  return fs::temp_directory_path() / "catena-cache";
 }
 
 bool has_fused_multiply_add() {
@@ -63,43 +57,30 @@ fs::path look_for_derive_program() {
   return find_in_path(name);
 }
 
-/// A fresh folder beside the cache's entries, removed again unless it was moved into place.
-class WorkFolder {
- public:
-  explicit WorkFolder(const fs::path& cache) {
-    std::error_code error;
-    fs::create_directories(cache, error);
-    std::string pattern = (cache / "work-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-      throw ModelError(cache.string() +
-                       ": the cache of models cannot be written; set CATENA_CACHE to a "
-                       "folder of yours");
-    path_ = pattern;
-  }
-  ~WorkFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::string run(const std::vector<std::string>& command, const std::string& purpose,
-                const std::string& hint) {
+/// Runs a step of making a model; what it printed to standard output. Throws ModelError.
+ProcessResult run(const std::vector<std::string>& command, const std::string& purpose,
+                  const std::string& hint) {
   ProcessResult result;
   try {
-    result = run_process(command, true);
+    result = run_process(command);
   } catch (const std::runtime_error& error) {
     throw ModelError(purpose + ": " + error.what() + hint);
   }
-  if (result.exit_status == 2) throw InputError(result.output);  // the description is at fault
-  if (result.exit_status != 0)
-    throw ModelError(purpose + ": " + command.front() + " ended with status " +
-                     std::to_string(result.exit_status) + hint + "\n" + result.output);
+  return result;
+}
+
+[[noreturn]] void fail(const ProcessResult& result, const std::string& program,
+                       const std::string& purpose, const std::string& hint) {
+  throw ModelError(purpose + ": " + program + " ended with status " +
+                   std::to_string(result.exit_status) + hint + "\n" + result.errors);
+}
+
+/// Runs catena-derive; what it wrote to standard output. Throws InputError where it finds the
+/// description at fault.
+std::string run_derivation(const std::vector<std::string>& command, const std::string& purpose) {
+  const ProcessResult result = run(command, purpose, "");
+  if (result.exit_status == 2) throw InputError(result.errors);
+  if (result.exit_status != 0) fail(result, command.front(), purpose, "");
   return result.output;
 }
 
@@ -140,7 +121,7 @@ std::string derived_equations(const fs::path& description, int links) {
   try {
     std::vector<std::string> command = derivation(find_derive_program(), description, links);
     command.push_back("--equations");
-    return run(command, "deriving the equations", "");
+    return run_derivation(command, "deriving the equations");
   } catch (const ModelError&) {
     return {};
   }
@@ -176,10 +157,10 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
                         std::to_string(CATENA_MODEL_ABI) + ", " +
                         std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;
-  const fs::path cache = cache_directory(options);
-  const fs::path entry = cache / sha256_hex(decides);
-  const fs::path library = entry / "model.so";
-  if (fs::exists(library)) return Model::load(library);
+  const ModelCache cache(options.cache_directory.empty() ? ModelCache::default_folder()
+                                                         : options.cache_directory);
+  const std::string key = sha256_hex(decides);
+  if (std::optional<Model> kept = cache.find(key)) return *std::move(kept);
   if (any_links && options.compiler.empty() && !is_there(compiler))
     return without_compiling("the compiler " + compiler);
 
@@ -190,30 +171,26 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
         foreign += (foreign.empty() ? "" : ", ") +
                    fs::path(effect.source_file).lexically_normal().string();
     options.notice("deriving and compiling the model \"" + description.id + "\" with " +
-                   std::to_string(links) + " links (kept in " + cache.string() + ")" +
+                   std::to_string(links) + " links (kept in " + cache.folder().string() + ")" +
                    (foreign.empty() ? "" : "; it runs code made from " + foreign));
   }
-  const WorkFolder work(cache);
+  const ModelCache::WorkFolder work(cache);
   const fs::path sources = work.path() / "model";
   std::vector<std::string> command = derivation(derive, description_file, links);
   command.insert(command.end(), {"--output", sources.string()});
-  run(command, "deriving the model", "");
+  run_derivation(command, "deriving the model");
 
   command = {compiler};
   command.insert(command.end(), flags.begin(), flags.end());
   for (const std::string& argument : {"-I" + sources.string(), source_in(sources).string(),
                                       std::string("-o"), (sources / "model.so").string()})
     command.push_back(argument);
-  run(command, "compiling the model",
-      "; a C++ compiler is needed for models that are not built in (set CXX to name one)");
-
-  Model::load(sources / "model.so");  // what cannot be used never gets into the cache
-  // Another process may have been quicker: then its entry stays.
-  std::error_code error;
-  fs::rename(sources, entry, error);
-  if (error && !fs::exists(library))
-    throw ModelError(entry.string() + ": cannot be written: " + error.message());
-  return Model::load(library);
+  const std::string purpose = "compiling the model";
+  const std::string hint =
+      "; a C++ compiler is needed for models that are not built in (set CXX to name one)";
+  const ProcessResult compiled = run(command, purpose, hint);
+  if (compiled.exit_status != 0) fail(compiled, compiler, purpose, hint);
+  return cache.keep(key, sources);
 }
 
 }  // namespace catena

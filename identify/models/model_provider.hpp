@@ -3,26 +3,18 @@
 
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <string>
 
+#include "identify/models/model_cache.hpp"
 #include "runtime/model.hpp"
 
 namespace catena {
 
-/// A model that cannot be derived or compiled. Programs print the message and exit with status 1.
-class ModelError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 struct ProviderOptions {
   std::filesystem::path derive_program;  ///< empty: beside this program, in its libexec, or in PATH
-  std::filesystem::path
-      cache_directory;   ///< empty: $CATENA_CACHE, $XDG_CACHE_HOME/catena, ~/.cache/catena
-  std::string compiler;  ///< empty: $CXX, else c++
-  std::function<void(const std::string&)>
-      notice;  ///< called with one line before a model is derived
+  std::filesystem::path cache_directory;           ///< empty: ModelCache::default_folder()
+  std::string compiler;                            ///< empty: $CXX, else c++
+  std::function<void(const std::string&)> notice;  ///< one line before something takes its time
 };
 
 /// The model of the file `description` (empty: the plain chain) with `links` links.

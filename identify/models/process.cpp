@@ -2,6 +2,7 @@
 #include "identify/models/process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,34 +29,54 @@ std::vector<char*> argument_array(const std::vector<std::string>& command) {
   throw std::runtime_error(program + ": cannot be run: " + std::strerror(error));
 }
 
+/// A pipe whose ends are closed with it.
+struct Pipe {
+  std::array<int, 2> ends{-1, -1};
+
+  explicit Pipe(const std::string& program) {
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(program, errno);
+  }
+  ~Pipe() {
+    for (const int end : {0, 1}) close_end(static_cast<std::size_t>(end));
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  void close_end(std::size_t end) {
+    if (ends[end] >= 0) close(ends[end]);
+    ends[end] = -1;
+  }
+  void read_into(std::string& text) {
+    std::array<char, 4096> buffer;
+    const ssize_t got = read(ends[0], buffer.data(), buffer.size());
+    if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (got == 0 || (got < 0 && errno != EINTR)) close_end(0);
+  }
+};
+
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& command, bool capture_output) {
-  std::array<int, 2> ends{-1, -1};
-  if (capture_output && pipe2(ends.data(), O_CLOEXEC) != 0) fail(command.front(), errno);
+ProcessResult run_process(const std::vector<std::string>& command) {
+  Pipe output(command.front()), errors(command.front());
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (capture_output) {
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  }
+  posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, errors.ends[1], STDERR_FILENO);
   pid_t child = 0;
   const int error = posix_spawnp(&child, command.front().c_str(), &actions, nullptr,
                                  argument_array(command).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (capture_output) close(ends[1]);
+  if (error != 0) fail(command.front(), error);
+  output.close_end(1);
+  errors.close_end(1);
   ProcessResult result;
-  if (error != 0) {
-    if (capture_output) close(ends[0]);
-    fail(command.front(), error);
-  }
-  if (capture_output) {
-    std::array<char, 4096> buffer;
-    for (ssize_t got; (got = read(ends[0], buffer.data(), buffer.size())) != 0;) {
-      if (got > 0) result.output.append(buffer.data(), static_cast<std::size_t>(got));
-      if (got < 0 && errno != EINTR) break;
-    }
-    close(ends[0]);
+  // Both are read as they come: a full pipe would stop the program.
+  while (output.ends[0] >= 0 || errors.ends[0] >= 0) {
+    std::array<pollfd, 2> open{pollfd{output.ends[0], POLLIN, 0},
+                               pollfd{errors.ends[0], POLLIN, 0}};
+    if (poll(open.data(), open.size(), -1) < 0 && errno != EINTR) break;
+    if (open[0].revents != 0) output.read_into(result.output);
+    if (open[1].revents != 0) errors.read_into(result.errors);
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

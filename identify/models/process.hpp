@@ -9,12 +9,13 @@ namespace catena {
 
 struct ProcessResult {
   int exit_status = 0;  ///< 128 + number of the signal if one ended it
-  std::string output;   ///< what it wrote to standard output and error, if captured
+  std::string output;   ///< what it wrote to standard output
+  std::string errors;   ///< what it wrote to standard error
 };
 
 /// Runs a program with arguments (no shell) and waits for it. Throws std::runtime_error naming the
 /// program if it cannot be started.
-ProcessResult run_process(const std::vector<std::string>& command, bool capture_output);
+ProcessResult run_process(const std::vector<std::string>& command);
 
 /// Replaces this process by the program. Returns only by std::runtime_error.
 [[noreturn]] void become_process(const std::vector<std::string>& command);

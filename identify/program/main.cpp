@@ -5,6 +5,7 @@
 #include "common/input_error.hpp"
 #include "common/manual.hpp"
 #include "identify/models/process.hpp"
+#include "identify/program/cache_command.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/diagnose_command.hpp"
 #include "identify/program/identify_command.hpp"
@@ -50,6 +51,7 @@ int run(int argc, char** argv) {
   add_identify_command(program, exit_status);
   add_report_command(program, exit_status);
   add_diagnose_command(program, exit_status);
+  add_cache_command(program, exit_status);
   for (const HandedOver& command : kHandedOver)
     program.add_subcommand(command.name, command.summary);
   add_manual_command(program);

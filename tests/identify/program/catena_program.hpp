@@ -12,10 +12,12 @@
 
 namespace catena::testing {
 
-/// catena as a user runs it: exit status and what it printed.
+/// catena as a user runs it: exit status and what it printed, errors after the rest, in `output`.
 inline ProcessResult run_catena(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), tests::build_folder() / "bin" / "catena");
-  return run_process(arguments, true);
+  ProcessResult result = run_process(arguments);
+  result.output += result.errors;
+  return result;
 }
 
 inline std::string text_of(const std::filesystem::path& file) {

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/models/model_cache.hpp"
+
+#include <fcntl.h>
+#include <grp.h>
+#include <pwd.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "common/sha256.hpp"
+#include "common/whole_file.hpp"
+
+namespace catena {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLibrary = "model.so";
+constexpr const char* kChecksum = "model.so.sha256";
+constexpr const char* kWork = "work-";
+
+const char* environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+std::string checksum_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return sha256_hex(bytes.str());
+}
+
+/// Whether an entry holds what was written when it was made.
+bool is_whole(const fs::path& entry) {
+  std::ifstream in(entry / kChecksum);
+  std::string written;
+  return in >> written && written == checksum_of(entry / kLibrary);
+}
+
+/// Puts a file or folder on the disk before it gets its name: a crash leaves no half entry.
+void synchronise(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  fsync(file);
+  close(file);
+}
+
+bool is_work_folder(const fs::path& path) { return path.filename().string().starts_with(kWork); }
+
+/// Locks a folder until the process ends or the result is closed; -1 if another process has it.
+int lock_folder(const fs::path& folder) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return -1;
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+  close(file);
+  return -1;
+}
+
+std::uintmax_t bytes_in(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  std::error_code error;
+  for (const auto& file : fs::recursive_directory_iterator(folder, error))
+    if (file.is_regular_file(error)) bytes += file.file_size(error);
+  return bytes;
+}
+
+/// Whether a group holds this user alone, as Linux gives each user one of the same name.
+bool is_private_group(gid_t id) {
+  const passwd* account = getpwuid(geteuid());
+  if (!account || account->pw_gid != id) return false;
+  const std::string user = account->pw_name;
+  const group* members = getgrgid(id);
+  if (!members || members->gr_name != user) return false;
+  for (char** member = members->gr_mem; *member; ++member)
+    if (*member != user) return false;
+  return true;
+}
+
+/// The entries, those used last at the end.
+std::vector<fs::path> entries_of(const fs::path& cache) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> entries;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(cache, error))
+    if (entry.is_directory(error) && !is_work_folder(entry.path()))
+      entries.emplace_back(fs::last_write_time(entry.path(), error), entry.path());
+  std::sort(entries.begin(), entries.end());
+  std::vector<fs::path> paths;
+  for (auto& [time, path] : entries) paths.push_back(std::move(path));
+  return paths;
+}
+
+}  // namespace
+
+std::string why_not_trusted(const fs::path& folder) {
+  std::error_code error;
+  fs::path path = fs::canonical(folder, error);
+  if (error) return folder.string() + ": " + error.message();
+  for (bool above = false;; above = true, path = path.parent_path()) {
+    struct stat status = {};
+    if (stat(path.c_str(), &status) != 0) return path.string() + ": " + std::strerror(errno);
+    const bool own = status.st_uid == geteuid() || (above && status.st_uid == 0);
+    if (!own) return path.string() + " belongs to another user; choose a folder of your own";
+    const bool sticky = above && (status.st_mode & S_ISVTX) != 0;
+    const bool by_group = (status.st_mode & S_IWGRP) != 0 && !is_private_group(status.st_gid);
+    if ((by_group || (status.st_mode & S_IWOTH) != 0) && !sticky)
+      return path.string() + " may be written by other users; chmod go-w " + path.string();
+    if (path == path.root_path()) return {};
+  }
+}
+
+fs::path ModelCache::default_folder() {
+  if (const char* chosen = environment("CATENA_CACHE")) return chosen;
+  if (const char* base = environment("XDG_CACHE_HOME")) return fs::path(base) / "catena";
+  if (const char* home = environment("HOME")) return fs::path(home) / ".cache" / "catena";
+  const passwd* account = getpwuid(geteuid());
+  if (!account || !account->pw_dir || !*account->pw_dir)
+    throw ModelError(
+        "no folder for compiled models: neither CATENA_CACHE, XDG_CACHE_HOME nor HOME is set; set "
+        "CATENA_CACHE to a folder of yours");
+  return fs::path(account->pw_dir) / ".cache" / "catena";
+}
+
+ModelCache::ModelCache(const fs::path& folder) : folder_(fs::absolute(folder)) {
+  std::error_code error;
+  fs::create_directories(folder_.parent_path(), error);
+  if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST)
+    throw ModelError(folder_.string() + ": the cache of models cannot be made: " +
+                     std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
+  if (const std::string why = why_not_trusted(folder_); !why.empty())
+    throw ModelError(folder_.string() + ": the cache of models is not used, since it holds code: " +
+                     why + ", or set CATENA_CACHE to a folder of yours");
+  for (const auto& left : fs::directory_iterator(folder_, error)) {
+    if (!is_work_folder(left.path())) continue;
+    const int lock = lock_folder(left.path());
+    if (lock < 0) continue;  // its process is still at work
+    fs::remove_all(left.path(), error);
+    close(lock);
+  }
+}
+
+std::optional<Model> ModelCache::find(const std::string& key) const {
+  const fs::path entry = folder_ / key;
+  std::error_code error;
+  if (!fs::exists(entry, error)) return {};
+  if (!is_whole(entry)) {
+    fs::remove_all(entry, error);
+    return {};
+  }
+  fs::last_write_time(entry, fs::file_time_type::clock::now(), error);  // see remove_oldest
+  return Model::load(entry / kLibrary);
+}
+
+ModelCache::WorkFolder::WorkFolder(const ModelCache& cache) {
+  std::string pattern = (cache.folder() / (std::string(kWork) + "XXXXXX")).string();
+  if (!mkdtemp(pattern.data()))
+    throw ModelError(cache.folder().string() + ": the cache of models cannot be written: " +
+                     std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
+  path_ = pattern;
+  lock_ = lock_folder(path_);
+}
+
+ModelCache::WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  if (lock_ >= 0) close(lock_);
+}
+
+Model ModelCache::keep(const std::string& key, const fs::path& made) const {
+  const fs::path entry = folder_ / key;
+  Model::load(made / kLibrary);  // what cannot be used never gets into the cache
+  write_whole_file(made / kChecksum, checksum_of(made / kLibrary) + "\n");
+  for (const char* file : {kLibrary, kChecksum}) synchronise(made / file);
+  synchronise(made);
+  std::error_code error;
+  if (fs::exists(entry, error) && !is_whole(entry)) fs::remove_all(entry, error);
+  fs::rename(made, entry, error);
+  if (error && !is_whole(entry))
+    throw ModelError(entry.string() + ": cannot be written: " + error.message());
+  synchronise(folder_);
+  const Model model = Model::load(entry / kLibrary);
+  remove_oldest();
+  return model;
+}
+
+ModelCache::Usage ModelCache::usage() const {
+  Usage usage;
+  for (const fs::path& entry : entries_of(folder_)) {
+    ++usage.models;
+    usage.bytes += bytes_in(entry);
+  }
+  return usage;
+}
+
+void ModelCache::clear() const {
+  std::error_code error;
+  for (const fs::path& entry : entries_of(folder_)) fs::remove_all(entry, error);
+}
+
+void ModelCache::remove_oldest() const {
+  const std::vector<fs::path> entries = entries_of(folder_);
+  std::uintmax_t bytes = usage().bytes;
+  std::error_code error;
+  for (std::size_t i = 0; i + 1 < entries.size() && bytes > kMostBytes; ++i) {
+    const std::uintmax_t freed = bytes_in(entries[i]);
+    fs::remove_all(entries[i], error);
+    bytes -= std::min(bytes, freed);
+  }
+}
+
+}  // namespace catena
