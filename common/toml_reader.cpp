@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "common/nesting.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 
@@ -78,32 +79,61 @@ std::vector<std::pair<std::string, const toml::node*>> in_file_order(const toml:
   return ordered;
 }
 
+/// The line of the first dotted key with more parts than kDeepestNesting; 0 if there is none. toml++
+/// limits nested values, not dotted keys, and takes the tables apart by recursion.
+int line_of_too_deep_key(std::string_view text) {
+  int line = 1, dots = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (c == '"' || c == '\'') {  // strings, and quoted parts of a key, are passed over
+      const std::string_view three = text.substr(k, 3);
+      const bool long_string = three == "\"\"\"" || three == "'''";
+      const std::string_view quote = text.substr(k, long_string ? 3 : 1);
+      std::size_t end = k + quote.size();
+      while (end < text.size() && text.substr(end, quote.size()) != quote &&
+             (long_string || text[end] != '\n'))
+        end += c == '"' && text[end] == '\\' ? 2 : 1;
+      end = std::min(end, text.size());
+      line += static_cast<int>(std::count(text.begin() + static_cast<long>(k),
+                                          text.begin() + static_cast<long>(end), '\n'));
+      k = std::min(end + quote.size(), text.size()) - 1;
+    } else if (c == '#') {
+      k = std::min(text.find('\n', k), text.size()) - 1;
+    } else if (c == '.') {
+      if (++dots >= kDeepestNesting) return line;
+    } else if (c == '\n') {
+      ++line;
+      dots = 0;
+    } else if (c == '=' || c == ',' || c == '{' || c == '[') {
+      dots = 0;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 TomlTable::TomlTable(std::shared_ptr<Document> document, const void* table, std::string path)
     : document_(std::move(document)), table_(table), path_(std::move(path)) {}
 
 TomlTable TomlTable::read(const std::filesystem::path& path, std::string_view kind) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw InputError(path.string() +
-                     ": there is no such file; give the path of a TOML file of kind \"" +
-                     std::string(kind) + "\"");
+  require_utf8(path.string(), "the name of the file " + path.string());
+  std::string text;
+  try {
+    text = read_whole_file(path);
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + "; a TOML file of kind \"" + std::string(kind) +
+                     "\" is wanted");
   }
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(path.string() + ": is a folder; give the path of a TOML file of kind \"" +
-                     std::string(kind) + "\"");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(path.string() + ": cannot be read; check its permissions");
-  return parse(text.str(), path.string(), kind);
+  return parse(text, path.string(), kind);
 }
 
 TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::string_view kind) {
   auto document = std::make_shared<Document>();
   document->file = std::string(name);
+  if (const int line = line_of_too_deep_key(text); line > 0)
+    throw InputError(document->file + ":" + std::to_string(line) + ": a key of more than " +
+                     std::to_string(kDeepestNesting) + " parts; nothing that catena reads has one");
   try {
     document->root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -3,12 +3,66 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "common/input_error.hpp"
 
 namespace catena {
+namespace {
+
+/// Bytes of the character that begins at text[at]; 0 if they are not UTF-8.
+std::size_t character_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[at + k]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xC2 && first <= 0xDF   ? 2
+                             : first >= 0xE0 && first <= 0xEF ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  // Longer than need be, surrogates, beyond U+10FFFF (RFC 3629, section 4).
+  const unsigned char second = byte(1);
+  if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F))
+    return 0;
+  return length;
+}
+
+}  // namespace
+
+void require_utf8(std::string_view text, const std::string& what) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    if (length == 0) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+      throw InputError(what + ":" + std::to_string(line) +
+                       ": a character is not UTF-8; save the text as UTF-8 (iconv -f latin1 -t "
+                       "utf8 converts it)");
+    }
+    at += length;
+  }
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError(path.string() + ": there is no such file");
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path.string() + ": is a folder; give the path of a file");
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream) throw InputError(path.string() + ": cannot be read; check its permissions");
+  std::string text = bytes.str();
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  require_utf8(text, path.string());
+  return text;
+}
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::path temporary = path;

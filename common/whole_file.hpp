@@ -2,9 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace catena {
+
+/// The text of a file (UTF-8; a byte order mark is left out). Throws InputError naming the path if
+/// it is missing, a folder or cannot be read, and the line where a byte is not UTF-8.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// Throws InputError naming `what` and the line if `text` is not UTF-8 (RFC 3629). Results are
+/// written as JSON, which holds nothing else.
+void require_utf8(std::string_view text, const std::string& what);
 
 /// Writes a file whole or not at all: to a temporary name in the same folder, then renamed.
 /// Throws InputError naming the path if it cannot be written.

@@ -9,11 +9,11 @@
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "common/nesting.hpp"
 
 namespace catena {
 namespace {
 
-constexpr int kDeepest = 200;  // nesting of parentheses and signs; far beyond what anyone writes
 constexpr std::size_t kLongest = 4000;  // characters; also bounds the depth of the tree
 
 // What people reach for that has no derivative everywhere, and what to write instead.
@@ -189,7 +189,8 @@ class Parser {
   // Counts how deep parentheses and signs are nested while it lives.
   struct Nesting {
     explicit Nesting(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kDeepest) parser_.fail("it is nested too deeply; use definitions");
+      if (++parser_.depth_ > kDeepestNesting)
+        parser_.fail("it is nested too deeply; use definitions");
     }
     ~Nesting() { --parser_.depth_; }
     Parser& parser_;

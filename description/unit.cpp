@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/nearest_name.hpp"
+#include "common/nesting.hpp"
 
 namespace catena {
 namespace {
@@ -112,7 +113,9 @@ class UnitParser {
   Unit factor() {
     skip_spaces();
     if (take('(')) {
+      if (++depth_ > kDeepestNesting) fail("parentheses are nested too deeply");
       const Unit inside = products();
+      --depth_;
       if (!take(')')) fail("a parenthesis is not closed");
       return inside;
     }
@@ -177,6 +180,7 @@ class UnitParser {
 
   std::string_view text_;
   std::size_t at_ = 0;
+  int depth_ = 0;  // of parentheses
 };
 
 std::string power_text(const std::string& base, Exponent exponent) {

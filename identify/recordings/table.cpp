@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 namespace {
@@ -43,13 +44,11 @@ const std::vector<double>& Table::column(std::string_view name) const {
 }
 
 Table read_table(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw InputError(path.string() + ": cannot be read");
+  std::istringstream in(read_whole_file(path));
   Table table;
   table.file = path.string();
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (trimmed(line).empty()) continue;
     const std::vector<std::string> fields = split(line);
     const std::string where = table.file + ":" + std::to_string(number);

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
 
 #include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "identify/recordings/table.hpp"
 
 namespace catena {
@@ -22,14 +22,12 @@ constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw InputError(path.string() + ": cannot be read");
+  std::istringstream in(read_whole_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     lines.push_back(line);
   }
-  if (!lines.empty() && lines[0].starts_with("\xEF\xBB\xBF")) lines[0].erase(0, 3);
   return lines;
 }
 

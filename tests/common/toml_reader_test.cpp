@@ -113,6 +113,13 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
   struct Row {
     const char *text, *said;
   };
+  std::string deep = "format = 1\n# a comment with " + std::string(1000, '.') + "\na";
+  for (int k = 0; k < 40'000; ++k) deep += k % 2 ? ".b" : " . \"c.d\"";
+  deep += " = 1\n";
+  const std::string deep_list =
+      "format = 1\n\na = " + std::string(40'000, '[') + std::string(40'000, ']') + "\n";
+  const std::string long_text =
+      "format = 1\ntitle = \"" + std::string(1000, '.') + "\"\nkind = \"x\"\n";
   const Row rows[] = {
       {"", "f.toml:1: format = 1 is missing"},
       {"format = 2\nkind = \"case\"\n", "f.toml:1: format: 2 is not known to this catena"},
@@ -121,6 +128,9 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
        "f.toml:2: kind: \"model\" where a file of kind \"case\" is wanted"},
       {"format = 1\nkind = = 2\n", "f.toml:2: not valid TOML: "},
       {"format = 1\nformat = 1\n", "f.toml:2: not valid TOML: "},
+      {deep.c_str(), "f.toml:3: a key of more than 200 parts"},
+      {deep_list.c_str(), "f.toml:3: not valid TOML: "},
+      {long_text.c_str(), "f.toml:3: kind: \"x\" where a file of kind \"case\" is wanted"},
   };
   for (const Row& row : rows) {
     const std::string said = failure([&] { TomlTable::parse(row.text, "f.toml", "case"); });

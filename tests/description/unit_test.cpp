@@ -55,6 +55,7 @@ TEST_CASE("what is no SI unit is refused with the unit to use") {
   struct Row {
     const char *text, *said;
   };
+  const std::string nested = std::string(40'000, '(') + "m" + std::string(40'000, ')');
   const Row rows[] = {
       {"deg", "0.017453292519943295 rad"},
       {"mm", "1 mm = 0.001 m"},
@@ -71,6 +72,7 @@ TEST_CASE("what is no SI unit is refused with the unit to use") {
       {"m^(1/0)", "(p/q)"},
       {"m^99999", "an exponent is"},
       {"2", "a unit is wanted"},
+      {nested.c_str(), "nested too deeply"},
   };
   for (const Row& row : rows) {
     CAPTURE(row.text);

@@ -121,7 +121,7 @@ TEST_CASE("bad data is named by file, line and column") {
     CHECK_MESSAGE(message.find(row.expected) != std::string::npos, message, " lacks ",
                   std::string(row.expected));
   }
-  CHECK(message_of(markers(folder.path() / "absent.csv")).find("cannot be read") !=
+  CHECK(message_of(markers(folder.path() / "absent.csv")).find("there is no such file") !=
         std::string::npos);
   ExperimentSpec spec = markers(folder.write("m.csv", "t,x,y\n0,1,2\n1,1,2\n"));
   PointSpec point;

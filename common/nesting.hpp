@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace catena {
+
+/// How deep parentheses, signs and dotted keys may be nested in an input file. Far beyond what
+/// anyone writes; readers that call themselves stay within a stack of 1 MB.
+inline constexpr int kDeepestNesting = 200;
+
+}  // namespace catena

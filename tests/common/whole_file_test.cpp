@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/whole_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+TEST_CASE("what is not UTF-8 is refused with its line") {
+  struct Row {
+    const char* text;
+    int line;  // 0: accepted
+  };
+  const Row rows[] = {
+      {"", 0},
+      {"plain\nm\xC3\xA4rker", 0},
+      {"\xE2\x82\xAC \xF0\x9F\x98\x80", 0},  // three and four bytes
+      {"one\ntwo\nm\xE4rker", 3},            // Latin-1
+      {"\xC3", 1},                           // cut off
+      {"a\n\xC0\xAF", 2},                    // longer than need be
+      {"\xE0\x80\xAF", 1},
+      {"\xED\xA0\x80", 1},      // a surrogate
+      {"\xF4\x90\x80\x80", 1},  // beyond U+10FFFF
+      {"\x80", 1},
+      {"\xFF", 1},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.text);
+    const std::string said = failure([&] { require_utf8(row.text, "f.csv"); });
+    CHECK(said.find(row.line == 0 ? "" : "f.csv:" + std::to_string(row.line) + ": ") == 0);
+    CHECK(said.empty() == (row.line == 0));
+  }
+}
+
+TEST_CASE("a file is read whole") {
+  const testing::TemporaryFolder folder;
+  CHECK(read_whole_file(folder.write("empty.txt", "")).empty());
+  CHECK(read_whole_file(folder.write("marked.txt", "\xEF\xBB\xBFside\n")) == "side\n");
+  CHECK(failure([&] { read_whole_file(folder.path() / "absent"); }).find("there is no such file") !=
+        std::string::npos);
+  CHECK(failure([&] { read_whole_file(folder.path()); }).find("is a folder") != std::string::npos);
+  const auto latin = folder.write("latin.csv", "time_s,m\xE4rker\n");
+  CHECK(failure([&] { read_whole_file(latin); }).find("latin.csv:1: ") != std::string::npos);
+}
