@@ -18,7 +18,7 @@
 namespace catena {
 
 struct TomlTable::Document {
-  std::string file;
+  std::string file, source;
   toml::table root;
   std::map<const void*, std::set<std::string, std::less<>>> asked;  // keys, by table
 };
@@ -131,6 +131,7 @@ TomlTable TomlTable::read(const std::filesystem::path& path, std::string_view ki
 TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::string_view kind) {
   auto document = std::make_shared<Document>();
   document->file = std::string(name);
+  document->source = std::string(text);
   if (const int line = line_of_too_deep_key(text); line > 0)
     throw InputError(document->file + ":" + std::to_string(line) + ": a key of more than " +
                      std::to_string(kDeepestNesting) + " parts; nothing that catena reads has one");
@@ -374,6 +375,8 @@ void TomlTable::finish() const {
 }
 
 const std::string& TomlTable::file() const { return document_->file; }
+
+const std::string& TomlTable::source() const { return document_->source; }
 
 int TomlTable::line() const { return std::max(1, line_of(as_table(table_).source())); }
 

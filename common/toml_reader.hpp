@@ -71,6 +71,7 @@ class TomlTable {
   void finish() const;
 
   const std::string& file() const;
+  const std::string& source() const;             ///< the whole file as it was read
   int line() const;                              ///< of the table's header
   int line(std::string_view key) const;          ///< of the key's value; of the table if missing
   std::string path(std::string_view key) const;  ///< "cable.length"

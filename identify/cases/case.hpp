@@ -196,6 +196,7 @@ struct SimulationSpec {
 ///     the_case.parameters.push_back(stiffness);
 struct Case {
   std::filesystem::path file;  ///< where it was read from
+  std::string text;            ///< what was read; results keep it, whatever becomes of the file
   std::string title;
   std::filesystem::path description;  ///< empty: the plain chain
   int links = 0;

@@ -336,6 +336,7 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
           const std::filesystem::path& directory) {
   Case the_case;
   the_case.file = path;
+  the_case.text = file.source();
   the_case.title = file.optional_text("title").value_or("");
   const TomlTable model = file.table("model");
   the_case.links = count(model, "links", 0, 1);

@@ -294,8 +294,7 @@ results::Optimiser optimiser_of(const Problem& problem, const FitResult& fit) {
 }  // namespace
 
 results::CaseEntry case_entry(const Case& the_case) {
-  const std::string text = contents_of(the_case.file);
-  return {the_case.file.filename().string(), text, sha256_hex(text)};
+  return {the_case.file.filename().string(), the_case.text, sha256_hex(the_case.text)};
 }
 
 std::vector<results::Formula> formula_entries(const Effect& effect) {

@@ -10,6 +10,7 @@
 #include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -199,7 +200,7 @@ TEST_CASE("a parameter has a value for each experiment where the case gives one"
 }
 
 TEST_CASE("no example names a file outside the examples, so that each runs from anywhere") {
-  const std::filesystem::path examples = CATENA_SOURCE_DIR "/examples";
+  const std::filesystem::path examples = tests::source_folder() / "examples";
   const std::regex named("(?:data|description) = \"([^\"]*)\"");
   int files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
@@ -284,4 +285,15 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
                   std::string(row.expected));
     CHECK_MESSAGE(message.starts_with("case.toml:"), message);
   }
+}
+
+TEST_CASE("a case keeps what was read, whatever becomes of its file") {
+  const testing::TemporaryFolder folder;
+  const std::string text =
+      "format = 1\nkind = \"case\"\n[model]\nlinks = 2\n[cable]\nlength = 1.0\ndensity = 0.3\n"
+      "load_mass = 0.2\n";
+  const auto file = folder.write("cable.toml", text);
+  const Case the_case = read_case(file);
+  std::filesystem::remove(file);
+  CHECK(the_case.text == text);
 }

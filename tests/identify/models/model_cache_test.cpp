@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "identify/models/model_provider.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -27,7 +28,7 @@ struct Filled {
   int made = 0;
 
   Filled() {
-    options.derive_program = fs::path(CATENA_BINARY_DIR) / "bin" / "catena-derive";
+    options.derive_program = tests::build_folder() / "bin" / "catena-derive";
     options.cache_directory = folder.path() / "cache";
     options.notice = [this](const std::string&) { ++made; };
     provide();

@@ -9,6 +9,7 @@
 #include "identify/problem/prediction.hpp"
 #include "runtime/positions.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -48,7 +49,7 @@ Problem seen_with(const Model& model, const std::vector<std::pair<std::string, d
 TEST_CASE("the chain that is laid over a measurement runs through what the sensors would report") {
   const testing::TemporaryFolder folder;
   ProviderOptions options;
-  options.derive_program = std::filesystem::path(CATENA_BINARY_DIR) / "bin" / "catena-derive";
+  options.derive_program = tests::build_folder() / "bin" / "catena-derive";
   options.cache_directory = folder.path() / "cache";
   const Model model = provide_model(
       folder.write("seen.toml",

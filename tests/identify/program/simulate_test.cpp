@@ -18,7 +18,8 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(run.output.find("\033") == std::string::npos);  // no terminal, no colours, no progress
   CHECK(run.output.find("\r") == std::string::npos);
   CHECK(run_catena({"simulate", the_case, "--output", second, "--quiet"}).output.empty());
-  for (const char* name : {"result.json", "positions.csv", "angles.csv", "forces.csv", "energy.csv"}) {
+  for (const char* name :
+       {"result.json", "positions.csv", "angles.csv", "forces.csv", "energy.csv"}) {
     CAPTURE(std::string(name));
     const std::string text = testing::text_of(std::filesystem::path(first) / name);
     CHECK(text.size() > 500);
