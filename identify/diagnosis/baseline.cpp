@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "common/parallel.hpp"
@@ -45,11 +46,15 @@ void hold_out(Case& the_case, Workshop& workshop, std::vector<std::string>& note
     held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
   if (held) return;
   const Problem problem(the_case, workshop.model_with({}, the_case.links));
-  for (std::size_t e = 0; e < the_case.experiments.size(); ++e) {
-    const auto& time = problem.experiments()[e].recording.time;
-    ExperimentSpec& experiment = the_case.experiments[e];
-    if (problem.experiments().size() == the_case.experiments.size())
-      experiment.fit_until = time.back() - kHeldOutShare * (time.back() - time.front());
+  for (std::size_t s = 0; s < the_case.experiments.size(); ++s) {
+    // From the first frame of its first window to the last frame of its last.
+    double begin = std::numeric_limits<double>::infinity(), end = -begin;
+    for (const Experiment& window : problem.experiments()) {
+      if (window.source != static_cast<int>(s)) continue;
+      begin = std::min(begin, window.recording.time.front());
+      end = std::max(end, window.recording.time.back());
+    }
+    if (begin < end) the_case.experiments[s].fit_until = end - kHeldOutShare * (end - begin);
   }
   notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "identify/diagnosis/score.hpp"
+
 namespace catena {
 namespace {
 
@@ -53,6 +55,10 @@ Candidate candidate_of(Effect effect) {
   else if (candidate.with_role(ParameterRole::kAmplitude).empty() &&
            candidate.with_role(ParameterRole::kLimit).empty())
     candidate.unavailable = "no parameter has a value at which it vanishes";
+  const std::size_t columns = candidate.with_role(ParameterRole::kAmplitude).size() *
+                              (candidate.with_role(ParameterRole::kPhase).empty() ? 1 : 2);
+  if (columns > kMostBoundedColumns)
+    candidate.unavailable = "has more amplitudes than can be scored together";
   candidate.effect = std::move(effect);
   return candidate;
 }

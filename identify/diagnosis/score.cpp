@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace catena {
 
@@ -69,15 +71,22 @@ Score ScoreTest::score(const std::vector<int>& columns) const {
 
   Score best;
   best.estimate = VectorXd::Zero(static_cast<Index>(count));
-  unsigned always = 0;  // columns without bounds are in every subset
+  // Columns without bounds are in every subset; there may be many of them.
+  std::vector<std::size_t> bounded;
   for (std::size_t i = 0; i < count; ++i)
-    if (std::isinf(column(i).lowest) && std::isinf(column(i).highest)) always |= 1u << i;
-  const unsigned all = (1u << count) - 1;
-  for (unsigned subset = all; subset > 0; --subset) {
-    if ((subset & always) != always) continue;
+    if (!std::isinf(column(i).lowest) || !std::isinf(column(i).highest)) bounded.push_back(i);
+  if (bounded.size() > kMostBoundedColumns)
+    throw std::invalid_argument("score: " + std::to_string(bounded.size()) +
+                                " columns with bounds; at most " +
+                                std::to_string(kMostBoundedColumns) + " can be scored together");
+  const std::size_t subsets = std::size_t{1} << bounded.size();
+  for (std::size_t subset = subsets; subset-- > 0;) {
+    std::vector<bool> left_out(count);
+    for (std::size_t b = 0; b < bounded.size(); ++b) left_out[bounded[b]] = !(subset >> b & 1u);
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < count; ++i)
-      if (subset >> i & 1u) used.push_back(i);
+      if (!left_out[i]) used.push_back(i);
+    if (used.empty()) break;
     const auto k = static_cast<Index>(used.size());
     MatrixXd matrix(k, k);
     VectorXd right(k);
@@ -119,7 +128,7 @@ Score ScoreTest::score(const std::vector<int>& columns) const {
       sum_whole += std::pow(best.estimate[static_cast<Index>(i)] * column(i).whole, 2);
     }
     best.survives = sum_whole > 0 ? std::min(1.0, whole.norm() / std::sqrt(sum_whole)) : 0;
-    if (subset == all && !beyond) break;  // no subset can remove more
+    if (used.size() == count && !beyond) break;  // no subset can remove more
   }
   best.share = squares_ > 0 ? best.removed / squares_ : 0;
   return best;

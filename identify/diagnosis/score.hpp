@@ -23,6 +23,9 @@ struct ScoreColumn {
   double lowest = 0, highest = 0;
 };
 
+/// All subsets of the columns with a bound are tried.
+inline constexpr std::size_t kMostBoundedColumns = 16;
+
 struct Score {
   Eigen::VectorXd estimate;  ///< change of each parameter
   double removed = 0;        ///< fall of the sum of squares, in units of the noise squared
@@ -41,7 +44,9 @@ class ScoreTest {
   int add(const ScoreColumn& column);
 
   /// Fit of a set of columns together, each within its bounds: of all subsets whose own
-  /// least-squares solution is within bounds, the one that removes most.
+  /// least-squares solution is within bounds, the one that removes most. A column without bounds is
+  /// in every subset, and there may be any number of those. Throws std::invalid_argument for more
+  /// than kMostBoundedColumns with a bound.
   Score score(const std::vector<int>& columns) const;
 
   /// What would be left after moving the columns by `estimate`, first order.

@@ -294,6 +294,7 @@ std::vector<Explanation> Search::score(bool own_models) {
     Run& run = runs[r];
     run.columns = columns(*run.problem, run.x, run.unknowns);
   });
+  workshop_.stop_if_asked();  // runs that were left out have no columns
 
   const auto fitted_count = static_cast<Index>(fitted.size());
   const auto start_count = static_cast<Index>(start.size());

@@ -164,6 +164,32 @@ TEST_CASE("what the fit can imitate entirely scores nothing") {
       test.score({test.add({jacobian.col(0) - 2 * jacobian.col(1), -1e9, 1e9})}).admissible);
 }
 
+TEST_CASE("any number of columns without bounds is scored together") {
+  // The freer start of five experiments has 35.
+  for (const int count : {31, 35, 70}) {
+    CAPTURE(count);
+    const MatrixXd columns = white(400, count, 1, 8);
+    const VectorXd sizes = white(count, 1, 1, 9);
+    catena::ScoreTest test(-columns * sizes, MatrixXd(400, 0));
+    std::vector<int> numbers;
+    for (Eigen::Index j = 0; j < columns.cols(); ++j)
+      numbers.push_back(test.add({columns.col(j), -INFINITY, INFINITY}));
+    const catena::Score score = test.score(numbers);
+    CHECK(score.admissible);
+    CHECK(score.share == doctest::Approx(1));
+    CHECK((score.estimate - sizes).norm() < 1e-9);
+    // one with a bound beside them, on its wrong side: left at zero
+    numbers.push_back(test.add({columns.col(0) + white(400, 1, 1, 10), 0, 1}));
+    const catena::Score bounded = test.score(numbers);
+    CHECK(bounded.share == doctest::Approx(1));
+  }
+  catena::ScoreTest test(white(50, 1, 1, 1), MatrixXd(50, 0));
+  std::vector<int> numbers;
+  for (std::size_t j = 0; j <= catena::kMostBoundedColumns; ++j)
+    numbers.push_back(test.add({white(50, 1, 1, static_cast<unsigned>(j)), 0, 1}));
+  CHECK_THROWS_AS(test.score(numbers), std::invalid_argument);
+}
+
 /// A case of 12 links with one stiffness for the joints named.
 catena::Case case_of_joints(const std::string& joints) {
   return catena::parse_case(
