@@ -24,7 +24,7 @@ namespace {
 /// A diagnosis with what it was made with: writing it derives the new model.
 struct FinishedDiagnosis {
   ScratchFolder scratch;
-  std::unique_ptr<Workshop> workshop;
+  std::unique_ptr<DiagnosisContext> context;
   Diagnosis found;
   DiagnosisFindings findings;
 };
@@ -63,33 +63,33 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   const auto finished = std::make_shared<FinishedDiagnosis>();
   const auto work = [&] {
     const Case the_case = read_case(case_file);
-    finished->workshop =
-        std::make_unique<Workshop>(the_case.description, effects, finished->scratch.path(),
-                                   fit_least_squares, ProviderOptions{});
-    Workshop& workshop = *finished->workshop;
-    workshop.stop = &stop;
-    workshop.threads = threads;
+    finished->context =
+        std::make_unique<DiagnosisContext>(the_case.description, effects, finished->scratch.path(),
+                                           fit_least_squares, ProviderOptions{});
+    DiagnosisContext& context = *finished->context;
+    context.stop = &stop;
+    context.threads = threads;
     if (progress)
-      workshop.notice = [&](const std::string& line) {
+      context.notice = [&](const DiagnosisProgress& now) {
         py::gil_scoped_acquire lock;
         if (raised) return;
         try {
-          (*progress)(line);
+          (*progress)(now.doing);
         } catch (...) {
           raised = std::current_exception();
           stop = true;
         }
       };
     try {
-      finished->found = diagnose(the_case, workshop, {max_effects, max_links, refits});
+      finished->found = diagnose(the_case, context, {max_effects, max_links, refits});
       finished->findings = find_out(finished->found);
     } catch (const InputError&) {
       throw;
     } catch (const std::runtime_error& error) {
       throw ComputationError(error.what());
     }
-    workshop.stop = nullptr;
-    workshop.notice = nullptr;
+    context.stop = nullptr;
+    context.notice = nullptr;
   };
   try {
     run_interruptibly(work, stop);
@@ -105,7 +105,7 @@ struct Gaps {
 };
 
 Gaps gaps_of(const GapTest& fit, const GapTest& held_out) {
-  return {fit.rms, held_out.count > 0 ? held_out.rms : std::nan(""), fit.floor};
+  return {fit.rms, held_out.count > 0 ? held_out.rms : std::nan(""), fit.noise};
 }
 
 struct Alternatives {
@@ -125,7 +125,7 @@ std::vector<Alternatives> others(const std::vector<Alternative>& list,
 
 /// diagnosis.json as Python's own lists and dictionaries.
 py::object document(const FinishedDiagnosis& d) {
-  const auto files = diagnosis_files(d.found, d.findings, *d.workshop);
+  const auto files = diagnosis_files(d.found, d.findings, *d.context);
   return py::module_::import("json").attr("loads")(files.back().second);
 }
 
@@ -191,7 +191,7 @@ void add_diagnoses(py::module_& module) {
           [](const Shared& d, const std::filesystem::path& folder) {
             py::gil_scoped_release unlock;
             UnfinishedFolder output(folder);
-            write_diagnosis(d->found, d->findings, *d->workshop, output.path());
+            write_diagnosis(d->found, d->findings, *d->context, output.path());
             output.publish();
           },
           "folder"_a,

@@ -40,12 +40,12 @@ VectorXd more_damped(const Problem& problem, double factor) {
 
 }  // namespace
 
-void hold_out(Case& the_case, Workshop& workshop, std::vector<std::string>& notes) {
+void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string>& notes) {
   bool held = false;
   for (const ExperimentSpec& experiment : the_case.experiments)
     held = held || experiment.use == Use::kValidate || std::isfinite(experiment.fit_until);
   if (held) return;
-  const Problem problem(the_case, workshop.model_with({}, the_case.links));
+  const Problem problem(the_case, context.model_with({}, the_case.links));
   for (std::size_t s = 0; s < the_case.experiments.size(); ++s) {
     // From the first frame of its first window to the last frame of its last.
     double begin = std::numeric_limits<double>::infinity(), end = -begin;
@@ -68,26 +68,26 @@ Case for_the_search(Case the_case) {
   return the_case;
 }
 
-FittedModel fit_baseline(Case the_case, Workshop& workshop) {
+FittedModel fit_baseline(Case the_case, DiagnosisContext& context) {
   the_case.optimiser.max_evaluations =
       std::min(the_case.optimiser.max_evaluations, kFirstEvaluations);
-  const Model model_of_case = workshop.model_with({}, the_case.links);
+  const Model model_of_case = context.model_with({}, the_case.links);
   const auto problem = std::make_shared<const Problem>(the_case, model_of_case);
   // With more damping the motion is simpler, and what the fit descends on too.
   const std::vector<double> factors = {1, 5, 25};
   std::vector<FittedModel> fits(factors.size());
-  in_parallel(factors.size(), workshop.threads, [&](std::size_t k) {
-    fits[k] = fit_model(problem, more_damped(*problem, factors[k]), workshop.least_squares,
-                        workshop.stop);
+  in_parallel(factors.size(), context.threads, [&](std::size_t k) {
+    fits[k] =
+        fit_model(problem, more_damped(*problem, factors[k]), context.least_squares, context.stop);
   });
-  workshop.stop_if_asked();
+  context.stop_if_asked();
   FittedModel* best = nullptr;
   for (FittedModel& fit : fits)
     if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
   if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
   the_case.optimiser.max_evaluations = kEvaluations;
   const auto longer = std::make_shared<const Problem>(the_case, model_of_case);
-  FittedModel model = fit_model(longer, best->x, workshop.least_squares, workshop.stop);
+  FittedModel model = fit_model(longer, best->x, context.least_squares, context.stop);
   return model.ok ? model : *best;
 }
 

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "identify/cases/case.hpp"
+#include "identify/diagnosis/context.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
-#include "identify/diagnosis/workshop.hpp"
 
 namespace catena {
 
 /// A diagnosis needs data that no fit has seen: the end of every recording, where the case holds
 /// nothing out. Says so in `notes`.
-void hold_out(Case& the_case, Workshop& workshop, std::vector<std::string>& notes);
+void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string>& notes);
 
 /// The case with tolerances no finer than a search needs: what is sought stands out from the noise
 /// of a camera. The final model is fitted as the case asks.
@@ -20,6 +20,6 @@ Case for_the_search(Case the_case);
 
 /// The case's own model fitted, from several starts. Throws std::runtime_error where none of them
 /// could be simulated; Interrupted.
-FittedModel fit_baseline(Case the_case, Workshop& workshop);
+FittedModel fit_baseline(Case the_case, DiagnosisContext& context);
 
 }  // namespace catena

@@ -9,24 +9,24 @@
 namespace catena {
 
 /// How much better one fitted model explains the same data than another. Residuals are weighted
-/// with the noise floors. They are not independent where something is still missing, so that both
-/// the likelihood and the counts are divided by the colour factor of the better model's residuals.
+/// with the noise sigmas. They are not independent where something is still missing, so that both
+/// the likelihood and the counts are divided by the autocorrelation factor of the better model's residuals.
 struct Comparison {
-  double removed = 0;         ///< fall of the sum of squares, in units of the noise squared
-  int added = 0;              ///< further unknowns
-  double colour = 1;          ///< colour factor of the larger model's residuals
-  double criterion = 0;       ///< change of the Bayesian information criterion; negative: better
-  double log10_p = 0;         ///< of so large a fall by chance, for one model tried
-  double misfit_removed = 0;  ///< fall of the squared misfit, m^2 or rad^2
-  double misfit_share = 0;    ///< fall of the squared misfit, as a share of what it was
+  double removed = 0;          ///< fall of the sum of squares, in units of the noise squared
+  int added = 0;               ///< further unknowns
+  double autocorrelation = 1;  ///< autocorrelation factor of the larger model's residuals
+  double criterion = 0;        ///< change of the Bayesian information criterion; negative: better
+  double log10_p = 0;          ///< of so large a fall by chance, for one model tried
+  double misfit_removed = 0;   ///< fall of the squared misfit, m^2 or rad^2
+  double misfit_share = 0;     ///< fall of the squared misfit, as a share of what it was
 };
 
 /// From `base` to `larger`, which has `base` as a special case.
 Comparison compare(const FittedModel& base, const FittedModel& larger,
-                   const std::vector<double>& floors);
+                   const std::vector<double>& sigmas);
 
 /// Sum of squares of the fitted part in units of the noise squared.
-double sum_of_squares(const FittedModel& model, const std::vector<double>& floors);
+double sum_of_squares(const FittedModel& model, const std::vector<double>& sigmas);
 
 /// Whether the data decide between two models that stand for different explanations, `better` being
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
@@ -39,6 +39,6 @@ struct Decision {
   double lead = 0;        ///< fall of the sum of squares from the worse to the better
 };
 Decision decide(const FittedModel& better, const FittedModel& worse,
-                const std::vector<double>& floors);
+                const std::vector<double>& sigmas);
 
 }  // namespace catena

@@ -1,81 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "identify/cases/case.hpp"
-#include "identify/diagnosis/fitted_model.hpp"
-#include "identify/diagnosis/rivals.hpp"
-#include "identify/diagnosis/search.hpp"
-#include "identify/diagnosis/workshop.hpp"
+#include "identify/diagnosis/context.hpp"
+#include "identify/diagnosis/diagnosis.hpp"
 
 namespace catena {
 
-enum class DiagnosisVerdict {
-  kNone,         ///< nothing is missing
-  kNamed,        ///< one or more effects
-  kAmbiguous,    ///< effects that these data cannot tell apart
-  kUnexplained,  ///< a gap that nothing in the library closes
-};
-const char* name_of(DiagnosisVerdict verdict);
-
-/// One model on the way, and what was tried on it.
-struct Stage {
-  std::vector<std::string> effects;  ///< in the model
-  std::string added, removed;  ///< since the stage before: an effect, too_few_links, start_shape
-  int links = 0;
-  FittedModel model;
-  GapTest fit, held_out;
-  FinerChain finer;
-  std::vector<Explanation> explanations;  ///< most promising first; empty if nothing was sought
-};
-
-/// Effects between which the data do not decide, as the last added or in place of `instead_of`.
-struct Alternative {
-  std::string instead_of;
-  Explanation explanation;
-  Decision decision;
-};
-
-/// One parameter of the final model that was fitted.
-struct FinalParameter {
-  std::string name, unit, effect;  ///< effect: empty for the case's own
-  double value = 0;
-  double standard_error = 0;  ///< allowing for coloured residuals; infinite in null directions
-};
-
-struct Diagnosis {
-  DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
-  std::string sentence;              ///< what the verdict says, one or two sentences
-  std::vector<std::string> notes;    ///< what one should know
-  std::vector<NoiseFloor> noise;     ///< per experiment
-  std::vector<double> floors;        ///< per experiment, what was used, m or rad
-  std::vector<Stage> stages;         ///< baseline first
-  std::vector<std::string> effects;  ///< of the final model
-  bool freer_start = false;
-  std::vector<Alternative> alternatives;  ///< undecided ones
-  std::vector<Alternative> forms;         ///< undecided too, but laws of the effect that is named
-  std::vector<Alternative> runners_up;    ///< refitted and decided against
-  FittedModel final;
-  GapTest final_fit, final_held_out;
-  std::vector<FinalParameter> parameters;
-  double equality = 0;  ///< largest relative difference to the case's model at the neutral values
-  double seconds = 0;
-  int tried = 0;  ///< candidates scored in the first look
-};
-
-struct DiagnosisOptions {
-  int max_effects = 2;  ///< three can imitate much that is none of them
-  int max_links = 60;
-  int refits = 6;
-};
-
-/// The whole diagnosis of a case. Throws InputError where the case cannot be diagnosed (no data to
-/// fit), ModelError where a model cannot be made, std::runtime_error where the baseline cannot be
-/// fitted.
-Diagnosis diagnose(Case the_case, Workshop& workshop, const DiagnosisOptions& options);
+/// The whole diagnosis of a case; docs/diagnosis.md describes its stages. Throws InputError where
+/// the case cannot be diagnosed (no data to fit), ModelError where a model cannot be made,
+/// Interrupted, std::runtime_error where the baseline cannot be fitted.
+Diagnosis diagnose(Case the_case, DiagnosisContext& context, const DiagnosisOptions& options);
 
 }  // namespace catena

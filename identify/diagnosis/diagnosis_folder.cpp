@@ -20,12 +20,12 @@ void make_folder(const fs::path& folder) {
 }
 
 /// The case with the final model, its description and the emitted code.
-void write_model(const Diagnosis& found, const Workshop& workshop, const fs::path& folder) {
+void write_model(const Diagnosis& found, const DiagnosisContext& context, const fs::path& folder) {
   Case the_case = found.final.problem->with(found.final.x);
   if (!found.effects.empty()) {
     the_case.description = folder / "model.toml";
-    workshop.write_description_with(found.effects, the_case.links, "diagnosed",
-                                    the_case.description);
+    context.write_description_with(found.effects, the_case.links, "diagnosed",
+                                   the_case.description);
     const ProcessResult derived = run_process(
         {find_derive_program().string(), "derive", "--description", the_case.description.string(),
          "--links", std::to_string(the_case.links), "--output", (folder / "model").string()});
@@ -76,11 +76,11 @@ void UnfinishedFolder::publish() {
 }
 
 std::string write_diagnosis(const Diagnosis& found, const DiagnosisFindings& findings,
-                            const Workshop& workshop, const fs::path& folder) {
+                            const DiagnosisContext& context, const fs::path& folder) {
   const fs::path absolute = fs::absolute(folder);
   make_folder(absolute);
-  write_model(found, workshop, absolute);
-  const auto files = diagnosis_files(found, findings, workshop);
+  write_model(found, context, absolute);
+  const auto files = diagnosis_files(found, findings, context);
   for (const auto& [name, text] : files) {
     make_folder((absolute / name).parent_path());
     write_whole_file(absolute / name, text);

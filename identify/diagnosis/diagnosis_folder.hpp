@@ -42,6 +42,6 @@ class UnfinishedFolder {
 /// text is returned. Throws InputError where a file cannot be written, ModelError where the model
 /// cannot be derived.
 std::string write_diagnosis(const Diagnosis& found, const DiagnosisFindings& findings,
-                            const Workshop& workshop, const std::filesystem::path& folder);
+                            const DiagnosisContext& context, const std::filesystem::path& folder);
 
 }  // namespace catena

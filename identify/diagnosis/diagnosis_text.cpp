@@ -33,11 +33,11 @@ std::string model_name(const Stage& stage) {
 double rms_of(const GapTest& held_out) { return held_out.count > 0 ? held_out.rms : kNotGiven; }
 
 results::Gap gap_of(const GapTest& fit, const GapTest& held_out, const std::string& unit) {
-  return {fit.rms,    rms_of(held_out), unit,       fit.floor,
-          fit.misfit, fit.present,      fit.colour, fit.size};
+  return {fit.rms,    rms_of(held_out), unit,       fit.noise,
+          fit.misfit, fit.present,      fit.autocorrelation, fit.size};
 }
 
-results::Candidate candidate_of(const Explanation& explanation, const Workshop& workshop,
+results::Candidate candidate_of(const Explanation& explanation, const DiagnosisContext& context,
                                 int tried) {
   const double log10_tried = std::log10(std::max(1, tried));
   results::Candidate entry;
@@ -57,7 +57,7 @@ results::Candidate candidate_of(const Explanation& explanation, const Workshop& 
     refit.criterion = explanation.comparison.criterion;
     refit.log10_p = explanation.comparison.log10_p + log10_tried;
     refit.misfit_share = explanation.comparison.misfit_share;
-    refit.autocorrelation = explanation.comparison.colour;
+    refit.autocorrelation = explanation.comparison.autocorrelation;
     const auto& unknowns = explanation.model.problem->unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j)
       if (unknowns[j].name.starts_with(explanation.id + "."))
@@ -66,7 +66,7 @@ results::Candidate candidate_of(const Explanation& explanation, const Workshop& 
   }
   if (explanation.candidate >= 0) {
     const Candidate& candidate =
-        workshop.library()[static_cast<std::size_t>(explanation.candidate)];
+        context.library()[static_cast<std::size_t>(explanation.candidate)];
     for (const CandidateParameter& parameter : candidate.parameters)
       entry.units.emplace_back(parameter.name, parameter.unit);
     entry.formulas = formula_entries(candidate.effect);
@@ -78,13 +78,13 @@ results::Candidate candidate_of(const Explanation& explanation, const Workshop& 
 
 DiagnosisFindings find_out(const Diagnosis& d) {
   DiagnosisFindings findings;
-  findings.places = residual_places(d.stages.front().model, d.floors);
+  findings.places = residual_places(d.stages.front().model, d.sigmas);
   if (d.stages.front().fit.present)
-    findings.force = missing_force(
-        d.verdict == DiagnosisVerdict::kUnexplained ? d.final : d.stages.front().model, d.floors);
+    findings.force = missing_moment(
+        d.verdict == DiagnosisVerdict::kUnexplained ? d.final : d.stages.front().model, d.sigmas);
   for (const Alternative& alternative : d.alternatives)
     findings.telling.push_back(
-        telling_experiment(d.final, alternative.explanation.model, d.floors));
+        telling_experiment(d.final, alternative.explanation.model, d.sigmas));
   return findings;
 }
 
@@ -110,9 +110,9 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
   }
   if (!d.effects.empty())
     row("the new model, compiled and refitted", d.final_fit, d.final_held_out);
-  text += fmt::format("{:44} {:>12.4g}\n", "noise", 1e3 * d.final_fit.floor);
-  if (d.noise.size() == 1 && d.noise.front().coloured)
-    text += "  the residuals are smoother than white noise: this floor says little\n";
+  text += fmt::format("{:44} {:>12.4g}\n", "noise", 1e3 * d.final_fit.noise);
+  if (d.noise.size() == 1 && d.noise.front().autocorrelated)
+    text += "  the residuals are smoother than white noise: this noise level says little\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
 
   if (d.stages.front().fit.present && !findings.places.words.empty()) {
@@ -157,7 +157,7 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
 
 std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis& d,
                                                                  const DiagnosisFindings& findings,
-                                                                 const Workshop& workshop) {
+                                                                 const DiagnosisContext& context) {
   std::vector<std::pair<std::string, std::string>> files;
   const std::string unit = unit_of(d);
   const Case& the_case = d.stages.front().model.problem->the_case();
@@ -169,10 +169,10 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.verdict = name_of(d.verdict);
   result.sentence = d.sentence;
   result.notes = d.notes;
-  result.noise = d.final_fit.floor;
+  result.noise = d.final_fit.noise;
   result.unit = unit;
   for (std::size_t e = 0; e < d.noise.size(); ++e)
-    result.experiment_noise.push_back({experiments[e].spec.name, d.floors[e], d.noise[e].coloured});
+    result.experiment_noise.push_back({experiments[e].spec.name, d.sigmas[e], d.noise[e].autocorrelated});
   result.links = {d.stages.front().links, d.stages.back().links};
   result.where = findings.places.words;
   result.points.name = findings.places.points;
@@ -217,10 +217,10 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
       round.finer_chain = {stage.finer.links, stage.finer.predicted, stage.finer.refitted,
                            stage.finer.taken, stage.finer.note};
     for (const Explanation& explanation : stage.explanations)
-      round.candidates.push_back(candidate_of(explanation, workshop, d.tried));
+      round.candidates.push_back(candidate_of(explanation, context, d.tried));
   }
   for (const std::string& id : d.effects) {
-    const Candidate& candidate = *workshop.find(id);
+    const Candidate& candidate = *context.find(id);
     result.effects.push_back({id, candidate.title, "", formula_entries(candidate.effect)});
   }
   for (const FinalParameter& parameter : d.parameters) {

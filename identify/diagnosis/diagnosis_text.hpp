@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/missing_moment.hpp"
+#include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/telling_experiment.hpp"
-#include "identify/diagnosis/where.hpp"
 
 namespace catena {
 
 /// What is found out about a finished diagnosis for whoever reads it.
 struct DiagnosisFindings {
   ResidualPlaces places;  ///< of the baseline
-  MissingForce force;     ///< of the baseline; of the last model if the verdict is unexplained
+  MissingMoment force;    ///< of the baseline; of the last model if the verdict is unexplained
   std::vector<TellingExperiment> telling;  ///< one per alternative
 };
 DiagnosisFindings find_out(const Diagnosis& diagnosis);
@@ -26,6 +27,6 @@ std::string diagnosis_table(const Diagnosis& diagnosis, const DiagnosisFindings&
 /// diagnosis.json and the files it names ("round_0/result.json", ...), see docs/diagnosis.md.
 std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis& diagnosis,
                                                                  const DiagnosisFindings& findings,
-                                                                 const Workshop& workshop);
+                                                                 const DiagnosisContext& context);
 
 }  // namespace catena

@@ -7,7 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/compare.hpp"
+#include "identify/diagnosis/diagnosis.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {
@@ -16,24 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-/// The effect a case's parameter belongs to; nullptr: none.
-const Candidate* effect_of(const ParameterSpec& spec, const Workshop& workshop) {
-  const std::size_t dot = spec.sets.find('.');
-  return dot == std::string::npos ? nullptr : workshop.find(spec.sets.substr(0, dot));
-}
-
-const CandidateParameter* parameter_of(const Candidate& candidate, const std::string& name) {
-  for (const CandidateParameter& parameter : candidate.parameters)
-    if (parameter.name == name) return &parameter;
-  return nullptr;
-}
-
-}  // namespace
-
-VectorXd standard_errors(const FittedModel& model, const std::vector<double>& floors) {
-  MatrixXd jacobian = fitted_jacobian(model, floors);
+VectorXd standard_errors(const FittedModel& model, const std::vector<double>& sigmas) {
+  MatrixXd jacobian = fitted_jacobian(model, sigmas);
   VectorXd scale = jacobian.colwise().norm();
   for (Index j = 0; j < scale.size(); ++j) {
     if (scale[j] == 0) scale[j] = 1;
@@ -42,11 +27,11 @@ VectorXd standard_errors(const FittedModel& model, const std::vector<double>& fl
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(jacobian.transpose() * jacobian);
   std::vector<MatrixXd> weighted;
   for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
-    if (model.fit_residual[e].cols() > 0) weighted.push_back(model.fit_residual[e] / floors[e]);
+    if (model.fit_residual[e].cols() > 0) weighted.push_back(model.fit_residual[e] / sigmas[e]);
   const double variance =
-      std::max(1.0, sum_of_squares(model, floors) /
+      std::max(1.0, sum_of_squares(model, sigmas) /
                         static_cast<double>(std::max<Index>(1, jacobian.rows())));
-  const double factor = std::sqrt(variance * colour_factor(weighted));
+  const double factor = std::sqrt(variance * autocorrelation_factor(weighted));
   VectorXd errors(scale.size());
   for (Index j = 0; j < errors.size(); ++j) {
     double sum = 0;
@@ -60,49 +45,6 @@ VectorXd standard_errors(const FittedModel& model, const std::vector<double>& fl
     errors[j] = factor * std::sqrt(sum) / scale[j];
   }
   return errors;
-}
-
-FittedModel trim(const FittedModel& model, const std::vector<double>& floors, Workshop& workshop) {
-  const Problem& problem = *model.problem;
-  const VectorXd errors = standard_errors(model, floors);
-  Case smaller = problem.with(model.x);
-  int dropped = 0;
-  std::vector<std::string> fixed;
-  for (const Candidate& candidate : workshop.library()) {
-    std::vector<ParameterSpec*> needless;
-    int amplitudes = 0;
-    for (ParameterSpec& spec : smaller.parameters) {
-      if (effect_of(spec, workshop) != &candidate || !spec.free) continue;
-      const CandidateParameter* parameter = parameter_of(candidate, spec.sets);
-      if (!parameter || parameter->role != ParameterRole::kAmplitude) continue;
-      ++amplitudes;
-      const Index j = unknown_index(problem, spec.name);
-      if (std::abs(model.x[j] - parameter->neutral) < 2 * errors[j]) needless.push_back(&spec);
-    }
-    if (static_cast<int>(needless.size()) >= amplitudes)
-      continue;  // no effect without an amplitude
-    for (ParameterSpec* spec : needless) {
-      const auto index =
-          static_cast<int>(parameter_of(candidate, spec->sets) - candidate.parameters.data());
-      spec->value = candidate.parameters[static_cast<std::size_t>(index)].neutral;
-      spec->free = false;
-      ++dropped;
-      for (ParameterSpec& other : smaller.parameters) {
-        const CandidateParameter* phase = parameter_of(candidate, other.sets);
-        if (phase && phase->role == ParameterRole::kPhase && phase->amplitude == index)
-          other.free = false;
-      }
-    }
-  }
-  if (dropped == 0) return model;
-  const auto simpler = std::make_shared<const Problem>(smaller, problem.model());
-  FittedModel refitted = fit_model(simpler, transfer(problem, model.x, *simpler),
-                                   workshop.least_squares, workshop.stop);
-  const double allowed =
-      dropped * std::log(static_cast<double>(std::max(2L, fit_gap(model, floors).count)));
-  const bool as_good =
-      refitted.ok && sum_of_squares(refitted, floors) < sum_of_squares(model, floors) + allowed;
-  return as_good ? refitted : model;
 }
 
 double largest_difference(const Model& smaller, const Model& larger, unsigned seed) {
@@ -151,66 +93,21 @@ double largest_difference(const Model& smaller, const Model& larger, unsigned se
   return size > 0 ? worst / size : worst;
 }
 
-bool is_special_case(const Candidate& special, const Candidate& general, const Model& both) {
-  if (special.own_model || general.own_model || special.sensor != general.sensor || special.sensor)
-    return false;
-  const Index count = both.parameters();
-  VectorXd p = both.default_parameters();
-  for (Index i = 0; i < count; ++i)
-    if (!std::isfinite(p[i]))
-      p[i] =
-          std::isfinite(both.table().parameter[i].neutral) ? both.table().parameter[i].neutral : 1;
-  VectorXd with_special = p, with_general = p;
-  const std::size_t special_stem = special.id.size(), general_stem = general.id.size();
-  for (const CandidateParameter& parameter : special.parameters) {
-    if (parameter.role != ParameterRole::kAmplitude) return false;
-    const std::string twin = general.id + parameter.name.substr(special_stem);
-    const auto same = std::find_if(general.parameters.begin(), general.parameters.end(),
-                                   [&](const CandidateParameter& other) {
-                                     return other.name == twin && other.unit == parameter.unit;
-                                   });
-    if (same == general.parameters.end() || same->name.size() <= general_stem) return false;
-    const double value = parameter.neutral + std::min(0.1, parameter.upper - parameter.neutral);
-    with_special[both.parameter_index(parameter.name)] = value;
-    with_general[both.parameter_index(twin)] = value;
-  }
-  std::mt19937_64 random(1);
-  const Index n = both.coordinates();
-  double worst = 0, size = 0;
-  for (int state = 0; state < 5; ++state) {
-    const auto draw = [&](double scale) {
-      return VectorXd(VectorXd::NullaryExpr(
-          n, [&] { return scale * (static_cast<double>(random() >> 11) * 0x1.0p-52 - 1); }));
-    };
-    const VectorXd q = draw(1.5), v = draw(3), a = draw(10);
-    const VectorXd z = VectorXd::Zero(both.states()), u = VectorXd::Zero(3 * both.signals());
-    VectorXd r[3] = {VectorXd(n), VectorXd(n), VectorXd(n)};
-    const VectorXd* values[3] = {&p, &with_special, &with_general};
-    for (int k = 0; k < 3; ++k) {
-      const catena_point at{0, q.data(), v.data(), a.data(), z.data(), u.data(), values[k]->data()};
-      both.residual(at, r[k].data());
-    }
-    worst = std::max(worst, (r[1] - r[2]).lpNorm<Eigen::Infinity>());
-    size = std::max(size, (r[1] - r[0]).lpNorm<Eigen::Infinity>());
-  }
-  return size > 0 && worst < 1e-9 * size;
-}
-
-void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& workshop) {
+void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext& context) {
   Case the_case = diagnosis.final.problem->with(diagnosis.final.x);
   the_case.simulation = asked.simulation;
   the_case.optimiser = asked.optimiser;
-  const Model model = workshop.model_with(diagnosis.effects, the_case.links);
+  const Model model = context.model_with(diagnosis.effects, the_case.links);
   if (!diagnosis.effects.empty())
-    diagnosis.equality = largest_difference(workshop.model_with({}, the_case.links), model, 1);
+    diagnosis.equality = largest_difference(context.model_with({}, the_case.links), model, 1);
   const auto problem = std::make_shared<const Problem>(the_case, model);
   FittedModel refitted =
       fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
-                workshop.least_squares, workshop.stop);
+                context.least_squares, context.stop);
   // A fit that cannot leave its start is there already.
   if (!refitted.ok)
     refitted = assess(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
-                      workshop.least_squares, workshop.stop);
+                      context.least_squares, context.stop);
   if (!refitted.ok)
     throw std::runtime_error("the final model cannot be simulated: " + refitted.message);
   diagnosis.final = std::move(refitted);
@@ -219,7 +116,7 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, Workshop& worksho
 std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis) {
   std::vector<FinalParameter> parameters;
   const Problem& problem = *diagnosis.final.problem;
-  const VectorXd errors = standard_errors(diagnosis.final, diagnosis.floors);
+  const VectorXd errors = standard_errors(diagnosis.final, diagnosis.sigmas);
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     if (unknown.group == Unknown::Group::kInitial) continue;

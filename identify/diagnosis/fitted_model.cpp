@@ -107,64 +107,80 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
   return model;
 }
 
-std::vector<NoiseFloor> noise_floors(const FittedModel& model) {
-  std::vector<NoiseFloor> floors;
+std::vector<NoiseLevel> noise_levels(const FittedModel& model) {
+  std::vector<NoiseLevel> levels;
   for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
     const Experiment& experiment = model.problem->experiments()[e];
     const bool fitted = model.fit_residual[e].cols() > 0;
     const MatrixXd& residual = fitted ? model.fit_residual[e] : model.held_out_residual[e];
     std::vector<double> time = experiment.recording.time;
     if (fitted) time.resize(static_cast<std::size_t>(residual.cols()));
-    NoiseFloor floor = noise_floor(residual, time);
-    if (experiment.spec.noise > 0 && !(floor.sigma >= experiment.spec.noise))
-      floor.sigma = experiment.spec.noise;
-    floors.push_back(floor);
+    NoiseLevel level = noise_level(residual, time);
+    if (experiment.spec.noise > 0 && !(level.sigma >= experiment.spec.noise))
+      level.sigma = experiment.spec.noise;
+    levels.push_back(level);
   }
-  return floors;
+  return levels;
 }
 
 namespace {
 
-GapTest gap_of(const std::vector<MatrixXd>& residuals, const std::vector<double>& floors) {
+GapTest gap_of(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas) {
   std::vector<MatrixXd> present;
-  std::vector<double> present_floors;
+  std::vector<double> present_sigmas;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
     if (residuals[e].cols() == 0) continue;
     present.push_back(residuals[e]);
-    present_floors.push_back(floors[e]);
+    present_sigmas.push_back(sigmas[e]);
   }
-  return test_gap(present, present_floors);
+  return test_gap(present, present_sigmas);
 }
 
 }  // namespace
 
-GapTest fit_gap(const FittedModel& model, const std::vector<double>& floors) {
-  return gap_of(model.fit_residual, floors);
+GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas) {
+  return gap_of(model.fit_residual, sigmas);
 }
 
-GapTest held_out_gap(const FittedModel& model, const std::vector<double>& floors) {
-  return gap_of(model.held_out_residual, floors);
+GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas) {
+  return gap_of(model.held_out_residual, sigmas);
 }
 
 VectorXd stacked(const std::vector<MatrixXd>& matrices, const std::vector<MatrixXd>& measured_where,
-                 const std::vector<double>& floors) {
+                 const std::vector<double>& sigmas) {
   std::vector<double> values;
   for (std::size_t e = 0; e < measured_where.size(); ++e)
     for (Index k = 0; k < measured_where[e].cols(); ++k)
       for (Index c = 0; c < measured_where[e].rows(); ++c)
         if (!std::isnan(measured_where[e](c, k)))
-          values.push_back(matrices[e].size() ? matrices[e](c, k) / floors[e] : 0.0);
+          values.push_back(matrices[e].size() ? matrices[e](c, k) / sigmas[e] : 0.0);
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
+MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& sigmas) {
+  const Evaluation evaluation = evaluate(*model.problem, model.x, false, true);
+  const std::size_t unknowns = model.problem->unknowns().size();
+  MatrixXd jacobian;
+  for (std::size_t j = 0; j < unknowns; ++j) {
+    std::vector<MatrixXd> derivative(model.fit_residual.size());
+    for (std::size_t e = 0; e < derivative.size(); ++e)
+      if (model.fit_residual[e].cols() > 0 && evaluation.predictions[e].ok())
+        derivative[e] = evaluation.predictions[e].sensitivity[j];
+    const VectorXd column = stacked(derivative, model.fit_residual, sigmas);
+    if (jacobian.size() == 0) jacobian.resize(column.size(), static_cast<Index>(unknowns));
+    jacobian.col(static_cast<Index>(j)) = column;
+  }
+  return jacobian;
+}
+
 double prediction_distance(const FittedModel& a, const FittedModel& b,
-                           const std::vector<double>& floors) {
+                           const std::vector<double>& sigmas) {
   double sum = 0, count = 0;
   for (std::size_t e = 0; e < a.predicted.size(); ++e)
     for (Index k = 0; k < a.predicted[e].cols(); ++k)
       for (Index c = 0; c < a.predicted[e].rows(); ++c) {
         if (std::isnan(a.problem->experiments()[e].recording.measured(c, k))) continue;
-        const double difference = (a.predicted[e](c, k) - b.predicted[e](c, k)) / floors[e];
+        const double difference = (a.predicted[e](c, k) - b.predicted[e](c, k)) / sigmas[e];
         sum += difference * difference;
         count += 1;
       }

@@ -37,20 +37,23 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
 
 /// The noise of every experiment from the residuals of the fitted part (of the held-out part where
 /// nothing is fitted); not below `smallest`. A noise the case states counts where it is larger.
-std::vector<NoiseFloor> noise_floors(const FittedModel& model);
+std::vector<NoiseLevel> noise_levels(const FittedModel& model);
 
-GapTest fit_gap(const FittedModel& model, const std::vector<double>& floors);
-GapTest held_out_gap(const FittedModel& model, const std::vector<double>& floors);
+GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas);
+GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas);
 
 /// Residuals of the fitted part in units of the noise, stacked: experiment, frame, channel; those
 /// not measured left out.
 Eigen::VectorXd stacked(const std::vector<Eigen::MatrixXd>& matrices,
                         const std::vector<Eigen::MatrixXd>& measured_where,
-                        const std::vector<double>& floors);
+                        const std::vector<double>& sigmas);
+
+/// Derivative of the stacked residuals of the fitted part by all unknowns.
+Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& sigmas);
 
 /// Root mean square over the fitted and the held-out parts of the difference of two models'
 /// predictions, in units of the noise.
 double prediction_distance(const FittedModel& a, const FittedModel& b,
-                           const std::vector<double>& floors);
+                           const std::vector<double>& sigmas);
 
 }  // namespace catena

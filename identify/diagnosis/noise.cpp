@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "identify/diagnosis/thresholds.hpp"
+
 namespace catena {
 namespace {
 
@@ -73,26 +75,26 @@ double difference_variance(const MatrixXd& residual, const std::vector<double>& 
 
 }  // namespace
 
-NoiseFloor noise_floor(const MatrixXd& residual, const std::vector<double>& time) {
-  NoiseFloor floor;
+NoiseLevel noise_level(const MatrixXd& residual, const std::vector<double>& time) {
+  NoiseLevel level;
   double smallest = kNaN;
   for (int order = 2; order <= 6; ++order) {
     const double variance = difference_variance(residual, time, order);
-    if (order == 2) floor.sigma_of_second = std::sqrt(variance);
+    if (order == 2) level.sigma_of_second = std::sqrt(variance);
     if (!std::isnan(variance) && !(smallest <= variance)) smallest = variance;
   }
-  floor.sigma = std::sqrt(smallest);
-  floor.coloured = floor.sigma < 0.67 * floor.sigma_of_second;
-  return floor;
+  level.sigma = std::sqrt(smallest);
+  level.autocorrelated = level.sigma < kThresholds.white_noise_orders * level.sigma_of_second;
+  return level;
 }
 
-GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<double>& floors) {
+GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas) {
   GapTest test;
-  double floor2 = 0, rms2 = 0, lag1 = 0, lag1_count = 0;
+  double noise2 = 0, rms2 = 0, lag1 = 0, lag1_count = 0;
   double products = 0, pairs = 0, size = 0, count = 0;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
     const MatrixXd& r = residuals[e];
-    const double scale = 1 / (floors[e] * floors[e]);
+    const double scale = 1 / (sigmas[e] * sigmas[e]);
     const auto product = [&](Index c, Index k, Index d, Index l) {
       const double value = r(c, k) * r(d, l);
       return std::isnan(value) ? 0.0 : (pairs += 1, value * scale);
@@ -103,7 +105,7 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<doubl
         const double value = r(c, k);
         if (std::isnan(value)) continue;
         count += 1;
-        floor2 += floors[e] * floors[e];
+        noise2 += sigmas[e] * sigmas[e];
         rms2 += value * value;
         size += value * value * scale - 1;
         for (Index l = 1; l <= lags && k + l < r.cols(); ++l) products += product(c, k, c, k + l);
@@ -117,20 +119,22 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<doubl
   }
   test.count = static_cast<long>(count);
   if (count == 0) return test;
-  test.floor = std::sqrt(floor2 / count);
+  test.noise = std::sqrt(noise2 / count);
   test.rms = std::sqrt(rms2 / count);
   test.misfit = lag1_count > 0 ? std::sqrt(std::max(0.0, lag1 / lag1_count)) : 0;
-  test.colour = pairs > 0 ? products / std::sqrt(pairs) : 0;
-  // The floor is an estimate from the same residuals, about three times less sure than their
+  test.autocorrelation = pairs > 0 ? products / std::sqrt(pairs) : 0;
+  // The noise is an estimate from the same residuals, about three times less sure than their
   // number.
   test.size = size / std::sqrt(2 * 4 * count);
-  const bool smooth = test.colour > kGapSignificance && test.misfit > kGapShare * test.floor;
-  const bool large = test.size > kGapSignificance && test.rms > 1.15 * test.floor;
+  const bool smooth = test.autocorrelation > kThresholds.gap_significance &&
+                      test.misfit > kThresholds.gap_misfit * test.noise;
+  const bool large =
+      test.size > kThresholds.gap_significance && test.rms > kThresholds.gap_size * test.noise;
   test.present = smooth || large;
   return test;
 }
 
-double colour_factor(const std::vector<MatrixXd>& residuals) {
+double autocorrelation_factor(const std::vector<MatrixXd>& residuals) {
   double longest = 0;
   for (const MatrixXd& r : residuals) longest = std::max(longest, static_cast<double>(r.cols()));
   const auto lags = static_cast<Index>(std::min(60.0, longest / 4));

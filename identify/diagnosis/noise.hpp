@@ -15,43 +15,40 @@ namespace catena {
 /// model misses of it) and keep white noise, whose variance they multiply by the binomial (2d over
 /// d). The smallest estimate of orders 2 to 6 is taken: a higher order wipes out more, a lower one
 /// is surer. The median over blocks of frames keeps short events from counting as noise.
-struct NoiseFloor {
+struct NoiseLevel {
   double sigma = 0;  ///< standard deviation of white noise; NaN: too few neighbouring frames
   double sigma_of_second = 0;  ///< the same from second differences
   /// Noise that is not white (smoothed tracks) leaves less and less in higher differences: then
-  /// sigma is no noise floor. True if the residuals are not dominated by misfit and orders 2 and 6
+  /// sigma says little of it. True if the residuals are not dominated by misfit and orders 2 and 6
   /// differ by more than a third.
-  bool coloured = false;
+  bool autocorrelated = false;
 };
-NoiseFloor noise_floor(const Eigen::MatrixXd& residual, const std::vector<double>& time);
+NoiseLevel noise_level(const Eigen::MatrixXd& residual, const std::vector<double>& time);
 
-/// Whether residuals are larger or smoother than noise.
+/// Whether residuals are larger or smoother than noise. A gap is there if it is significant and worth
+/// the name (DiagnosisThresholds).
 struct GapTest {
-  double floor = 0;  ///< the noise it is held against
+  double noise = 0;  ///< the level it is held against
   double rms = 0;    ///< root mean square of the residuals
-  double misfit =
-      0;  ///< their part that neighbouring frames share: root of the covariance at lag 1
-  double colour =
-      0;            ///< correlations in time and across neighbouring points, in standard deviations
-  double size = 0;  ///< excess of the mean square over the floor, in standard deviations
+  /// Their part that neighbouring frames share: root of the covariance at lag 1.
+  double misfit = 0;
+  /// Correlations in time and across neighbouring points, in standard deviations.
+  double autocorrelation = 0;
+  double size = 0;  ///< excess of the mean square over the noise, in standard deviations
   bool present = false;
   long count = 0;  ///< residuals
 
-  double ratio() const { return floor > 0 ? rms / floor : 0; }
+  double ratio() const { return noise > 0 ? rms / noise : 0; }
 };
 
-/// A gap is there if it is significant and worth the name (misfit above four tenths of the noise).
-inline constexpr double kGapSignificance = 4.5;  // standard deviations
-inline constexpr double kGapShare = 0.4;         // of the noise
-
-/// Tests residuals of several recordings together, each in units of its own noise; `floor`, `rms`
+/// Tests residuals of several recordings together, each in units of its own noise; `noise`, `rms`
 /// and `misfit` are those of the whole, weighted with the counts.
-GapTest test_gap(const std::vector<Eigen::MatrixXd>& residuals, const std::vector<double>& floors);
+GapTest test_gap(const std::vector<Eigen::MatrixXd>& residuals, const std::vector<double>& sigmas);
 
 /// Long-run variance over variance of residuals: how many times fewer independent ones there are
 /// than their number says, from the correlations in time (lags until they fade) and across channels
 /// of the same kind. At least 1.
-double colour_factor(const std::vector<Eigen::MatrixXd>& residuals);
+double autocorrelation_factor(const std::vector<Eigen::MatrixXd>& residuals);
 
 /// log10 of the probability that chi-square with `degrees` degrees of freedom exceeds `x`.
 double log10_chi_square_tail(double x, int degrees);

@@ -12,7 +12,7 @@
 namespace catena {
 
 TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
-                                     const std::vector<double>& floors) {
+                                     const std::vector<double>& sigmas) {
   TellingExperiment best;
   std::size_t e = 0;
   while (e + 1 < a.fit_residual.size() && a.fit_residual[e].cols() == 0) ++e;
@@ -61,7 +61,7 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
                 (2.0 * static_cast<double>(times.size()));
       }
       Eigen::Index point = 0;
-      const double difference = std::sqrt(sums.maxCoeff(&point)) / floors[e];
+      const double difference = std::sqrt(sums.maxCoeff(&point)) / sigmas[e];
       if (difference <= best.difference) continue;
       best.difference = difference;
       best.words = fmt::format(

@@ -18,6 +18,6 @@ struct TellingExperiment {
 /// every joint as a marker, with both models as they are fitted now; returns the one that differs
 /// most.
 TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
-                                     const std::vector<double>& floors);
+                                     const std::vector<double>& sigmas);
 
 }  // namespace catena

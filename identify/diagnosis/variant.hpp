@@ -16,7 +16,7 @@ namespace catena {
 
 /// The case with every parameter of the candidates added as a free quantity, at its neutral or
 /// default value; phases and shapes are free only if `shapes`. The description is left as it is:
-/// the model that has these effects is chosen where the problem is made (Workshop).
+/// the model that has these effects is chosen where the problem is made (DiagnosisContext).
 Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates, bool shapes);
 
 /// The case without the parameters of an effect, which then stays at its default.

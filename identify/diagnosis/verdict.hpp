@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "identify/diagnosis/diagnose.hpp"
+#include <vector>
+
+#include "identify/cases/case.hpp"
+#include "identify/diagnosis/context.hpp"
+#include "identify/diagnosis/diagnosis.hpp"
 
 namespace catena {
 
-inline constexpr double kClosed = 1.2;          ///< a gap is, below this many times the noise
-inline constexpr double kClosedHeldOut = 1.35;  ///< the same where it was not fitted
-inline constexpr double kVisible = 1.07;        ///< times the noise: more than noise is left
-
 /// A gap where it was fitted, or in what the fit has not seen.
+bool gap_left(const GapTest& fit, const GapTest& held_out);
 bool gap_left(const Stage& stage);
 /// Too little for an effect to be sought, but not there by chance.
 bool trace_left(const Stage& stage);
+
+/// Whether the last stage explains the data: it leaves no gap, or so little that it is closed and
+/// not only imitated.
+bool explained(const std::vector<Stage>& stages);
+/// Whether the last stage has one effect that closes the gap but leaves more of a trace than a law
+/// slightly wrong would.
+bool one_may_imitate_two(const std::vector<Stage>& stages);
 
 /// Whether a model that leaves `held_out` of what no fit has seen predicts it as well as one that
 /// leaves `other`: an effect must, beside the model without it. True where nothing is held out.
@@ -23,10 +31,12 @@ double misfit_without_effects(const std::vector<Stage>& stages);
 
 /// Effects that only imitate what is missing leave a visible part of the gap that they were added
 /// for (7 % above the noise, 2 % of the squared misfit before the first of them); the right ones
-/// leave a trace of it, from what their laws get slightly wrong. `last`: with them, fitted again.
+/// leave a trace of it, from what their laws get slightly wrong. `last`: what is left with them.
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
 
-/// Fits the final model as `asked` says and tells what the stages amount to.
-void conclude(Diagnosis& d, const Case& asked, Workshop& workshop);
+/// Fits the final model as `asked` says and tells what the stages amount to. Throws
+/// std::runtime_error where it cannot be simulated, ModelError where it cannot be made.
+void conclude(Diagnosis& found, const Case& asked, const DiagnosisOptions& options,
+              DiagnosisContext& context);
 
 }  // namespace catena

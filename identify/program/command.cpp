@@ -37,6 +37,11 @@ void watch_for_interruption() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+int report_interruption(const std::string& outcome) {
+  std::cerr << "catena: interrupted; " << outcome << "\n";
+  return kExitInterrupted;
+}
+
 Model model_of(const Case& the_case, const CommonOptions& options) {
   ProviderOptions provider;
   if (!options.quiet)

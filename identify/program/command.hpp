@@ -29,6 +29,9 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// True once the user pressed Ctrl-C. The second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();
 void watch_for_interruption();
+/// Says on standard error that the user pressed Ctrl-C and what became of the work. Returns the exit
+/// status.
+int report_interruption(const std::string& outcome);
 
 /// The model of a case, with a line on standard error where it has to be made first.
 Model model_of(const Case& the_case, const CommonOptions& options);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/diagnose_command.hpp"
 
-#include <unistd.h>
+#include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/progress.hpp"
 
 namespace catena {
 namespace {
@@ -21,33 +23,53 @@ struct DiagnoseOptions : CommonOptions {
   int threads = 2;
 };
 
+/// "refitting with load_drag, 3 of 8 done, about 12 s left; best so far: with air_drag_linear, ..."
+std::string line_of(const DiagnosisProgress& progress) {
+  std::string line = progress.doing;
+  if (progress.of > 0) line += fmt::format(", {} of {} done", progress.done, progress.of);
+  if (std::isfinite(progress.seconds_left))
+    line += fmt::format(", about {:.0f} s left of this", progress.seconds_left);
+  if (!progress.best.empty()) line += "; best so far: " + progress.best;
+  return line;
+}
+
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
   const Case the_case = read_case(options.case_file);
   const ScratchFolder scratch;
+  ProgressLine progress(!options.quiet);
   ProviderOptions provider;
   if (!options.quiet)
-    provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
-  Workshop workshop(the_case.description, options.effects, scratch.path(), fit_least_squares,
-                    provider);
-  workshop.stop = &interrupted();
-  workshop.threads = options.threads;
-  if (isatty(STDERR_FILENO)) workshop.notice = provider.notice;
+    provider.notice = [&progress](const std::string& line) {
+      progress.clear();
+      std::cerr << "catena: " + line + "\n";
+    };
+  DiagnosisContext context(the_case.description, options.effects, scratch.path(), fit_least_squares,
+                           provider);
+  context.stop = &interrupted();
+  context.threads = options.threads;
+  context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
   fs::path folder = fs::absolute(output_folder(options)).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // "found/"
-  UnfinishedFolder output(folder);
   try {
-    const Diagnosis found = diagnose(the_case, workshop, options.diagnosis);
+    UnfinishedFolder output(folder);
+    const Diagnosis found = diagnose(the_case, context, options.diagnosis);
     const DiagnosisFindings findings = find_out(found);
-    const std::string json = write_diagnosis(found, findings, workshop, output.path());
+    const std::string json = write_diagnosis(found, findings, context, output.path());
+    context.stop_if_asked();
     output.publish();
+    progress.clear();
     if (options.json)
       std::cout << json;
     else if (!options.quiet)
       std::cout << diagnosis_table(found, findings) << "written to " << folder.string() << "\n";
-  } catch (const Interrupted&) {
-    std::cerr << "catena: interrupted, nothing was written\n";
-    return kExitInterrupted;
+  } catch (const std::exception&) {
+    progress.clear();
+    // The interruption is the cause: Ctrl-C ends a program that is deriving a model, too.
+    if (!context.stopped()) throw;
+    const std::string best = context.best();
+    return report_interruption(best.empty() ? "no model was fitted yet"
+                                            : "nothing was written; best so far: " + best);
   }
   return kExitSuccess;
 }

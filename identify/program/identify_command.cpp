@@ -167,10 +167,9 @@ int identify_case(const IdentifyOptions& options) {
   found.fit = found.starts[best_of(found.starts)];
   if (found.fit.status == FitStatus::kFailed) throw std::runtime_error(found.fit.message);
   if (!std::isfinite(found.fit.error)) {
-    if (interrupted()) return kExitInterrupted;  // nothing was found yet
+    if (interrupted()) return report_interruption("no simulation was finished");
     throw std::runtime_error("no simulation was finished within --time-limit");
   }
-  const bool stopped = interrupted();
   complete(problem, options, found);
   const std::string result = identification_result_text(problem, found);
   write_output(folder, files_of(problem, found, folder, result));
@@ -195,7 +194,8 @@ int identify_case(const IdentifyOptions& options) {
                      name_of(found.fit.status))
               << "written to " << folder.string() << "\n";
   }
-  return stopped ? kExitInterrupted : kExitSuccess;
+  if (interrupted()) return report_interruption("the best so far was written");
+  return kExitSuccess;
 }
 
 }  // namespace

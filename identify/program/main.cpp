@@ -82,6 +82,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::cerr << "catena: not enough memory\n";
   } catch (const std::exception& error) {
+    // Ctrl-C ends the programs that derive and compile a model, too.
+    if (interrupted()) return report_interruption("no simulation was finished");
     std::cerr << "catena: " << error.what() << "\n";
   }
   return status;

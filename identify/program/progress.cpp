@@ -10,12 +10,21 @@ namespace catena {
 
 ProgressLine::ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { clear_line(); }
+
+void ProgressLine::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void ProgressLine::clear_line() {
   if (written_) std::cerr << "\r\033[K" << std::flush;
+  written_ = false;
 }
 
 void ProgressLine::show(double share, const std::string& text) {
   if (!shown_) return;
+  const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (written_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 
 namespace catena {
@@ -16,8 +17,14 @@ class ProgressLine {
 
   /// `share` of the work that is done, 0 to 1; the time left is reckoned from it.
   void show(double share, const std::string& text);
+  /// Takes the line away, for something else to be written. May be called from several threads, as
+  /// show().
+  void clear();
 
  private:
+  void clear_line();
+
+  std::mutex mutex_;
   bool shown_;
   bool written_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "identify/cases/case_reader.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -49,12 +50,12 @@ kind = "markers"
 int frames_held_out(const std::string& more) {
   const testing::TemporaryFolder folder;
   folder.write("markers.csv", markers());
-  Case study = read_case(folder.write("case.toml", kCase + more));
-  Workshop workshop({}, {}, folder.path(), fit_least_squares, {});
+  Case the_case = read_case(folder.write("case.toml", kCase + more));
+  DiagnosisContext context({}, {}, folder.path(), fit_least_squares, {});
   std::vector<std::string> notes;
-  hold_out(study, workshop, notes);
+  hold_out(the_case, context, notes);
   CHECK(notes.size() == 1);
-  const Problem problem(study, Model::built_in(2));
+  const Problem problem(the_case, Model::built_in(2));
   int frames = 0;
   for (const Experiment& experiment : problem.experiments())
     frames += static_cast<int>(experiment.recording.time.size()) -

@@ -40,20 +40,20 @@ MatrixXd smooth(int channels, int frames, double rms, double frequency, double r
   return m;
 }
 
-TEST_CASE("the noise floor is found under a smooth misfit of ten times its size") {
+TEST_CASE("the noise level is found under a smooth misfit of ten times its size") {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const MatrixXd noise = white(24, 240, 1e-3, seed);
-    CHECK(catena::noise_floor(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
+    CHECK(catena::noise_level(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
     const MatrixXd both = noise + smooth(24, 240, 1e-2, 1.5, 60);
-    CHECK(catena::noise_floor(both, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
+    CHECK(catena::noise_level(both, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.05));
   }
 }
 
-TEST_CASE("lost markers do not disturb the noise floor") {
+TEST_CASE("lost markers do not disturb the noise level") {
   MatrixXd noise = white(24, 240, 1e-3, 6);
   for (int k = 0; k < 240; k += 13)
     for (int c = 0; c < 24; c += 5) noise(c, k) = std::nan("");
-  CHECK(catena::noise_floor(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.06));
+  CHECK(catena::noise_level(noise, times(240, 60)).sigma == doctest::Approx(1e-3).epsilon(0.06));
 }
 
 TEST_CASE("smoothed tracks are told from white noise") {
@@ -62,8 +62,8 @@ TEST_CASE("smoothed tracks are told from white noise") {
   for (int pass = 0; pass < 3; ++pass)  // each frame with its neighbours, weights 1 2 1
     for (Eigen::Index k = 1; k + 1 < tracked.cols(); ++k)
       tracked.col(k) = (tracked.col(k - 1) + 2 * tracked.col(k) + tracked.col(k + 1)) / 4;
-  CHECK(catena::noise_floor(tracked, times(260, 60)).coloured);
-  CHECK_FALSE(catena::noise_floor(noise, times(260, 60)).coloured);
+  CHECK(catena::noise_level(tracked, times(260, 60)).autocorrelated);
+  CHECK_FALSE(catena::noise_level(noise, times(260, 60)).autocorrelated);
 }
 
 TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the noise is one") {
@@ -90,10 +90,10 @@ TEST_CASE("what is left of a gap tells imitations from what is missing") {
   stages[1].effects = {"an_effect"};
   stages[1].fit.misfit = 1e-3;  // with effects: no gap that they were added for
   catena::GapTest last;
-  last.floor = 1e-3;
+  last.noise = 1e-3;
   const auto with_misfit = [&](double misfit) {
     last.misfit = misfit;
-    last.rms = std::hypot(last.floor, misfit);
+    last.rms = std::hypot(last.noise, misfit);
     return catena::only_imitated(stages, last);
   };
   CHECK_FALSE(with_misfit(0.3e-3));  // hardly visible
@@ -116,8 +116,8 @@ TEST_CASE("an effect predicts as well as the model without it up to a twentieth"
 }
 
 TEST_CASE("the colour factor is one for white noise and grows with correlation") {
-  CHECK(catena::colour_factor({white(24, 400, 1, 1)}) < 1.3);
-  CHECK(catena::colour_factor({smooth(24, 400, 1, 1, 60)}) > 5);
+  CHECK(catena::autocorrelation_factor({white(24, 400, 1, 1)}) < 1.3);
+  CHECK(catena::autocorrelation_factor({smooth(24, 400, 1, 1, 60)}) > 5);
 }
 
 TEST_CASE("chi-square tails") {

@@ -9,18 +9,6 @@
 
 namespace catena {
 
-/// Where, when and how residuals are large.
-struct ResidualPlaces {
-  std::vector<std::string>
-      words;  ///< "largest at marker 12 (the load)", "at high speed", "after 2 s"
-  std::string largest_point;
-  std::vector<std::string> points;    ///< of the first experiment
-  std::vector<double> point_rms;      ///< m or rad
-  double slow_rms = 0, fast_rms = 0;  ///< in the slowest and the fastest third of the motion
-  double strongest_frequency = 0;     ///< Hz, of the residuals
-};
-ResidualPlaces residual_places(const FittedModel& model, const std::vector<double>& floors);
-
 /// The generalised force that would close the gap.
 ///
 /// The residuals are taken as a small difference of link angles, d(s, t): polynomials along the
@@ -33,7 +21,7 @@ ResidualPlaces residual_places(const FittedModel& model, const std::vector<doubl
 ///
 /// The distance of the knots says what is resolved. Given as the moment at each joint that would do
 /// the work of Q: moment_i = sum over the links below of Q_k.
-struct MissingForce {
+struct MissingMoment {
   int experiment = 0;
   std::vector<double> time;
   Eigen::MatrixXd moment;  ///< joints x times, N m, on the link below from the joint above
@@ -47,6 +35,10 @@ struct MissingForce {
   std::vector<Dependence> dependence;  ///< largest first
   std::vector<std::string> words;
 };
-MissingForce missing_force(const FittedModel& model, const std::vector<double>& floors);
+
+/// Of the first experiment with a fitted part. `sigmas`: the noise of every experiment, m or rad.
+/// `moment` is empty where it cannot be told: fewer than 30 frames, a motion that cannot be
+/// simulated, or accelerations that cannot be solved for, which `words` says.
+MissingMoment missing_moment(const FittedModel& model, const std::vector<double>& sigmas);
 
 }  // namespace catena

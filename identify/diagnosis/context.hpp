@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -18,21 +19,30 @@
 
 namespace catena {
 
-/// Thrown where a workshop's `stop` was set.
+/// Thrown where a diagnosis was asked to stop.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
+/// How far a diagnosis is.
+struct DiagnosisProgress {
+  std::string doing;        ///< "refitting with load_drag"
+  int done = 0, of = 0;     ///< tasks of this kind; of = 0: not counted
+  double seconds_left = 0;  ///< until all of this kind are done, from those that are; NaN: unknown
+  std::string best;         ///< the best model so far; empty before there is one
+};
+
 /// What every part of a diagnosis needs: the effects to look for, models that hold them, a solver,
 /// and somebody to tell what is going on.
-class Workshop {
+class DiagnosisContext {
  public:
   /// `description`: of the case (empty: the plain chain); `effect_files`: the user's own effects;
   /// `folder`: where descriptions are written.
-  Workshop(const std::filesystem::path& description,
-           const std::vector<std::filesystem::path>& effect_files, std::filesystem::path folder,
-           LeastSquares least_squares, ProviderOptions provider);
+  DiagnosisContext(const std::filesystem::path& description,
+                   const std::vector<std::filesystem::path>& effect_files,
+                   std::filesystem::path folder, LeastSquares least_squares,
+                   ProviderOptions provider);
 
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
@@ -45,16 +55,25 @@ class Workshop {
   /// cannot. Derived and compiled once for every number of links: at the neutral values it is the
   /// case's model.
   Model model_with_all(int links, const std::vector<std::string>& needed = {});
-  /// The case's model with these effects alone. Several threads may each have theirs made at once.
+  /// The case's model with these effects alone, derived and compiled. Several threads may each have
+  /// theirs made at once. Both throw ModelError where a model cannot be made.
   Model model_with(const std::vector<std::string>& effects, int links);
 
   LeastSquares least_squares;
   ProviderOptions provider;
   const std::atomic<bool>* stop = nullptr;
   int threads = 2;
-  std::function<void(const std::string&)> notice;  ///< one line on what is being done
+  std::function<void(const DiagnosisProgress&)> notice;  ///< told whenever something begins or ends
 
-  void say(const std::string& text);
+  /// So many tasks of one kind begin (0: not counted); `doing` says what is done meanwhile.
+  void begin(const std::string& doing, std::size_t count = 0);
+  /// One of these tasks begins, or ends.
+  void begin_task(const std::string& doing);
+  void end_task();
+  /// The best model so far.
+  void tell_best(const std::string& words);
+  std::string best() const;
+
   bool stopped() const { return stop && stop->load(); }
   /// Throws Interrupted if somebody wants it to stop.
   void stop_if_asked() const {
@@ -62,11 +81,18 @@ class Workshop {
   }
 
  private:
+  /// What `make` gives, made once for a key.
+  Model once(const std::string& key, const std::function<Model()>& make);
+  void tell();  // with progress_mutex_ held
+
   Description original_;
   std::filesystem::path folder_;
   std::vector<Candidate> library_;
   std::map<std::string, std::shared_future<Model>> models_;  // by links and effects
-  std::mutex mutex_;
+  std::mutex models_mutex_;
+  mutable std::mutex progress_mutex_;
+  DiagnosisProgress progress_;
+  std::chrono::steady_clock::time_point begin_;
 };
 
 }  // namespace catena

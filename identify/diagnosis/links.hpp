@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "identify/diagnosis/compare.hpp"
+#include "identify/diagnosis/context.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
-#include "identify/diagnosis/workshop.hpp"
 
 namespace catena {
 
@@ -27,13 +26,11 @@ struct FinerChain {
 /// absorb, is no small part of the misfit, refits; taken if that explains a good part of the
 /// misfit.
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
-                           const std::vector<double>& floors, int max_links, Workshop& workshop);
+                           const std::vector<double>& sigmas, int max_links,
+                           DiagnosisContext& context);
 
 /// The same model with another number of links, fitted; not ok where the case cannot have it.
 FittedModel refitted_with_links(const FittedModel& model, int links,
-                                const std::vector<std::string>& effects, Workshop& workshop);
-
-/// Derivative of the stacked residuals of the fitted part by all unknowns.
-Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& floors);
+                                const std::vector<std::string>& effects, DiagnosisContext& context);
 
 }  // namespace catena

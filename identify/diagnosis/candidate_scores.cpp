@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/candidate_scores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/parallel.hpp"
+#include "identify/diagnosis/residual_frequencies.hpp"
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kElsewhere = 0.2;      // relative distance of two shapes that are not neighbours
+constexpr double kMovesTheData = 0.33;  // of the noise: a step large enough for a slope
+
+constexpr const char* kOtherWayRound = "would have to act the other way round";
+
+/// One point of a candidate's grid of shapes.
+struct ScoredStart {
+  Score score;
+  std::vector<int> columns;
+  std::vector<std::pair<std::string, double>> start;
+  VectorXd shape;
+};
+
+/// The start of the best score, and as another one the best whose shape is not next to that.
+void take_best(Explanation& explanation, std::vector<ScoredStart>& scores) {
+  std::stable_sort(scores.begin(), scores.end(), [](const ScoredStart& a, const ScoredStart& b) {
+    return a.score.removed > b.score.removed;
+  });
+  if (scores.empty()) return;
+  const ScoredStart& best = scores.front();
+  explanation.score = best.score;
+  explanation.start = best.start;
+  for (const ScoredStart& other : scores)
+    if (explanation.other_start.empty() && other.shape.size() > 0 &&
+        (other.shape - best.shape).norm() > kElsewhere * best.shape.norm())
+      explanation.other_start = other.start;
+}
+
+const CandidateParameter& parameter(const Candidate& candidate, int index) {
+  return candidate.parameters[static_cast<std::size_t>(index)];
+}
+
+/// The score of a candidate at one shape, from its derivatives at phase zero and, if it has phases,
+/// at a quarter of a turn.
+ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, const MatrixXd& at_zero,
+                      const MatrixXd* at_quarter, const VectorXd& shape) {
+  const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
+  ScoredStart scored;
+  scored.shape = shape;
+  for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+    const CandidateParameter& p = parameter(candidate, amplitudes[a]);
+    const double low = p.lower - p.neutral, high = p.upper - p.neutral;
+    scored.columns.push_back(test.add({at_zero.col(static_cast<Index>(a)), low, high}));
+    if (at_quarter)
+      scored.columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));
+  }
+  scored.score = test.score(scored.columns);
+  if (!scored.score.admissible) return scored;
+  const VectorXd& estimate = scored.score.estimate;
+  for (std::size_t a = 0; a < amplitudes.size(); ++a) {
+    const CandidateParameter& p = parameter(candidate, amplitudes[a]);
+    if (!at_quarter) {
+      scored.start.emplace_back(p.name, p.neutral + estimate[static_cast<Index>(a)]);
+      continue;
+    }
+    // a sin(w t) + b cos(w t) = sqrt(a^2 + b^2) sin(w t + atan2(b, a))
+    const double sine = estimate[static_cast<Index>(2 * a)];
+    const double cosine = estimate[static_cast<Index>(2 * a + 1)];
+    scored.start.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
+    for (const int q : candidate.with_role(ParameterRole::kPhase))
+      if (parameter(candidate, q).amplitude == amplitudes[a])
+        scored.start.emplace_back(parameter(candidate, q).name, std::atan2(cosine, sine));
+  }
+  const std::vector<int> shapes = candidate.with_role(ParameterRole::kShape);
+  for (std::size_t s = 0; s < shapes.size(); ++s)
+    scored.start.emplace_back(parameter(candidate, shapes[s]).name, shape[static_cast<Index>(s)]);
+  return scored;
+}
+
+}  // namespace
+
+CandidateScores::CandidateScores(const CandidateSearch& search) : search_(search) {
+  DiagnosisContext& context = search.context;
+  std::vector<Candidate> others;
+  for (const Candidate& candidate : context.library())
+    if (candidate.unavailable.empty() && !candidate.own_model && !search.in_base(candidate.id))
+      others.push_back(candidate);
+  std::vector<std::string> own_models_in_base;
+  for (const std::string& id : search.effects)
+    if (context.find(id)->own_model) own_models_in_base.push_back(id);
+  const Case& the_case = search.base.problem->the_case();
+  all_ = std::make_shared<const Problem>(
+      with_effects(search.with_free_start().value_or(the_case), others, true),
+      context.model_with_all(the_case.links, own_models_in_base));
+  x_ = transfer(*search.base.problem, search.base.x, *all_);
+  frequencies_ = driving_frequencies(search.base, search.sigmas);
+}
+
+bool CandidateScores::is_asked(const Candidate& candidate, bool own_models) const {
+  return !search_.in_base(candidate.id) && candidate.own_model == own_models;
+}
+
+CandidateScores::Plan CandidateScores::plan(bool own_models) const {
+  // The common run has everything with a slope at the base: what is fitted, a freer start, and the
+  // amplitudes of the effects without a shape.
+  Plan plan;
+  std::vector<Index> fitted, start;
+  for (std::size_t j = 0; j < all_->unknowns().size(); ++j) {
+    const Unknown& unknown = all_->unknowns()[j];
+    if (unknown_index(*search_.base.problem, unknown.name) >= 0)
+      fitted.push_back(static_cast<Index>(j));
+    else if (unknown.group == Unknown::Group::kInitial && !own_models)
+      start.push_back(static_cast<Index>(j));
+  }
+  plan.fitted = static_cast<Index>(fitted.size());
+  plan.start = static_cast<Index>(start.size());
+  plan.runs.push_back({all_, x_, fitted, {}, {}});
+  std::vector<Index>& common = plan.runs.front().unknowns;
+  common.insert(common.end(), start.begin(), start.end());
+  const std::vector<Candidate>& library = search_.context.library();
+  plan.places.resize(library.size());
+  for (std::size_t i = 0; i < library.size(); ++i)
+    if (is_asked(library[i], own_models) && library[i].unavailable.empty())
+      add_runs_of(library[i], plan, plan.places[i]);
+  return plan;
+}
+
+void CandidateScores::add_runs_of(const Candidate& candidate, Plan& plan, Place& place) const {
+  const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
+  if (amplitudes.empty()) return;  // a limit: see score_limit
+  const auto problem = candidate.own_model ? search_.problem_with(candidate) : all_;
+  const auto unknown_of = [&](int p) {
+    return unknown_index(*problem, parameter(candidate, p).name);
+  };
+  std::vector<Index> own;
+  for (const int p : amplitudes) own.push_back(unknown_of(p));
+  const std::vector<int> shapes = candidate.with_role(ParameterRole::kShape);
+  const std::vector<int> phases = candidate.with_role(ParameterRole::kPhase);
+  if (shapes.empty() && phases.empty() && !candidate.own_model) {
+    std::vector<Index>& common = plan.runs.front().unknowns;
+    place.column = static_cast<Index>(common.size());
+    common.insert(common.end(), own.begin(), own.end());
+    return;
+  }
+  const VectorXd x =
+      candidate.own_model ? transfer(*search_.base.problem, search_.base.x, *problem) : x_;
+  place.run = plan.runs.size();
+  for (const VectorXd& shape : shape_grid(candidate, frequencies_))
+    for (const double phase : {0.0, std::numbers::pi / 2}) {
+      if (phase > 0 && phases.empty()) continue;
+      Run run{problem, x, own, shape, {}};
+      for (std::size_t s = 0; s < shapes.size(); ++s)
+        run.x[unknown_of(shapes[s])] = shape[static_cast<Index>(s)];
+      for (const int p : phases) run.x[unknown_of(p)] = phase;
+      plan.runs.push_back(std::move(run));
+    }
+  place.runs = plan.runs.size() - place.run;
+}
+
+MatrixXd CandidateScores::columns(const Run& run) const {
+  const Problem& problem = *run.problem;
+  std::vector<std::vector<MatrixXd>> derivatives(run.unknowns.size());
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const int index = static_cast<int>(e);
+    if (!problem.experiments()[e].fitted()) {
+      for (auto& derivative : derivatives) derivative.emplace_back();
+      continue;
+    }
+    const std::vector<SensitivityDirection> every = problem.directions(run.x, index);
+    std::vector<SensitivityDirection> along;
+    for (const Index j : run.unknowns) along.push_back(every[static_cast<std::size_t>(j)]);
+    Prediction prediction = problem.predict(run.x, index, false, along);
+    if (!prediction.ok())
+      throw std::runtime_error("the model with every effect cannot be simulated at the fit: " +
+                               prediction.message);
+    for (std::size_t j = 0; j < run.unknowns.size(); ++j)
+      derivatives[j].push_back(std::move(prediction.sensitivity[j]));
+  }
+  MatrixXd result;
+  for (std::size_t j = 0; j < run.unknowns.size(); ++j) {
+    const VectorXd column = stacked(derivatives[j], search_.base.fit_residual, search_.sigmas);
+    if (result.size() == 0) result.resize(column.size(), static_cast<Index>(run.unknowns.size()));
+    result.col(static_cast<Index>(j)) = column;
+  }
+  return result;
+}
+
+std::vector<Explanation> CandidateScores::score(bool own_models) const {
+  DiagnosisContext& context = search_.context;
+  context.begin("scoring what may be missing");
+  Plan plan = this->plan(own_models);
+  context.begin("scoring what may be missing", plan.runs.size());
+  in_parallel(plan.runs.size(), context.threads, [&](std::size_t r) {
+    if (context.stopped()) return;
+    plan.runs[r].columns = columns(plan.runs[r]);
+    context.end_task();
+  });
+  context.stop_if_asked();  // runs that were left out have no columns
+
+  const MatrixXd& common = plan.runs.front().columns;
+  ScoreTest test(stacked(search_.base.fit_residual, search_.base.fit_residual, search_.sigmas),
+                 common.leftCols(plan.fitted));
+  std::vector<Explanation> found;
+  score_start(test, common.middleCols(plan.fitted, plan.start), found);
+  for (std::size_t i = 0; i < context.library().size(); ++i)
+    if (is_asked(context.library()[i], own_models)) found.push_back(score_candidate(test, plan, i));
+  std::stable_sort(found.begin(), found.end(), [](const Explanation& a, const Explanation& b) {
+    return a.score.removed > b.score.removed;
+  });
+  return found;
+}
+
+void CandidateScores::score_start(ScoreTest& test, const MatrixXd& derivatives,
+                                  std::vector<Explanation>& out) const {
+  if (derivatives.cols() == 0) return;
+  Explanation rival;
+  rival.id = kStartShape;
+  rival.title = "A start that bends more, or moves";
+  std::vector<int> columns;
+  for (Index j = 0; j < derivatives.cols(); ++j)
+    columns.push_back(test.add({derivatives.col(j), -std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::infinity()}));
+  rival.score = test.score(columns);
+  if (rival.score.admissible) rival.log10_p = significance(test, columns, rival.score);
+  out.push_back(std::move(rival));
+}
+
+Explanation CandidateScores::score_candidate(ScoreTest& test, const Plan& plan,
+                                             std::size_t index) const {
+  const Candidate& candidate = search_.context.library()[index];
+  const Place& place = plan.places[index];
+  Explanation explanation;
+  explanation.id = candidate.id;
+  explanation.title = candidate.title;
+  explanation.candidate = static_cast<int>(index);
+  explanation.note = candidate.unavailable;
+  if (!candidate.unavailable.empty()) return explanation;
+  const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
+  if (amplitudes.empty()) {
+    score_limit(test, candidate, explanation);
+    return explanation;
+  }
+  std::vector<ScoredStart> scores;
+  const auto consider = [&](const MatrixXd& at_zero, const MatrixXd* at_quarter,
+                            const VectorXd& shape) {
+    ScoredStart scored = scored_at(test, candidate, at_zero, at_quarter, shape);
+    if (scored.score.admissible) scores.push_back(std::move(scored));
+  };
+  if (place.column >= 0) {
+    const auto count = static_cast<Index>(amplitudes.size());
+    consider(plan.runs.front().columns.middleCols(place.column, count), nullptr, {});
+  } else {
+    const bool with_phase = !candidate.with_role(ParameterRole::kPhase).empty();
+    for (std::size_t r = place.run; r < place.run + place.runs; r += with_phase ? 2 : 1)
+      consider(plan.runs[r].columns, with_phase ? &plan.runs[r + 1].columns : nullptr,
+               plan.runs[r].shape);
+  }
+  take_best(explanation, scores);
+  if (explanation.score.admissible)
+    explanation.log10_p = significance(test, scores.front().columns, explanation.score);
+  else
+    explanation.note = kOtherWayRound;
+  return explanation;
+}
+
+void CandidateScores::score_limit(ScoreTest& test, const Candidate& candidate,
+                                  Explanation& explanation) const {
+  const auto limits = candidate.with_role(ParameterRole::kLimit);
+  if (limits.size() != 1) {
+    explanation.note = "not one parameter whose limit is the plain model";
+    return;
+  }
+  const FittedModel& base = search_.base;
+  const CandidateParameter& limit = parameter(candidate, limits[0]);
+  const auto shared = search_.problem_with(candidate);
+  const Problem& problem = *shared;
+  VectorXd x = transfer(*base.problem, base.x, problem);
+  const Index unknown = unknown_index(problem, limit.name);
+  // The slope by 1/value, from the first value that moves the trajectory by a third of the noise.
+  for (double value = 1e6; value > std::max(limit.lower, 1.0); value /= 10) {
+    x[unknown] = value;
+    std::vector<MatrixXd> difference(problem.experiments().size());
+    bool ok = true;
+    for (std::size_t e = 0; e < difference.size(); ++e) {
+      if (base.fit_residual[e].cols() == 0) continue;
+      const Prediction prediction = problem.predict(x, static_cast<int>(e), false);
+      ok = ok && prediction.ok();
+      if (ok)
+        difference[e] =
+            prediction.simulated - base.predicted[e].leftCols(base.fit_residual[e].cols());
+    }
+    if (!ok) continue;
+    VectorXd column = stacked(difference, base.fit_residual, search_.sigmas);
+    if (column.norm() < kMovesTheData * std::sqrt(static_cast<double>(column.size()))) continue;
+    column *= value;
+    const std::vector<int> columns = {test.add({column, 0.0, 1 / std::max(limit.lower, 1e-3)})};
+    explanation.score = test.score(columns);
+    if (explanation.score.admissible) {
+      explanation.log10_p = significance(test, columns, explanation.score);
+      explanation.start.emplace_back(limit.name, 1 / explanation.score.estimate[0]);
+    }
+    break;
+  }
+  if (!explanation.score.admissible) explanation.note = kOtherWayRound;
+}
+
+double CandidateScores::significance(const ScoreTest& test, const std::vector<int>& columns,
+                                     const Score& score) const {
+  const VectorXd rest = test.residual_after(columns, score.estimate);
+  // Back into channels x frames, for the correlations of what would be left.
+  std::vector<MatrixXd> left;
+  Index next = 0;
+  for (const MatrixXd& shape : search_.base.fit_residual) {
+    if (shape.cols() == 0) continue;
+    MatrixXd part = shape;
+    for (Index k = 0; k < part.cols(); ++k)
+      for (Index c = 0; c < part.rows(); ++c)
+        if (!std::isnan(part(c, k))) part(c, k) = rest[next++];
+    left.push_back(std::move(part));
+  }
+  const double variance =
+      std::max(1.0, rest.squaredNorm() / static_cast<double>(std::max<Index>(1, rest.size())));
+  return log10_chi_square_tail(score.removed / (variance * autocorrelation_factor(left)),
+                               static_cast<int>(columns.size()));
+}
+
+}  // namespace catena

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "identify/diagnosis/candidate_search.hpp"
+#include "identify/diagnosis/explanation.hpp"
+
+namespace catena {
+
+/// Scores of everything that may be missing in a fitted model: one simulation with sensitivities in
+/// a model that contains all candidates at their neutral values, and one for every point of the
+/// grids of candidates with a shape.
+class CandidateScores {
+ public:
+  /// `search` must outlive this object.
+  explicit CandidateScores(const CandidateSearch& search);
+
+  /// The most promising first: of a freer start and of the candidates that share a model, or of
+  /// those that need models of their own (`own_models`). What cannot be tried says why. Throws
+  /// Interrupted; std::runtime_error where the model cannot be simulated at the fit.
+  std::vector<Explanation> score(bool own_models) const;
+
+ private:
+  /// One simulation with derivatives of the stacked residuals by some unknowns.
+  struct Run {
+    std::shared_ptr<const Problem> problem;
+    Eigen::VectorXd x;
+    std::vector<Eigen::Index> unknowns;
+    Eigen::VectorXd shape;
+    Eigen::MatrixXd columns;  ///< one per unknown
+  };
+  /// Where a candidate's columns are: in the common run from `column` on, or in `runs` runs of its
+  /// own from `run` on.
+  struct Place {
+    Eigen::Index column = -1;
+    std::size_t run = 0, runs = 0;
+  };
+  struct Plan {
+    std::vector<Run> runs;               ///< the common one first
+    Eigen::Index fitted = 0, start = 0;  ///< first columns of the common one
+    std::vector<Place> places;           ///< one per candidate of the library
+  };
+
+  bool is_asked(const Candidate& candidate, bool own_models) const;
+  Plan plan(bool own_models) const;
+  void add_runs_of(const Candidate& candidate, Plan& plan, Place& place) const;
+  Eigen::MatrixXd columns(const Run& run) const;
+
+  void score_start(ScoreTest& test, const Eigen::MatrixXd& derivatives,
+                   std::vector<Explanation>& out) const;
+  Explanation score_candidate(ScoreTest& test, const Plan& plan, std::size_t index) const;
+  void score_limit(ScoreTest& test, const Candidate& candidate, Explanation& explanation) const;
+  double significance(const ScoreTest& test, const std::vector<int>& columns,
+                      const Score& score) const;
+
+  const CandidateSearch& search_;
+  std::shared_ptr<const Problem> all_;  // the model with all effects, everything free
+  Eigen::VectorXd x_;                   // the base in it
+  std::vector<double> frequencies_;     // Hz, where the residuals have lines
+};
+
+}  // namespace catena

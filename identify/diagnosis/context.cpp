@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/context.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/sha256.hpp"
+
+namespace catena {
+
+namespace fs = std::filesystem;
+
+DiagnosisContext::DiagnosisContext(const fs::path& description,
+                                   const std::vector<fs::path>& effect_files, fs::path folder,
+                                   LeastSquares solver, ProviderOptions provider_options)
+    : least_squares(std::move(solver)),
+      provider(std::move(provider_options)),
+      original_(description.empty() ? plain_chain() : read_description(description)),
+      folder_(std::move(folder)),
+      library_(library_of_candidates(effect_files, original_)) {}
+
+const Candidate* DiagnosisContext::find(const std::string& id) const {
+  const auto found = std::find_if(library_.begin(), library_.end(),
+                                  [&](const Candidate& candidate) { return candidate.id == id; });
+  return found == library_.end() ? nullptr : &*found;
+}
+
+void DiagnosisContext::write_description_with(const std::vector<std::string>& effects, int links,
+                                              const std::string& id, const fs::path& file) const {
+  Description description = original_;
+  for (const std::string& effect : effects) description.effects.push_back(find(effect)->effect);
+  description.id = id;
+  description.links = {links};
+  write_description(description, file);
+}
+
+Model DiagnosisContext::once(const std::string& key, const std::function<Model()>& make) {
+  std::promise<Model> promise;
+  std::shared_future<Model> model;
+  bool mine = false;
+  {
+    const std::lock_guard lock(models_mutex_);
+    const auto [place, added] = models_.try_emplace(key);
+    if (added) place->second = promise.get_future().share();
+    model = place->second;
+    mine = added;
+  }
+  if (mine) {
+    try {
+      promise.set_value(make());
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return model.get();
+}
+
+Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int links) {
+  std::string key = std::to_string(links);
+  for (const std::string& effect : effects) key += " " + effect;
+  return once(key, [&] {
+    std::string id = original_.id;
+    for (const std::string& effect : effects) id += "_" + effect;
+    if (effects.size() > 4)
+      id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
+    const fs::path file = folder_ / (sha256_hex(key) + ".toml");
+    write_description_with(effects, links, id, file);
+    return provide_model(file, links, provider);
+  });
+}
+
+Model DiagnosisContext::model_with_all(int links, const std::vector<std::string>& needed) {
+  std::vector<std::string> effects;
+  for (const Candidate& candidate : library_) {
+    const bool wanted = std::find(needed.begin(), needed.end(), candidate.id) != needed.end();
+    if (wanted || (candidate.unavailable.empty() && !candidate.own_model))
+      effects.push_back(candidate.id);
+  }
+  return model_with(effects, links);
+}
+
+void DiagnosisContext::begin(const std::string& doing, std::size_t count) {
+  const std::lock_guard lock(progress_mutex_);
+  progress_.doing = doing;
+  progress_.done = 0;
+  progress_.of = static_cast<int>(count);
+  begin_ = std::chrono::steady_clock::now();
+  tell();
+}
+
+void DiagnosisContext::begin_task(const std::string& doing) {
+  const std::lock_guard lock(progress_mutex_);
+  progress_.doing = doing;
+  tell();
+}
+
+void DiagnosisContext::end_task() {
+  const std::lock_guard lock(progress_mutex_);
+  ++progress_.done;
+}
+
+void DiagnosisContext::tell_best(const std::string& words) {
+  const std::lock_guard lock(progress_mutex_);
+  progress_.best = words;
+}
+
+std::string DiagnosisContext::best() const {
+  const std::lock_guard lock(progress_mutex_);
+  return progress_.best;
+}
+
+void DiagnosisContext::tell() {
+  if (!notice) return;
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  progress_.seconds_left = progress_.done > 0
+                               ? seconds / progress_.done * (progress_.of - progress_.done)
+                               : std::numeric_limits<double>::quiet_NaN();
+  notice(progress_);
+}
+
+}  // namespace catena

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identify/diagnosis/explanation.hpp"
+#include "identify/diagnosis/links.hpp"
+#include "identify/diagnosis/noise.hpp"
+
+namespace catena {
+
+enum class DiagnosisVerdict {
+  kNone,         ///< nothing is missing
+  kNamed,        ///< one or more effects
+  kAmbiguous,    ///< effects that these data cannot tell apart
+  kUnexplained,  ///< a gap that nothing in the library closes
+};
+const char* name_of(DiagnosisVerdict verdict);
+
+/// One model on the way, and what was tried on it.
+struct Stage {
+  std::vector<std::string> effects;  ///< in the model
+  std::string added, removed;  ///< since the stage before: an effect, too_few_links, start_shape
+  int links = 0;
+  FittedModel model;
+  GapTest fit, held_out;
+  FinerChain finer;
+  std::vector<Explanation> explanations;  ///< most promising first; empty if nothing was sought
+};
+
+/// Effects between which the data do not decide, as the last added or in place of `instead_of`.
+struct Alternative {
+  std::string instead_of;
+  Explanation explanation;
+  Decision decision;
+};
+
+/// One parameter of the final model that was fitted.
+struct FinalParameter {
+  std::string name, unit, effect;  ///< effect: empty for the case's own
+  double value = 0;
+  double standard_error = 0;  ///< allowing for autocorrelation; infinite in null directions
+};
+
+/// What a diagnosis found.
+struct Diagnosis {
+  DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
+  std::string sentence;                   ///< what the verdict says, one or two sentences
+  std::vector<std::string> notes;         ///< warnings
+  std::vector<NoiseLevel> noise;          ///< per experiment, as estimated
+  std::vector<double> sigmas;             ///< per experiment, the noise that was used, m or rad
+  std::vector<Stage> stages;              ///< baseline first
+  std::vector<std::string> effects;       ///< of the final model
+  bool freer_start = false;               ///< the start of the motion needed more terms
+  std::vector<Alternative> alternatives;  ///< undecided ones
+  std::vector<Alternative> forms;         ///< undecided too, but laws of the effect that is named
+  std::vector<Alternative> runners_up;    ///< refitted and decided against
+  FittedModel final;
+  GapTest final_fit, final_held_out;
+  std::vector<FinalParameter> parameters;
+  double equality = 0;  ///< largest relative difference to the case's model at the neutral values
+  double seconds = 0;
+  int tried = 0;  ///< candidates scored in the first look
+};
+
+struct DiagnosisOptions {
+  int max_effects = 2;  ///< three can imitate much that is none of them
+  int max_links = 60;
+  int refits = 6;  ///< candidates refitted in every look
+};
+
+}  // namespace catena

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/links.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/diagnosis/score.hpp"
+#include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/variant.hpp"
+#include "identify/problem/evaluation.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
+                           const std::vector<double>& sigmas, int max_links,
+                           DiagnosisContext& context) {
+  FinerChain finer;
+  const Case& the_case = model.problem->the_case();
+  finer.links = std::min(2 * the_case.links, std::max(max_links, the_case.links));
+  if (finer.links <= the_case.links) {
+    finer.note = "no more than " + std::to_string(max_links) + " links are allowed";
+    return finer;
+  }
+  const std::optional<Case> larger = with_links(the_case, finer.links, finer.note);
+  if (!larger) return finer;
+  const auto problem =
+      std::make_shared<const Problem>(*larger, context.model_with(effects, finer.links));
+  const VectorXd start = transfer(*model.problem, model.x, *problem);
+
+  std::vector<MatrixXd> change(model.fit_residual.size());
+  for (std::size_t e = 0; e < change.size(); ++e) {
+    const Index fitted = model.fit_residual[e].cols();
+    if (fitted == 0) continue;
+    const Prediction prediction = problem->predict(start, static_cast<int>(e), false);
+    if (!prediction.ok()) {
+      finer.note = "the finer chain could not be simulated: " + prediction.message;
+      return finer;
+    }
+    change[e] = prediction.simulated - model.predicted[e].leftCols(fitted);
+  }
+  const ScoreTest test(stacked(model.fit_residual, model.fit_residual, sigmas),
+                       fitted_jacobian(model, sigmas));
+  const VectorXd left = test.project(stacked(change, model.fit_residual, sigmas));
+  const GapTest gap = fit_gap(model, sigmas);
+  finer.predicted = gap.noise * left.norm() / std::sqrt(static_cast<double>(left.size()));
+  if (finer.predicted < kThresholds.links_worth_a_fit * gap.misfit) {
+    finer.note = "the finer chain would change the prediction by a small part of the misfit only";
+    return finer;
+  }
+  context.begin_task("refitting with " + std::to_string(finer.links) + " links");
+  finer.model = fit_model(problem, start, context.least_squares, context.stop);
+  if (!finer.model.ok) {
+    finer.note = "the refit failed: " + finer.model.message;
+    return finer;
+  }
+  finer.refitted = true;
+  finer.comparison = compare(model, finer.model, sigmas);
+  finer.taken = finer.comparison.misfit_share > kThresholds.links_worthwhile &&
+                finer.comparison.log10_p < kThresholds.certain;
+  if (!finer.taken) finer.note = "refitted, and no better";
+  return finer;
+}
+
+FittedModel refitted_with_links(const FittedModel& model, int links,
+                                const std::vector<std::string>& effects,
+                                DiagnosisContext& context) {
+  std::string why_not;
+  const std::optional<Case> other = with_links(model.problem->the_case(), links, why_not);
+  if (!other) return {};
+  const auto problem = std::make_shared<const Problem>(*other, context.model_with(effects, links));
+  context.begin_task("refitting with " + std::to_string(links) + " links");
+  return fit_model(problem, transfer(*model.problem, model.x, *problem), context.least_squares,
+                   context.stop);
+}
+
+}  // namespace catena

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/look_back.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/diagnosis/choice.hpp"
+#include "identify/diagnosis/search.hpp"
+#include "identify/diagnosis/special_case.hpp"
+#include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/trim.hpp"
+#include "identify/diagnosis/variant.hpp"
+#include "identify/diagnosis/verdict.hpp"
+
+namespace catena {
+namespace {
+
+void forget_alternatives(Diagnosis& found) {
+  found.alternatives.clear();
+  found.forms.clear();
+  found.runners_up.clear();
+}
+
+/// The stage before the last, if `id` was added to exactly `others` there, with the present number
+/// of links, after a look at what else could be added.
+const Stage* stage_before(const DiagnosisState& state, const std::string& id,
+                          const std::vector<std::string>& others) {
+  const std::vector<Stage>& stages = state.found.stages;
+  if (stages.size() < 2) return nullptr;
+  const Stage& before = stages[stages.size() - 2];
+  const bool fits = before.effects == others && state.last().added == id &&
+                    before.links == state.last().links && !before.explanations.empty();
+  return fits ? &before : nullptr;
+}
+
+/// The best model so far fitted without one of its effects, and what could be added to it instead.
+/// Its model has no problem where it could not be fitted.
+Stage stage_without(DiagnosisState& state, const std::string& id,
+                    const std::vector<std::string>& others) {
+  DiagnosisContext& context = state.context;
+  context.begin("looking back at " + id);
+  const Stage& last = state.last();
+  Stage without;
+  const Case the_case = without_effect(last.model.problem->the_case(), id);
+  const auto problem =
+      std::make_shared<const Problem>(the_case, context.model_with(others, the_case.links));
+  without.model = fit_model(problem, transfer(*last.model.problem, last.model.x, *problem),
+                            context.least_squares, context.stop);
+  if (!without.model.ok) return {};
+  without.effects = others;
+  without.links = the_case.links;
+  without.fit = fit_gap(without.model, state.found.sigmas);
+  without.held_out = held_out_gap(without.model, state.found.sigmas);
+  // Something that nearly fits may stand in the place of the right one.
+  const bool nearly = gap_left(last) && last.fit.ratio() <= kThresholds.closed;
+  if (!needless(state, without)) without.explanations = look(state, without.model, others, nearly);
+  return without;
+}
+
+/// What an explanation is beside the effect named, in its place.
+struct Weighed {
+  const Explanation* explanation = nullptr;
+  const Candidate* effect = nullptr;  // nullptr: a rival that is no effect
+  Decision decision;
+  bool better = false;  // leaves less
+};
+
+Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
+  Weighed weighed;
+  weighed.explanation = &explanation;
+  weighed.effect = explanation.is_effect() ? state.context.find(explanation.id) : nullptr;
+  const FittedModel& last = state.last().model;
+  weighed.better = state.squares(explanation.model) < state.squares(last);
+  weighed.decision = weighed.better ? decide(explanation.model, last, state.found.sigmas)
+                                    : decide(last, explanation.model, state.found.sigmas);
+  return weighed;
+}
+
+/// Puts an explanation where the report looks for it.
+void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
+             const Weighed& weighed, const Model& all) {
+  const bool contains = weighed.effect && is_special_case(named, *weighed.effect, all);
+  const bool form = weighed.effect && weighed.effect->effect.form_of == id;
+  std::vector<Alternative>& list = weighed.decision.decided || contains ? found.runners_up
+                                   : form                               ? found.forms
+                                                                        : found.alternatives;
+  list.push_back({id, *weighed.explanation, weighed.decision});
+}
+
+/// Sorts the explanations that could stand in the place of `id`. Returns the id of the one that has
+/// a better claim to the name, after entering its model; else nothing.
+std::string weigh_alternatives(DiagnosisState& state, const std::string& id, const Stage& without) {
+  const Candidate& named = *state.context.find(id);
+  const Explanation* successor = nullptr;
+  for (const Explanation& explanation : without.explanations) {
+    if (!explanation.refitted || explanation.id == id) continue;
+    const Weighed weighed = weigh(state, explanation);
+    const Model all = state.context.model_with_all(state.last().links);
+    const bool may_succeed = weighed.effect && !state.reopens_gap(explanation.model);
+    if (may_succeed && weighed.better && weighed.decision.decided &&
+        state.generalises(explanation.held_out) &&
+        (!successor || state.squares(explanation.model) < state.squares(successor->model)))
+      successor = &explanation;
+    // Of two that explain the same, one inside the other, the smaller has the name; of two laws of
+    // one effect, the one that the other is declared a form of.
+    if (may_succeed && !successor && !weighed.decision.decided && acceptable(state, explanation) &&
+        (named.effect.form_of == weighed.effect->id ||
+         is_special_case(*weighed.effect, named, all)))
+      successor = &explanation;
+    sort_in(state.found, id, named, weighed, all);
+  }
+  if (!successor) return {};
+  state.enter(trim(successor->model, state.found.sigmas, state.context),
+              with(without.effects, successor->id), successor->id, id);
+  return state.last().added;
+}
+
+}  // namespace
+
+bool needless(const DiagnosisState& state, const Stage& without) {
+  if (state.reopens_gap(without.model)) return false;
+  const Stage& last = state.last();
+  if (!without.fit.present || !predicts_as_well(last.held_out, without.held_out)) return true;
+  const Comparison gain = compare(without.model, last.model, state.found.sigmas);
+  return gain.log10_p + std::log10(std::max(1, state.found.tried)) > kThresholds.certain ||
+         gain.misfit_share < kThresholds.worthwhile || !more_than_a_detail(state, gain);
+}
+
+bool look_back(DiagnosisState& state) {
+  std::vector<std::string>& effects = state.found.effects;
+  forget_alternatives(state.found);
+  bool changed = false;
+  int swaps = 0;
+  for (std::size_t i = 0; i < effects.size();) {
+    state.context.stop_if_asked();
+    const std::string id = effects[i];
+    std::vector<std::string> others = effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const Stage* known = stage_before(state, id, others);
+    const Stage without = known ? *known : stage_without(state, id, others);
+    if (!without.model.problem) {
+      ++i;
+      continue;
+    }
+    if (needless(state, without)) {
+      state.enter(without.model, others, "", id);
+    } else {
+      const std::string better = weigh_alternatives(state, id, without);
+      if (better.empty()) {
+        ++i;
+        continue;
+      }
+      others.push_back(better);
+      ++swaps;
+    }
+    changed = true;
+    effects = others;
+    forget_alternatives(state.found);
+    if (swaps > kThresholds.swaps) break;
+    i = 0;
+  }
+  return changed;
+}
+
+}  // namespace catena

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/refits.hpp"
+
+#include <algorithm>
+
+#include "common/parallel.hpp"
+#include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/variant.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kSmallerStart = 0.25;             // of the amplitudes that the score says
+constexpr double kElsewhere[] = {3.0, 1.0 / 3.0};  // times the amplitudes found
+
+const Candidate& candidate_of(const CandidateSearch& search, const Explanation& explanation) {
+  return search.context.library()[static_cast<std::size_t>(explanation.candidate)];
+}
+
+/// `x` with the candidate's amplitudes times a factor, all its parameters within their bounds.
+VectorXd scaled(const Candidate& candidate, const Problem& problem, VectorXd x, double factor) {
+  for (const CandidateParameter& parameter : candidate.parameters) {
+    const Index j = unknown_index(problem, parameter.name);
+    if (j < 0) continue;
+    if (parameter.role == ParameterRole::kAmplitude)
+      x[j] = parameter.neutral + factor * (x[j] - parameter.neutral);
+    x[j] = std::clamp(x[j], parameter.lower, parameter.upper);
+  }
+  return x;
+}
+
+/// Fits from a start; the explanation keeps the result if it is the best so far.
+void fit_from(const CandidateSearch& search, Explanation& explanation,
+              const std::shared_ptr<const Problem>& problem, const VectorXd& start) {
+  DiagnosisContext& context = search.context;
+  if (context.stopped()) return;
+  FittedModel model = fit_model(problem, start, context.least_squares, context.stop);
+  if (!model.ok || (explanation.refitted && sum_of_squares(model, search.sigmas) >=
+                                                sum_of_squares(explanation.model, search.sigmas)))
+    return;
+  explanation.refitted = true;
+  explanation.comparison = compare(search.base, model, search.sigmas);
+  explanation.fit = fit_gap(model, search.sigmas);
+  explanation.held_out = held_out_gap(model, search.sigmas);
+  explanation.model = std::move(model);
+}
+
+void refit_start(const CandidateSearch& search, Explanation& explanation) {
+  const auto freer = search.with_free_start();
+  if (!freer) return;
+  const auto problem = std::make_shared<const Problem>(*freer, search.base.problem->model());
+  fit_from(search, explanation, problem, transfer(*search.base.problem, search.base.x, *problem));
+}
+
+void refit_effect(const CandidateSearch& search, Explanation& explanation, bool far) {
+  const Candidate& candidate = candidate_of(search, explanation);
+  const auto problem = search.problem_with(candidate);
+  const auto start = [&](const std::vector<std::pair<std::string, double>>& values) {
+    VectorXd x = transfer(*search.base.problem, search.base.x, *problem);
+    for (const auto& [name, value] : values)
+      if (const Index j = unknown_index(*problem, name); j >= 0) x[j] = value;
+    return x;
+  };
+  const auto fit = [&](const VectorXd& x, double factor) {
+    fit_from(search, explanation, problem, scaled(candidate, *problem, x, factor));
+  };
+  const VectorXd x = start(explanation.start);
+  fit(x, 1);
+  if (!far || candidate.own_model) return;  // which is expensive enough once
+  fit(x, kSmallerStart);
+  if (!explanation.other_start.empty()) fit(start(explanation.other_start), 1);
+}
+
+void refit(const CandidateSearch& search, Explanation& explanation, bool far) {
+  if (explanation.is_effect())
+    refit_effect(search, explanation, far);
+  else
+    refit_start(search, explanation);
+  if (!explanation.refitted) explanation.note = "the refit failed";
+}
+
+void refit_from_elsewhere(const CandidateSearch& search, Explanation& explanation) {
+  const Candidate& candidate = candidate_of(search, explanation);
+  const std::shared_ptr<const Problem> problem = explanation.model.problem;
+  const VectorXd x = explanation.model.x;
+  for (const double factor : kElsewhere)
+    fit_from(search, explanation, problem, scaled(candidate, *problem, x, factor));
+}
+
+void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, bool far) {
+  DiagnosisContext& context = search.context;
+  context.begin("refitting", chosen.size());
+  in_parallel(chosen.size(), context.threads, [&](std::size_t i) {
+    context.begin_task("refitting with " + chosen[i]->id);
+    refit(search, *chosen[i], far);
+    context.end_task();
+  });
+  // What holds and slips, or is large, has more than one minimum: the best of those that still
+  // leave a gap are tried from elsewhere.
+  std::erase_if(chosen, [&](const Explanation* each) {
+    return !each->refitted || !each->is_effect() || !each->fit.present ||
+           candidate_of(search, *each).own_model;
+  });
+  std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
+    return sum_of_squares(a->model, search.sigmas) < sum_of_squares(b->model, search.sigmas);
+  });
+  chosen.resize(std::min(chosen.size(), kThresholds.tried_elsewhere));
+  if (chosen.empty()) return;
+  context.begin("refitting the best from elsewhere", chosen.size());
+  in_parallel(chosen.size(), context.threads, [&](std::size_t i) {
+    refit_from_elsewhere(search, *chosen[i]);
+    context.end_task();
+  });
+}
+
+}  // namespace
+
+void refit_best(const CandidateSearch& search, std::vector<Explanation>& explanations, int count,
+                bool far) {
+  std::vector<Explanation*> chosen;
+  double best = 0;
+  for (Explanation& explanation : explanations) {
+    if (!explanation.score.admissible || explanation.refitted) continue;
+    best = std::max(best, explanation.score.removed);
+    if (static_cast<int>(chosen.size()) < count &&
+        explanation.score.removed > kThresholds.refit_score * best &&
+        explanation.log10_p < kThresholds.refit_log10_p)
+      chosen.push_back(&explanation);
+  }
+  refit_all(search, std::move(chosen), far);
+}
+
+void refit_rest(const CandidateSearch& search, std::vector<Explanation>& explanations) {
+  std::vector<Explanation*> chosen;
+  for (Explanation& explanation : explanations)
+    if (explanation.score.admissible && !explanation.refitted) chosen.push_back(&explanation);
+  refit_all(search, std::move(chosen), false);
+}
+
+}  // namespace catena

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "identify/diagnosis/fitted_model.hpp"
+
+namespace catena {
+
+/// Frequencies (Hz) of the strongest lines in the residuals of the fitted part, at most `count`,
+/// the strongest first. `sigmas`: the noise of every experiment, m or rad. Empty where no
+/// experiment has eight fitted frames.
+std::vector<double> strongest_frequencies(const FittedModel& model,
+                                          const std::vector<double>& sigmas, int count);
+
+/// Frequencies (Hz) at which a driven motion is looked for: the strongest lines of the residuals,
+/// and, since what a force of one frequency leaves after a fit need not be strongest there, others
+/// half a resolution apart.
+std::vector<double> driving_frequencies(const FittedModel& model,
+                                        const std::vector<double>& sigmas);
+
+}  // namespace catena

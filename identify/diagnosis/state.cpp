@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
+#include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/verdict.hpp"
+
+namespace catena {
+namespace {
+
+/// The noise once this model is the best.
+std::vector<double> lowest(std::vector<double> sigmas, const std::vector<NoiseLevel>& levels) {
+  for (std::size_t e = 0; e < levels.size(); ++e)
+    if (levels[e].sigma < sigmas[e]) sigmas[e] = levels[e].sigma;
+  return sigmas;
+}
+
+std::string described(const Stage& stage) {
+  return fmt::format("{}, {} links: {:.3g} times the noise",
+                     stage.effects.empty() ? "the case's model" : "with " + listed(stage.effects),
+                     stage.links, stage.fit.ratio());
+}
+
+}  // namespace
+
+void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
+                           const std::string& added, const std::string& removed) {
+  const std::vector<NoiseLevel> levels = noise_levels(model);
+  if (found.sigmas.empty()) {
+    found.noise = levels;
+    for (const NoiseLevel& level : levels) {
+      if (!(level.sigma > 0))
+        throw InputError(
+            "too few neighbouring frames to estimate the noise: give `noise` in the "
+            "experiment");
+      found.sigmas.push_back(level.sigma);
+    }
+  }
+  for (std::size_t e = 0; e < levels.size(); ++e)
+    if (levels[e].sigma < found.sigmas[e]) found.noise[e] = levels[e];
+  found.sigmas = lowest(found.sigmas, levels);
+  Stage next;
+  next.effects = std::move(effects);
+  next.added = added;
+  next.removed = removed;
+  next.links = model.problem->the_case().links;
+  next.fit = fit_gap(model, found.sigmas);
+  next.held_out = held_out_gap(model, found.sigmas);
+  next.model = std::move(model);
+  found.stages.push_back(std::move(next));
+  context.tell_best(described(last()));
+}
+
+double DiagnosisState::squares(const FittedModel& model) const {
+  return sum_of_squares(model, found.sigmas);
+}
+
+bool DiagnosisState::far() const { return last().fit.ratio() > kThresholds.far; }
+
+bool DiagnosisState::generalises(const GapTest& held_out) const {
+  return predicts_as_well(held_out, last().held_out);
+}
+
+bool DiagnosisState::reopens_gap(const FittedModel& model) const {
+  const std::vector<double> sigmas = lowest(found.sigmas, noise_levels(model));
+  return !gap_left(last().fit, last().held_out) &&
+         gap_left(fit_gap(model, sigmas), held_out_gap(model, sigmas));
+}
+
+int DiagnosisState::more_links(int links) const { return std::min(2 * links, options.max_links); }
+
+std::vector<std::string> with(std::vector<std::string> effects, const std::string& id) {
+  effects.push_back(id);
+  return effects;
+}
+
+}  // namespace catena

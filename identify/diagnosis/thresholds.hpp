@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+namespace catena {
+
+/// Every number on which a verdict depends. Each says its unit, its reason, and the evidence.
+///
+/// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
+/// varied since. The rates of docs/power.md are evidence for all of them together. A change of any
+/// one needs a new power study (scripts/power_study).
+struct DiagnosisThresholds {
+  // Is there a gap? (noise.cpp)
+
+  /// Standard deviations. Two tests on each of two parts of a recording: by chance, 4.5 are passed
+  /// less than once in 10^5 tests. Evidence: no false alarm on 500 quiet recordings (docs/power.md).
+  double gap_significance = 4.5;
+  /// Misfit over noise. A long recording makes a smaller misfit significant, not important. Evidence:
+  /// a smooth misfit of half the noise is found in 200 of 200 recordings (parts_test.cpp).
+  double gap_misfit = 0.4;
+  /// RMS over noise. The noise is estimated from the same residuals, to some per cent. Chosen.
+  double gap_size = 1.15;
+  /// Ratio of noise estimates, from differences of orders 2 to 6 over order 2. White noise gives 1;
+  /// tracks smoothed over three frames give less than this. Evidence: parts_test.cpp.
+  double white_noise_orders = 0.67;
+
+  // What is left when an explanation was added (verdict.cpp)
+
+  /// RMS over noise of the fitted part, below which a gap is closed. A law slightly wrong leaves
+  /// more than noise. Evidence: after naming, 89 of 89 recordings had a held-out part within 1.2.
+  double closed = 1.2;
+  /// The same for the held-out part, which no fit has seen: errors of parameters add to it. Chosen.
+  double closed_held_out = 1.35;
+  /// RMS over noise, from which on more than noise is left. Chosen: a tenth of a gap's size.
+  double visible = 1.07;
+  /// Standard deviations, misfit over noise: too little to look for an effect, too much for a name
+  /// at this number of links. Chosen below gap_significance and gap_misfit.
+  double trace_significance = 4;
+  double trace_misfit = 0.15;
+  /// Misfit over noise, below which nothing is called missing. Evidence: no effect was named on 500
+  /// quiet recordings.
+  double too_small_to_name = 0.6;
+  /// Share of the squared misfit before the first effect. Effects that only imitate what is missing
+  /// leave more. Evidence: none of 5 recordings with something outside the library was named.
+  double imitated = 0.02;
+  /// The same, for one effect that may imitate two: more than a law slightly wrong leaves. Chosen.
+  double wrong_law = 0.005;
+  /// RMS over RMS of the held-out part of another model: no worse than that up to the statistical
+  /// error of an RMS. Evidence: on a recording of a black cable, where nothing asked for it, a pair
+  /// of effects left 10.9 mm held out, three times as much as one of them alone.
+  double as_good_held_out = 1.05;
+
+  // Is an explanation acceptable? (choice.cpp)
+
+  /// log10 of the probability that chance explains as much, times the number of candidates tried.
+  /// One in a thousand diagnoses may name by chance. Evidence: no false alarm on 500 recordings.
+  double certain = -3;
+  /// Share of the squared misfit that an explanation must remove. Less is a detail. Chosen.
+  double worthwhile = 0.1;
+  /// Share of the squared misfit before the first effect that a further one must remove. What the
+  /// law of a large effect gets slightly wrong is fitted by others a little. Chosen.
+  double detail = 0.01;
+
+  // Do the data decide between two models? (compare.cpp)
+
+  /// Odds at which chance explains a lead. The same as `certain`.
+  double odds = 1000;
+  /// Over noise: the error that two models share at least, for no law is exact. Chosen.
+  double shared_error = 0.1;
+
+  // How many links? (links.cpp)
+
+  /// Predicted change over misfit, from which on more links are fitted: the square, 2 %, bounds
+  /// what they could explain beside something else. Chosen; it saves time only.
+  double links_worth_a_fit = 0.15;
+  /// Share of the squared misfit that more links must remove. Chosen; half of `worthwhile`, for a
+  /// cable has no links and their number needs no name.
+  double links_worthwhile = 0.05;
+
+  // How far is looked? (search.cpp, refits.cpp, pairs.cpp, look_back.cpp)
+
+  /// RMS over noise, above which the linear score may rank wrongly: more is refitted, from more
+  /// starts. Evidence: at strength 10, 25 of 26 names were right.
+  double far = 4;
+  /// log10 of the probability by chance, and share of the best score, that a score must have for a
+  /// refit. Chosen; they save time only.
+  double refit_log10_p = -2;
+  double refit_score = 0.03;
+  /// Further refits where the gap is far.
+  int more_refits_when_far = 2;
+  /// Effects with coordinates or states of their own that are refitted: each costs a model.
+  int own_model_refits = 2;
+  /// The best refits that leave a gap, tried again from other starts: what sticks and slips has
+  /// more than one minimum.
+  std::size_t tried_elsewhere = 3;
+  /// The best explanations that are tried with twice the links, together.
+  std::size_t tried_with_more_links = 3;
+  /// Pairs: so many first effects, each with so many second ones.
+  std::size_t firsts_of_pairs = 4;
+  int seconds_of_pairs = 3;
+  /// Looks forward and back.
+  int rounds = 2;
+  /// Replacements in one look back, after which it ends: two effects could replace each other.
+  int swaps = 3;
+  /// Standard errors from its neutral value, within which an amplitude is put back there: 95 %.
+  double needless_amplitude = 2;
+};
+
+inline constexpr DiagnosisThresholds kThresholds;
+
+}  // namespace catena
