@@ -23,7 +23,8 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
     motion.side.col(k) = at.side;
     motion.down.col(k) = at.down;
   }
-  motion.forces = internal_forces(model, parameters, path, signals);
+  if (motion.simulation.status == Status::kSuccess)
+    motion.forces = internal_forces(model, parameters, path, signals);
   return motion;
 }
 
