@@ -108,8 +108,8 @@ void c_bias(const void*, const catena_point* at, double* h) {
   bias(point(at), h);
 }
 CATENA_EACH_PROCESSOR
-void c_mass_matrix(const void*, const catena_point* at, double* mass) {
-  mass_matrix(point(at), mass);
+void c_mass_matrix(const void*, const catena_point* at, double* M) {
+  mass_matrix(point(at), M);
 }
 CATENA_EACH_PROCESSOR
 int32_t c_acceleration(const void*, const catena_point* at, double* a) {

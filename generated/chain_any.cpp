@@ -67,8 +67,8 @@ void c_bias(const void* context, const catena_point* at, double* h) {
   chain(context).bias(point(at), h);
 }
 CATENA_EACH_PROCESSOR
-void c_mass_matrix(const void* context, const catena_point* at, double* mass) {
-  chain(context).mass_matrix(point(at), mass);
+void c_mass_matrix(const void* context, const catena_point* at, double* M) {
+  chain(context).mass_matrix(point(at), M);
 }
 CATENA_EACH_PROCESSOR
 int32_t c_acceleration(const void* context, const catena_point* at, double* a) {
@@ -186,11 +186,11 @@ catena_model table(const Chain& chain) {
       sizeof(catena_model),
       nullptr,  // id
       "fa7041eb0fff7d62b7a0a54413cc5a263a87087073ced168df3a0024accbbce8",
-      &chain,
+      &chain,  // context
       links,
       chain.coordinates(),
-      0,  // states
-      0,  // signals
+      chain.states(),
+      chain.signals(),
       chain.parameters(),
       6,  // terms
       5,  // energies
@@ -198,11 +198,11 @@ catena_model table(const Chain& chain) {
       0,  // observes
       1,  // structured
       NewtonMatrix<double>::numbers(links),
-      has_batch ? batch_size() : 1,
-      nullptr,  // coordinates
+      has_batch ? batch_size() : 1,  // batch
       nullptr,
       nullptr,
-      nullptr,  // parameters
+      nullptr,
+      nullptr,
       kTermTable,
       kEnergyTable,
       c_residual,

@@ -4,8 +4,8 @@
 // Equations of motion of a hanging chain of any number of rigid links, from 5, with elastic, damped
 // joints and a load. Expressions in `links` come from what is derived for 12 and 13 links;
 // every statement was compared with what is derived for 5, 24, 60, 240.
-// The arrays of a call are on the stack, in double precision less than 400 bytes a link (arrays whose
-// length is a variable, as GNU C++ has them).
+// The arrays of a call are on the stack (arrays whose length is a variable, as GNU C++ has them),
+// in double precision at most 176 bytes a link.
 // Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see scalar.hpp;
 // D, of differentials, is T or one that holds several directions, see directions.hpp.
 //
@@ -16,7 +16,10 @@
 //   C: constant, symmetric, tridiagonal
 #pragma once
 
+#include <array>
+
 #include "any_links.hpp"
+#include "dense.hpp"
 #include "lanes.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
@@ -26,19 +29,6 @@ namespace catena::chain_any {
 
 /// The fewest links.
 inline constexpr int kFewestLinks = 5;
-
-inline constexpr ParameterFamily kParameters[] = {
-    {{"length", "m", "length of link", NAN, 0.0, INFINITY, NAN}, true},
-    {{"mass", "kg", "mass of link", NAN, 0.0, INFINITY, NAN}, true},
-    {{"inertia", "kg m^2", "rotational inertia about its own centre of link", NAN, 0.0, INFINITY, NAN}, true},
-    {{"stiffness", "N m/rad", "stiffness of joint", NAN, 0.0, INFINITY, NAN}, true},
-    {{"damping", "N m s/rad", "damping of joint", NAN, 0.0, INFINITY, NAN}, true},
-    {{"torque", "N m", "external torque on the angle of link", 0.0, -INFINITY, INFINITY, NAN}, true},
-    {{"load_mass", "kg", "mass of the load at the free end", NAN, 0.0, INFINITY, NAN}, false},
-    {{"gravity", "m/s^2", "acceleration of gravity", 9.8100000000000005, -INFINITY, INFINITY, NAN}, false},
-};
-/// theta_1 ... theta_n
-inline constexpr catena_quantity kCoordinate = {"theta", "rad"};
 
 /// Mass matrix in the form in which it is factored.
 template <class T>
@@ -54,12 +44,39 @@ using NewtonMatrix = Quasiseparable<T, kAtRunTime, 2, 2>;
 struct Chain {
   int number;  ///< of links, at least kFewestLinks
 
-  /// The same, as one the compiler may count on.
+  /// What the table lists.
+  static constexpr const char* kId = "chain";
+  static constexpr std::array<ParameterFamily, 8> kParameters = {{
+      {{"length", "m", "length of link", NAN, 0.0, INFINITY, NAN}, true, true},
+      {{"mass", "kg", "mass of link", NAN, 0.0, INFINITY, NAN}, true, true},
+      {{"inertia", "kg m^2", "rotational inertia about its own centre of link", NAN, 0.0, INFINITY, NAN}, true, true},
+      {{"stiffness", "N m/rad", "stiffness of joint", NAN, 0.0, INFINITY, NAN}, true, true},
+      {{"damping", "N m s/rad", "damping of joint", NAN, 0.0, INFINITY, NAN}, true, true},
+      {{"torque", "N m", "external torque on the angle of link", 0.0, -INFINITY, INFINITY, NAN}, true, true},
+      {{"load_mass", "kg", "mass of the load at the free end", NAN, 0.0, INFINITY, NAN}, false, false},
+      {{"gravity", "m/s^2", "acceleration of gravity", 9.8100000000000005, -INFINITY, INFINITY, NAN}, false, false},
+  }};
+  static constexpr std::array<QuantityFamily, 1> kCoordinates = {{
+      {{"theta", "rad"}, true},
+  }};
+  static constexpr std::array<QuantityFamily, 0> kStates{};
+  static constexpr std::array<QuantityFamily, 0> kSignals{};
+
+  /// The number of links, as one the compiler may count on.
   int links() const {
     if (number < kFewestLinks) __builtin_unreachable();
     return number;
   }
-  int coordinates() const { return number; }
+  int coordinates() const {
+    const int links = number;
+    return links;
+  }
+  int states() const {
+    return 0;
+  }
+  int signals() const {
+    return 0;
+  }
   int parameters() const {
     const int links = number;
     return 6 * links + 2;
@@ -1752,8 +1769,9 @@ struct Chain {
 
 #pragma GCC diagnostic pop
 
-/// The table of a chain, in double precision. Its id, coordinates and parameters are to be filled in:
-/// names take memory. Its context is `chain`, which is to live as long as the table.
+/// The table of a chain, in double precision. Its id and what it lists are to be filled in:
+/// names take memory (AnyLinksModel of any_links.hpp does it). Its context is `chain`, which is
+/// to live as long as the table.
 catena_model table(const Chain& chain);
 
 }  // namespace catena::chain_any

@@ -10,8 +10,8 @@ namespace catena {
 
 /// Solves A x = b, A = L D L' (n x n, row by row; overwritten), x holding b before and x after.
 /// Returns 0, or the 1-based row whose pivot is not positive.
-template <int n, class T>
-int solve_symmetric(T* a, T* x) {
+template <class T>
+inline int solve_symmetric(int n, T* a, T* x) {
   for (int j = 0; j < n; ++j) {
     for (int k = 0; k < j; ++k) {
       const T scaled = a[j * n + k] * a[k * n + k];
@@ -29,6 +29,10 @@ int solve_symmetric(T* a, T* x) {
     for (int k = i + 1; k < n; ++k) x[i] -= a[k * n + i] * x[k];
   }
   return 0;
+}
+template <int n, class T>
+inline int solve_symmetric(T* a, T* x) {
+  return solve_symmetric(n, a, x);
 }
 
 }  // namespace catena

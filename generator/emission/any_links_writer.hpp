@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One model for any number of links. What is emitted above four links reads the same for every
-// number but for integers; those that change become expressions in the number.
+// One model for any number of links. Above four links the programs for all numbers are the same but
+// for integers that are affine in the number (program_pattern.hpp).
 #pragma once
 
 #include <map>
@@ -15,9 +15,9 @@ namespace catena {
 std::string any_links_name(const Description& description);
 
 /// <name>.hpp and <name>.cpp, name = any_links_name(description). The model is derived for several
-/// numbers of links; two give the expressions, and the statements for the others are compared with
-/// what is derived there. Throws std::logic_error where they differ, or where the model has not the
-/// structure of the plain chain.
+/// numbers of links; two give the program, and the statements for the others are compared with what
+/// is derived there.
+/// Throws InputError, naming the effects, where the statements differ.
 std::map<std::string, std::string> emit_any_links(const Description& description);
 
 }  // namespace catena

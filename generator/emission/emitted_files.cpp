@@ -97,12 +97,18 @@ std::string summary_name(const std::string& model, Language language) {
   return model + (language == Language::kC ? ".c99" : "") + ".json";
 }
 
+EmittedFiles emit_any_links_files(const Description& description) {
+  EmittedFiles files = support_text();
+  files.merge(emit_any_links(description));
+  return files;
+}
+
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
                         std::optional<Layout> layout, Language language) {
   const bool c = language == Language::kC;
   EmittedFiles files = support_text();
-  auto any_links = files.extract("any_links.hpp");
+  files.erase("any_links.hpp");
   if (c) files = {{"catena_model.h", files.at("catena_model.h")}};
   std::vector<std::string> names;
   for (const int n : links) {
@@ -121,8 +127,7 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
     files["models.hpp"] = look_up_header();
     files["models.cpp"] = look_up_source(names);
     if (description.effects.empty()) {
-      files.merge(emit_any_links(description));
-      files.insert(std::move(any_links));
+      files.merge(emit_any_links_files(description));
       names.push_back(any_links_name(description));
     }
     files["CMakeLists.txt"] = cmake_list(names);

@@ -11,18 +11,11 @@ using GiNaC::ex;
 
 void FunctionBuilder::residual() {
   const auto r = chain_.residual();
-  add("residual", "r(t, q, v, a, z, u, p), the inverse dynamics.",
-      "void residual(const Point<T>& at, T* r)", body(from_one("r", r), at_),
-      {{"void", "residual", "const catena_point* at, double* r", "residual(point(at), r)"}});
+  add("residual", "r(t, q, v, a, z, u, p), the inverse dynamics.", {at(), result("r")},
+      body(from_one("r", r), at_));
   const auto dr = each(r, [&](const ex& e) { return tangent_.of(e); });
-  add("residual_tangent", "Derivative of r along `along`.",
-      "void residual_tangent(const Point<T>& at, const Point<D>& along, D* dr)",
-      body(from_one("dr", dr), at_and_along_),
-      {{"void", "residual_tangent", "const catena_point* at, const catena_point* along, double* dr",
-        "residual_tangent(point(at), point(along), dr)"},
-       {"void", "residual_tangents",
-        "const catena_point* at, const catena_point* along, double* dr",
-        "residual_tangent(point(at), directions(along), directions(dr))"}});
+  add("residual_tangent", "Derivative of r along `along`.", {at(), along(), change("dr")},
+      body(from_one("dr", dr), at_and_along_));
 }
 
 // Each term of r from a derivation that has this term alone.
@@ -30,9 +23,8 @@ void FunctionBuilder::terms() {
   const auto add_term = [&](const std::string& name, const Definitions& definitions,
                             const std::vector<ex>& values) {
     result_.terms.push_back(name);
-    add("term_" + name, "The term " + name + " of r alone.",
-        "void term_" + name + "(const Point<T>& at, T* r)",
-        function_body(definitions, from_one("r", values), at_, layout_), {});
+    add_inner("term_" + name, "The term " + name + " of r alone.", {at(), result("r")},
+              function_body(definitions, from_one("r", values), at_, layout_));
   };
   for (const std::string& name : Chain::term_names(description_)) {
     Chain chain(description_, links_, name);
@@ -53,35 +45,17 @@ void FunctionBuilder::terms() {
     if (name == "friction")
       result_.summary.damping_tridiagonal = is_constant_tridiagonal(chain, chain.rates());
   }
-  std::string choose = "  switch (term) {\n";
-  for (size_t k = 0; k < result_.terms.size(); ++k) {
-    choose += "    case " + std::to_string(k) + ":\n      term_" + result_.terms[k] + "(" +
-              context() + "at, r);\n      break;\n";
-  }
-  choose += "  }\n";
   add("residual_term", "One term of r, numbered as in the table; their sum is r.",
-      "void residual_term(const Point<T>& at, int term, T* r)", {},
-      {{"void", "residual_term", "const catena_point* at, int32_t term, double* r",
-        "residual_term(point(at), term, r)"}},
-      choose);
+      {at(), {ParameterKind::kTerm, "term"}, result("r")}, {}, Frame::kChooseTerm);
 }
 
 void FunctionBuilder::state_rates() {
   const auto f = chain_.state_rates();
   add("state_rate", "zdot = f(t, q, v, z, u, p), the rates of the extra states.",
-      "void state_rate(const Point<T>& at, T* zdot)", body(from_one("zdot", f), at_),
-      {{"void", "state_rate", "const catena_point* at, double* zdot",
-        "state_rate(point(at), zdot)"}});
+      {at(), result("zdot")}, body(from_one("zdot", f), at_));
   const auto df = each(f, [&](const ex& e) { return tangent_.of(e); });
-  add("state_rate_tangent", "Derivative of zdot along `along`.",
-      "void state_rate_tangent(const Point<T>& at, const Point<D>& along, D* dzdot)",
-      body(from_one("dzdot", df), at_and_along_),
-      {{"void", "state_rate_tangent",
-        "const catena_point* at, const catena_point* along, double* dzdot",
-        "state_rate_tangent(point(at), point(along), dzdot)"},
-       {"void", "state_rate_tangents",
-        "const catena_point* at, const catena_point* along, double* dzdot",
-        "state_rate_tangent(point(at), directions(along), directions(dzdot))"}});
+  add("state_rate_tangent", "Derivative of zdot along `along`.", {at(), along(), change("dzdot")},
+      body(from_one("dzdot", df), at_and_along_));
 }
 
 // The gradient of weight . r + rate_weight . zdot.
@@ -115,14 +89,9 @@ void FunctionBuilder::adjoint() {
     inputs[weight] = Input{InputKind::kArray, Type::kScalar, weight, {"", weight + "s", {}}, {}};
   add("residual_adjoint",
       "Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.",
-      "void residual_adjoint(const Point<T>& at, const T* weights,\n"
-      "                      [[maybe_unused]] const T* rate_weights, T* dq, T* dv,\n"
-      "                      [[maybe_unused]] T* dz, T* dp)",
-      body(outputs, inputs),
-      {{"void", "residual_adjoint",
-        "const catena_point* at, const double* weights, const double* rate_weights, double* dq, "
-        "double* dv, double* dz, double* dp",
-        "residual_adjoint(point(at), weights, rate_weights, dq, dv, dz, dp)"}});
+      {at(), numbers("weights"), maybe_unused(numbers("rate_weights")), result("dq"), result("dv"),
+       maybe_unused(result("dz")), result("dp")},
+      body(outputs, inputs));
 }
 
 // Symbols the equations depend on.

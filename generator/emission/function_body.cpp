@@ -103,8 +103,6 @@ class Body {
     return std::move(body_);
   }
 
-  bool has_differentials() const { return has_differentials_; }
-
   Statements loops() {
     declare_inputs();
     schedule();
@@ -472,11 +470,10 @@ class Body {
 
 }  // namespace
 
-FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                           const Inputs& inputs, Layout layout) {
+Statements function_body(const Definitions& definitions, const std::vector<Output>& outputs,
+                         const Inputs& inputs, Layout layout) {
   Body body(definitions, outputs, inputs, layout);
-  Statements statements = layout == Layout::kStraight ? body.straight() : body.loops();
-  return {std::move(statements), body.has_differentials()};
+  return layout == Layout::kStraight ? body.straight() : body.loops();
 }
 
 }  // namespace catena

@@ -33,14 +33,9 @@ enum class Layout {
   kWholeSweeps  ///< such loops uncut: less is stored between them, for scalars that are vectors
 };
 
-struct FunctionBody {
-  Statements statements;
-  bool along = false;  ///< has inputs of type D beside those of type T
-};
-
 /// The statements that compute `outputs`, inputs first.
 /// Throws std::logic_error if the outputs need an input that `inputs` does not have.
-FunctionBody function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                           const Inputs& inputs, Layout layout);
+Statements function_body(const Definitions& definitions, const std::vector<Output>& outputs,
+                         const Inputs& inputs, Layout layout);
 
 }  // namespace catena

@@ -13,12 +13,10 @@ std::string differential_family(const std::string& family) { return "d_" + famil
 
 }  // namespace
 
-FunctionBuilder::FunctionBuilder(const Description& description, int links, Layout layout,
-                                 Language language)
+FunctionBuilder::FunctionBuilder(const Description& description, int links, Layout layout)
     : description_(description),
       links_(links),
       layout_(layout),
-      language_(language),
       chain_(description, links),
       definitions_(chain_.definitions()),
       tangent_(definitions_, differential_family),
@@ -43,11 +41,7 @@ ModelFunctions FunctionBuilder::build() {
   terms();
   if (s.states > 0) state_rates();
   mass_and_acceleration();
-  if (in_c()) {
-    s.why_not = "in C no Newton matrix is emitted";
-  } else {
-    newton();
-  }
+  newton();
   energy();
   positions();
   internal_forces();
@@ -58,9 +52,9 @@ ModelFunctions FunctionBuilder::build() {
                         return definitions_[number].family == "time";
                       });
   result_.energies = chain_.energies();
-  for (const EmittedFunction& function : result_.functions) {
-    if (!function.body.statements.empty())
-      s.functions.push_back({function.name, operations_of(function.body.statements)});
+  for (const Function& function : result_.functions) {
+    if (!function.statements.empty())
+      s.functions.push_back({function.name, operations_of(function.statements)});
   }
   return std::move(result_);
 }

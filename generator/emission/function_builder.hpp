@@ -17,7 +17,7 @@ namespace catena {
 
 class FunctionBuilder {
  public:
-  FunctionBuilder(const Description& description, int links, Layout layout, Language language);
+  FunctionBuilder(const Description& description, int links, Layout layout);
 
   /// All of them; to be called once.
   ModelFunctions build();
@@ -41,21 +41,38 @@ class FunctionBuilder {
   void sensor();
 
   // what they share
-  bool in_c() const { return language_ == Language::kC; }
-  /// What a call begins with: in C every function has the context of the table.
-  std::string context() const { return in_c() ? "context, " : ""; }
   void seed_tangent();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
-  FunctionBody body(const std::vector<Output>& outputs, const Inputs& inputs) {
+  Statements body(const std::vector<Output>& outputs, const Inputs& inputs) {
     return function_body(definitions_, outputs, inputs, layout_);
   }
 
-  void add(const std::string& name, const std::string& comment, const std::string& signature,
-           FunctionBody body, std::vector<TableFunction> entries, const std::string& before = "",
-           const std::string& after = "") {
+  void add(const std::string& name, const std::string& comment, std::vector<Parameter> parameters,
+           Statements statements, Frame frame = Frame::kStatements) {
     result_.functions.push_back(
-        {name, comment, signature, before, std::move(body), after, std::move(entries)});
+        {name, comment, std::move(parameters), std::move(statements), frame, true});
+  }
+  /// One that the table does not have.
+  void add_inner(const std::string& name, const std::string& comment,
+                 std::vector<Parameter> parameters, Statements statements,
+                 Frame frame = Frame::kStatements) {
+    add(name, comment, std::move(parameters), std::move(statements), frame);
+    result_.functions.back().in_table = false;
+  }
+
+  // parameters
+  static Parameter at() { return {ParameterKind::kPoint, "at"}; }
+  static Parameter along() { return {ParameterKind::kPoint, "along", Type::kDifferential}; }
+  static Parameter result(const std::string& name) { return {ParameterKind::kResults, name}; }
+  static Parameter change(const std::string& name) {
+    return {ParameterKind::kResults, name, Type::kDifferential};
+  }
+  static Parameter numbers(const std::string& name) { return {ParameterKind::kNumbers, name}; }
+  static Parameter number(const std::string& name) { return {ParameterKind::kNumber, name}; }
+  static Parameter maybe_unused(Parameter parameter) {
+    parameter.maybe_unused = true;
+    return parameter;
   }
 
   std::vector<GiNaC::ex> each(const std::vector<GiNaC::ex>& values, const auto& act) {
@@ -77,7 +94,6 @@ class FunctionBuilder {
   const Description& description_;
   int links_;
   Layout layout_;
-  Language language_;
   Chain chain_;
   Definitions& definitions_;
   Differential tangent_;

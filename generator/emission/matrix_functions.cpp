@@ -46,69 +46,30 @@ std::vector<Output> all_entries(const Quasiseparable& q, bool symmetric) {
   return outputs;
 }
 
-std::string quasiseparable_type(const Quasiseparable& q) {
-  return "Quasiseparable<T, kLinks, " + std::to_string(q.upper_rank) + ", " +
-         std::to_string(q.lower_rank) + ">";
-}
-
 }  // namespace
 
 void FunctionBuilder::mass_and_acceleration() {
-  if (!in_c()) result_.accelerations = "acceleration";
+  result_.accelerations = "acceleration";
   ModelSummary& s = result_.summary;
   Substitution bias = without_acceleration(chain_);
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
-  add("bias", "r with a = 0.", "void bias(const Point<T>& at, T* h)", body(from_one("h", h), at_),
-      {{"void", "bias", "const catena_point* at, double* h", "bias(point(at), h)"}});
+  add("bias", "r with a = 0.", {at(), result("h")}, body(from_one("h", h), at_));
 
   const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
   s.why_not = mass.reason;
-  const TableFunction mass_entry = {"void", "mass_matrix", "const catena_point* at, double* mass",
-                                    "mass_matrix(point(at), mass)"};
   const std::string acceleration_comment =
       "a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.";
-  const TableFunction acceleration_entry = {
-      "int32_t", "acceleration", "const catena_point* at, double* a", "acceleration(point(at), a)"};
   if (!mass.found) {
     Differential along_a(definitions_,
                          [](const std::string& family) { return family + "_inertial"; });
     for (const ex& a : chain_.accelerations()) along_a.set(a, a);
     const auto inertial = each(chain_.residual(), [&](const ex& e) { return along_a.of(e); });
-    add("inertial", "M a, of the chain and of every effect.",
-        "void inertial(const Point<T>& at, T* r)", body(from_one("r", inertial), at_), {});
+    add_inner("inertial", "M a, of the chain and of every effect.", {at(), result("r")},
+              body(from_one("r", inertial), at_));
     add("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
-        "void mass_matrix(const Point<T>& at, T* M)", {}, {mass_entry},
-        in_c() ? "  double unit[kCoordinates], column[kCoordinates];\n"
-                 "  for (int j = 0; j < kCoordinates; ++j) unit[j] = 0.0;\n"
-                 "  catena_point moving = *at;\n"
-                 "  moving.a = unit;\n"
-                 "  for (int j = 0; j < kCoordinates; ++j) {\n"
-                 "    unit[j] = 1.0;\n"
-                 "    inertial(context, &moving, column);\n"
-                 "    unit[j] = 0.0;\n"
-                 "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
-                 "  }\n"
-               : "  T unit[kCoordinates], column[kCoordinates];\n"
-                 "  for (int j = 0; j < kCoordinates; ++j) unit[j] = T(0);\n"
-                 "  Point<T> moving = at;\n"
-                 "  moving.a = unit;\n"
-                 "  for (int j = 0; j < kCoordinates; ++j) {\n"
-                 "    unit[j] = T(1);\n"
-                 "    inertial(moving, column);\n"
-                 "    unit[j] = T(0);\n"
-                 "    for (int i = 0; i < kCoordinates; ++i) M[i * kCoordinates + j] = column[i];\n"
-                 "  }\n");
-    add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)", {},
-        {acceleration_entry},
-        std::string(in_c() ? "  double" : "  T") +
-            " mass[kCoordinates * kCoordinates];\n"
-            "  mass_matrix(" +
-            context() + "at, mass);\n  bias(" + context() +
-            "at, a);\n"
-            "  for (int i = 0; i < kCoordinates; ++i) a[i] = -a[i];\n" +
-            (in_c() ? "  return solve_symmetric(mass, a);\n"
-                    : "  return solve_symmetric<kCoordinates>(mass, a);\n"));
+        {at(), result("M")}, {}, Frame::kMassColumns);
+    add("acceleration", acceleration_comment, {at(), result("a")}, {}, Frame::kDenseAcceleration);
     return;
   }
   bool tridiagonal_part = false;
@@ -118,34 +79,22 @@ void FunctionBuilder::mass_and_acceleration() {
   const bool symmetric = mass.symmetric && !tridiagonal_part;
   s.mass_symmetric = mass.symmetric;
   s.mass_rank = mass.lower_rank;
-  result_.mass_type =
-      symmetric ? "SymmetricSemiseparable<T, kLinks, " + std::to_string(mass.lower_rank) + ">"
-                : quasiseparable_type(mass);
-  if (in_c() && !symmetric) throw std::logic_error("C: a mass matrix that is not symmetric");
-  const std::string matrix =
-      !in_c()                ? "  MassMatrix<T> matrix;\n"
-      : mass.lower_rank == 0 ? "  MassMatrix in = {{{0.0}}, {{0.0}}, {0.0}}, *const matrix = &in;\n"
-                             : "  MassMatrix in, *const matrix = &in;\n";
+  result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
+                  mass.upper_rank, mass.lower_rank};
   const std::vector<Output> entries = all_entries(mass, symmetric);
-  add("mass_matrix", "M, row by row.", "void mass_matrix(const Point<T>& at, T* M)",
-      body(entries, at_), {mass_entry}, matrix,
-      in_c() ? "  to_dense(matrix, M);\n" : "  matrix.to_dense(M);\n");
+  add("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_), Frame::kMassMatrix);
   std::vector<Output> all = entries;
   for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
     all.push_back(output);
   }
-  const std::string solve = in_c()      ? "  return solve_in_place(matrix, a);\n"
-                            : symmetric ? "  return matrix.solve(a);\n"
-                                        : "  const int failed = matrix.factor();\n"
-                                          "  if (failed == 0) matrix.solve(a);\n"
-                                          "  return failed;\n";
-  add("acceleration", acceleration_comment, "int acceleration(const Point<T>& at, T* a)",
-      body(all, at_), {acceleration_entry}, matrix, solve);
-  if (in_c() || layout_ != Layout::kLoops) return;
+  add("acceleration", acceleration_comment, {at(), result("a")}, body(all, at_),
+      Frame::kAcceleration);
+  if (layout_ != Layout::kLoops) return;
   result_.accelerations = "accelerations";
-  add("accelerations", "The same, bit for bit, in the order that suits a T of several numbers.",
-      "int accelerations(const Point<T>& at, T* a)",
-      function_body(definitions_, all, at_, Layout::kWholeSweeps), {}, matrix, solve);
+  add_inner("accelerations",
+            "The same, bit for bit, in the order that suits a T of several numbers.",
+            {at(), result("a")}, function_body(definitions_, all, at_, Layout::kWholeSweeps),
+            Frame::kAcceleration);
 }
 
 void FunctionBuilder::newton() {
@@ -160,11 +109,10 @@ void FunctionBuilder::newton() {
   }
   s.newton_upper_rank = newton.upper_rank;
   s.newton_lower_rank = newton.lower_rank;
-  result_.newton_type = quasiseparable_type(newton);
-  add("newton_matrix", "ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).",
-      "void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,\n"
-      "                   NewtonMatrix<T>& matrix)",
-      body(all_entries(newton, false), at_), {});
+  result_.newton = {MatrixForm::kQuasiseparable, newton.upper_rank, newton.lower_rank};
+  add_inner("newton_matrix", "ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).",
+            {at(), number("ca"), number("cv"), number("cq"), {ParameterKind::kMatrix, "matrix"}},
+            body(all_entries(newton, false), at_));
 }
 
 }  // namespace catena

@@ -1,49 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/model_functions.hpp"
 
+#include <algorithm>
+
 #include "generator/emission/function_builder.hpp"
 
 namespace catena {
 
-std::vector<std::string> ModelFunctions::table_entries(Language language) const {
-  const bool states = summary.states > 0, in_c = language == Language::kC;
-  const auto maybe = [](bool there, const char* name) {
-    return std::string(there ? name : "nullptr");
-  };
-  return {"c_residual",
-          "c_residual_tangent",
-          maybe(!in_c, "c_residual_tangents"),
-          "c_residual_adjoint",
-          "c_residual_term",
-          maybe(states, "c_state_rate"),
-          maybe(states, "c_state_rate_tangent"),
-          maybe(!in_c && states, "c_state_rate_tangents"),
-          "c_mass_matrix",
-          "c_bias",
-          "c_acceleration",
-          has_batch() ? "c_accelerations" : "c_acceleration",
-          maybe(summary.structured, "c_newton_factor"),
-          maybe(summary.structured, "c_newton_solve"),
-          maybe(summary.structured, "c_newton_solves"),
-          maybe(summary.structured, "c_newton_solve_transposed"),
-          "c_energy",
-          "c_positions",
-          "c_positions_tangent",
-          "c_velocities",
-          "c_internal_forces",
-          maybe(observes, "c_observe"),
-          maybe(observes, "c_observe_tangent"),
-          maybe(observes, "c_clock"),
-          maybe(observes, "c_clock_tangent")};
+bool has_differentials(const Function& function) {
+  return std::any_of(
+      function.parameters.begin(), function.parameters.end(),
+      [](const Parameter& parameter) { return parameter.type == Type::kDifferential; });
 }
 
 int ModelFunctions::most_links_of_batch() const {
-  return accelerations.empty() ? 0 : summary.mass_structured ? 1000 : 100;
+  return mass.kind == MatrixForm::kDense ? 100 : 1000;
 }
 
-ModelFunctions model_functions(const Description& description, int links, Layout layout,
-                               Language language) {
-  return FunctionBuilder(description, links, layout, language).build();
+std::vector<TableEntry> ModelFunctions::table_entries() const {
+  const bool states = summary.states > 0, structured = summary.structured;
+  return {{"residual", true},
+          {"residual_tangent", true},
+          {"residual_tangents", true},
+          {"residual_adjoint", true},
+          {"residual_term", true},
+          {"state_rate", states},
+          {"state_rate_tangent", states},
+          {"state_rate_tangents", states},
+          {"mass_matrix", true},
+          {"bias", true},
+          {"acceleration", true},
+          {"accelerations", true},
+          {"newton_factor", structured},
+          {"newton_solve", structured},
+          {"newton_solves", structured},
+          {"newton_solve_transposed", structured},
+          {"energy", true},
+          {"positions", true},
+          {"positions_tangent", true},
+          {"velocities", true},
+          {"internal_forces", true},
+          {"observe", observes},
+          {"observe_tangent", observes},
+          {"clock", observes},
+          {"clock_tangent", observes}};
+}
+
+ModelFunctions model_functions(const Description& description, int links, Layout layout) {
+  return FunctionBuilder(description, links, layout).build();
 }
 
 }  // namespace catena

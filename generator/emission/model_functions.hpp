@@ -1,57 +1,94 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The functions of one emitted model: which outputs each has, and the statements that compute them.
+// The functions of one emitted model as data: what each takes and gives, the statements that compute
+// it, and the forms of the matrices.
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "generator/derivation/chain.hpp"
-#include "generator/emission/function_body.hpp"
 #include "generator/emission/model_writer.hpp"
-#include "generator/emission/statement_text.hpp"
+#include "generator/emission/program.hpp"
 
 namespace catena {
 
-/// A function behind the table (catena_model.h), in double precision.
-struct TableFunction {
-  std::string result;     ///< "void"
-  std::string name;       ///< in the table: "residual_tangents"
-  std::string arguments;  ///< after the context: "const catena_point* at, double* r"
-  std::string call;       ///< what it does: "residual(point(at), r)"
+enum class ParameterKind {
+  kPoint,    ///< t, q, v, a, z, u, p
+  kNumber,   ///< read
+  kNumbers,  ///< an array that is read
+  kResults,  ///< an array that is written
+  kTerm,     ///< the number of a term
+  kMatrix    ///< the Newton matrix to be filled
 };
 
-struct EmittedFunction {
+struct Parameter {
+  ParameterKind kind;
   std::string name;
-  std::string comment;    ///< first line of its documentation
-  std::string signature;  ///< "void residual(const Point<T>& at, T* r)"
-  std::string before;     ///< statements around the body
-  FunctionBody body;
-  std::string after;
-  std::vector<TableFunction> entries;  ///< of the table, that call it
+  Type type = Type::kScalar;
+  bool maybe_unused = false;  ///< the statements of some models do not read or write it
+  bool operator==(const Parameter&) const = default;
+};
+
+/// What a function does beside its statements.
+enum class Frame {
+  kStatements,        ///< nothing
+  kValue,             ///< returns the variable `out` that they assign
+  kChooseTerm,        ///< calls the function of one term
+  kMassMatrix,        ///< writes the matrix that they fill row by row
+  kAcceleration,      ///< solves with the matrix that they fill
+  kMassColumns,       ///< the mass matrix without structure, from M a for unit accelerations
+  kDenseAcceleration  ///< solves with that
+};
+
+struct Function {
+  std::string name;
+  std::string comment;  ///< the first line of its documentation
+  std::vector<Parameter> parameters;
+  Statements statements;
+  Frame frame = Frame::kStatements;
+  bool in_table = true;
+};
+
+/// Whether there is a type D of differentials beside T.
+bool has_differentials(const Function& function);
+
+/// How a matrix is kept and factored (generator/emission/support).
+struct MatrixForm {
+  enum Kind { kDense, kSymmetricSemiseparable, kQuasiseparable } kind = kDense;
+  int upper_rank = 0, lower_rank = 0;  ///< of the semiseparable parts
+  bool operator==(const MatrixForm&) const = default;
+};
+
+/// The function of double precision behind a member of the table.
+struct TableEntry {
+  std::string name;  ///< of the member
+  bool given;        ///< else the member is null
+  bool operator==(const TableEntry&) const = default;
 };
 
 struct ModelFunctions {
   ModelSummary summary;
-  std::vector<EmittedFunction> functions;
+  std::vector<Function> functions;
   std::vector<std::string> terms;
   std::vector<EnergyItem> energies;
-  std::string mass_type, newton_type;  ///< C++ types over T; empty: no structure
-  std::string accelerations;           ///< the function for a T of several numbers; empty: none
+  MatrixForm mass, newton;  ///< newton.kind == kDense: there is no Newton matrix
+  /// The function for a T of several numbers: "acceleration", or one in an order of its own.
+  std::string accelerations;
   bool uses_time = false, observes = false;
 
   /// Whether the table has accelerations of a batch of points: not where their arrays would not fit
   /// a thread's stack.
   bool has_batch() const { return summary.links <= most_links_of_batch(); }
-  /// Up to how many links they would fit; 0: not made for that.
+  /// Up to how many links they would fit.
   int most_links_of_batch() const;
-  /// Entries of the table from `residual` on, in its order; "nullptr" where a model has none.
-  std::vector<std::string> table_entries(Language language) const;
+  /// Members of the table from `residual` on, in its order.
+  std::vector<TableEntry> table_entries() const;
 };
 
-/// In C there is no Newton matrix: `newton_type` stays empty and the table says not structured.
-ModelFunctions model_functions(const Description& description, int links, Layout layout,
-                               Language language);
+/// Derives the model. `links`: at least 1.
+/// Throws InputError for an effect that the chain cannot have.
+ModelFunctions model_functions(const Description& description, int links, Layout layout);
 
 }  // namespace catena

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "generator/emission/model_functions.hpp"
 
@@ -13,38 +14,31 @@ inline const char* const kBanner =
     "// SPDX-License-Identifier: BSD-3-Clause\n"
     "// Written by catena-derive. Do not edit: change the model description and derive again.\n";
 
+/// kOne: known when the model is emitted, the functions are free and the table needs no context.
+/// kAny: known at run time, the functions are members of the Chain that is the table's context.
+enum class NumberOfLinks { kOne, kAny };
+
 /// "20 additions, 12 multiplications, ..."
 std::string operations_text(const OperationCount& count);
 
 /// What was found of the matrices, as lines of a comment.
 std::string structure_text(const ModelFunctions& functions);
 
-/// CATENA_EACH_PROCESSOR and point(): what the functions behind the table begin with.
-std::string processors_text();
+/// `head`, arguments and `end` in lines of at most `width` characters where the arguments allow it.
+std::string in_lines(std::string head, const std::vector<std::string>& arguments,
+                     const std::string& end, std::size_t width = 100);
 
-/// How the functions behind a table use its context, as pieces of text.
-struct Context {
-  std::string parameter;        ///< of a function of the table
-  std::string inner_parameter;  ///< of a function that those call, with its comma
-  std::string argument;         ///< for it, with its comma
-  std::string object;           ///< whose members the emitted functions are, with its dot
-};
-/// A model for one number of links is free functions, which need none.
-inline const Context kNoContext{"const void*", "", "", ""};
-/// The model for any number of links is the members of a Chain.
-inline const Context kChainContext{"const void* context", "const void* context, ", "context, ",
-                                   "chain(context)."};
+/// Lines further in by two spaces; those of the preprocessor stay at the margin.
+std::string indented(const std::string& text);
 
-/// c_<name>: a function of the table.
-std::string table_function_text(const TableFunction& function, const Context& context);
+/// MassMatrix and NewtonMatrix, as far as the model has them.
+std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links);
 
-/// c_newton_factor, c_newton_solve and its like. `matrix_in_work`: an expression of `matrix_type`
-/// for the matrix whose numbers are in `work`.
-std::string newton_text(const Context& context, const std::string& matrix_type,
-                        const std::string& matrix_in_work);
+/// All functions, documentation included.
+std::string functions_text(const ModelFunctions& functions, NumberOfLinks links);
 
-/// batch_size() and c_accelerations, which calls `accelerations` with as many points as a register
-/// of the processor holds numbers.
-std::string batch_text(const Context& context, const std::string& accelerations);
+/// The functions of double precision behind the table: c_residual, ..., and batch_size() where the
+/// model may be evaluated in batches.
+std::string table_functions_text(const ModelFunctions& functions, NumberOfLinks links);
 
 }  // namespace catena

@@ -39,25 +39,8 @@ std::string header_text(const Description& description, const ModelFunctions& fu
       << "inline constexpr int kParameters = " << s.parameters << ";\n\n"
       << "/// The same functions behind the table of catena_model.h, in double precision.\n"
       << "const ::catena_model& table();\n";
-  if (!functions.mass_type.empty()) {
-    out << "\n/// Mass matrix in the form in which it is factored.\ntemplate <class T>\nusing "
-           "MassMatrix = "
-        << functions.mass_type << ";\n";
-  }
-  if (!functions.newton_type.empty()) {
-    out << "\n/// ca dr/da + cv dr/dv + cq dr/dq in the form in which it is factored.\n"
-           "template <class T>\nusing NewtonMatrix = "
-        << functions.newton_type << ";\n";
-  }
-  for (const EmittedFunction& function : functions.functions) {
-    out << "\n/// " << function.comment;
-    if (!function.body.statements.empty())
-      out << "\n/// " << operations_text(operations_of(function.body.statements));
-    out << (function.body.along ? "\ntemplate <class T, class D>\n" : "\ntemplate <class T>\n")
-        << function.signature << " {\n"
-        << function.before << statements_text(function.body.statements, Language::kCpp, 1)
-        << function.after << "}\n";
-  }
+  out << matrix_types_text(functions, NumberOfLinks::kOne)
+      << functions_text(functions, NumberOfLinks::kOne);
   out << "\n}  // namespace catena::" << s.name << "\n";
   return out.str();
 }
@@ -69,19 +52,15 @@ std::string source_text(const Description& description, const ModelFunctions& fu
       << ".hpp\"\n\n#include \"catena_model.h\"\n#include \"directions.hpp\"\n\nnamespace catena::"
       << s.name << " {\n\nnamespace {\n\n";
   out << table_arrays(description, functions);
-  out << processors_text();
-  for (const EmittedFunction& function : functions.functions) {
-    for (const TableFunction& entry : function.entries)
-      out << table_function_text(entry, kNoContext);
-  }
-  if (s.structured) {
-    out << newton_text(kNoContext, "NewtonMatrix<double>&",
-                       "*reinterpret_cast<NewtonMatrix<double>*>(work)");
-  }
-  if (functions.has_batch()) out << batch_text(kNoContext, functions.accelerations);
+  out << table_functions_text(functions, NumberOfLinks::kOne);
   out << "}  // namespace\n\nconst ::catena_model& table() {\n"
          "  static const ::catena_model model = {\n";
-  out << table_entries(description, functions, Language::kCpp);
+  TableText table;
+  table.batch = functions.has_batch() ? "batch_size()" : "1";
+  table.function = [&](const std::string& name) {
+    return name == "accelerations" && !functions.has_batch() ? "c_acceleration" : "c_" + name;
+  };
+  out << table_members(description, functions, table);
   out << "  };\n  return model;\n}\n\n}  // namespace catena::" << s.name << "\n\n"
       << "#ifdef CATENA_SHARED_LIBRARY\n"
          "// The one entry of a shared library that holds this model alone.\n"
@@ -97,7 +76,7 @@ std::string model_name(const Description& description, int links) {
 }
 
 EmittedModel emit_model(const Description& description, int links, Layout layout) {
-  const ModelFunctions functions = model_functions(description, links, layout, Language::kCpp);
+  const ModelFunctions functions = model_functions(description, links, layout);
   EmittedModel model;
   model.summary = functions.summary;
   const std::string name = functions.summary.name;

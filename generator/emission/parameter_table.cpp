@@ -36,49 +36,58 @@ int copies(const ExtraState& state, int links) { return state.at == Place::kPivo
 
 }  // namespace
 
-ModelTable model_table(const Description& description, int links) {
-  ModelTable table;
-  for (const ChainFamily& row : kPerLink) {
-    for (int i = 1; i <= links; ++i) {
-      const std::string index = std::to_string(i);
-      table.parameters.push_back({std::string(row.family) + "_" + index, row.unit,
-                                  std::string(row.description) + " " + index, row.default_value,
-                                  row.lower, kInfinity, kNone});
+TableFamilies table_families(const Description& description) {
+  TableFamilies table;
+  const auto chain_parameters = [&](const auto& rows, bool of_each_link) {
+    for (const ChainFamily& row : rows) {
+      table.parameters.push_back(
+          {{row.family, row.unit, row.description, row.default_value, row.lower, kInfinity, kNone},
+           of_each_link,
+           of_each_link});
     }
-  }
-  for (const ChainFamily& row : kShared) {
-    table.parameters.push_back(
-        {row.family, row.unit, row.description, row.default_value, row.lower, kInfinity, kNone});
-  }
-  for (int i = 1; i <= links; ++i) {
-    table.coordinates.push_back({"theta_" + std::to_string(i), "rad"});
-  }
+  };
+  chain_parameters(kPerLink, true);
+  chain_parameters(kShared, false);
+  table.coordinates.push_back({{"theta", "rad"}, true});
   for (const Effect& effect : description.effects) {
+    const std::string id = effect.id + ".";
     for (const EffectParameter& parameter : effect.parameters) {
-      const int count = copies(parameter, links);
-      for (int i = 1; i <= count; ++i) {
-        const std::string suffix = parameter.scope == Scope::kModel ? "" : "_" + std::to_string(i);
-        table.parameters.push_back({effect.id + "." + parameter.name + suffix, parameter.unit,
-                                    parameter.description, parameter.default_value, parameter.lower,
-                                    parameter.upper, parameter.neutral});
-      }
+      table.parameters.push_back(
+          {{id + parameter.name, parameter.unit, parameter.description, parameter.default_value,
+            parameter.lower, parameter.upper, parameter.neutral},
+           parameter.scope != Scope::kModel});
     }
-    for (const Coordinate& coordinate : effect.coordinates) {
-      for (int i = 1; i <= links; ++i) {
-        table.coordinates.push_back(
-            {effect.id + "." + coordinate.name + "_" + std::to_string(i), coordinate.unit});
-      }
-    }
+    for (const Coordinate& coordinate : effect.coordinates)
+      table.coordinates.push_back({{id + coordinate.name, coordinate.unit}, true});
     for (const ExtraState& state : effect.states) {
-      for (int i = 1; i <= copies(state, links); ++i) {
-        table.states.push_back(
-            {effect.id + "." + state.name + "_" + std::to_string(i), state.unit});
+      const bool of_each_link = state.at != Place::kPivot;
+      table.states.push_back(
+          {{id + state.name + (of_each_link ? "" : "_1"), state.unit}, of_each_link});
+    }
+    for (const SignalChannel& signal : effect.signals)
+      table.signals.push_back({{id + signal.name, signal.unit}});
+  }
+  return table;
+}
+
+ModelTable model_table(const Description& description, int links) {
+  const TableFamilies families = table_families(description);
+  ModelTable table;
+  const auto add = [&](auto& rows, const auto& listed) {
+    for (const auto& family : listed) {
+      for (int i = 1; i <= (family.of_each_link ? links : 1); ++i) {
+        auto& row = rows.emplace_back(family.row);
+        if (family.of_each_link) row.name += "_" + std::to_string(i);
+        if constexpr (requires { row.description; }) {
+          if (family.description_numbered) row.description += " " + std::to_string(i);
+        }
       }
     }
-    for (const SignalChannel& signal : effect.signals) {
-      table.signals.push_back({effect.id + "." + signal.name, signal.unit});
-    }
-  }
+  };
+  add(table.parameters, families.parameters);
+  add(table.coordinates, families.coordinates);
+  add(table.states, families.states);
+  add(table.signals, families.signals);
   return table;
 }
 

@@ -21,6 +21,23 @@ struct QuantityRow {
   std::string name, unit;
 };
 
+/// A row of the table, or one for each link: name_1 ... name_n.
+template <class Row>
+struct TableFamily {
+  Row row;
+  bool of_each_link = false;
+  bool description_numbered = false;  ///< the number of the link ends a parameter's description
+};
+
+/// What a model's table lists, in its order, for any number of links.
+struct TableFamilies {
+  std::vector<TableFamily<ParameterRow>> parameters;
+  std::vector<TableFamily<QuantityRow>> coordinates, states, signals;
+};
+
+TableFamilies table_families(const Description& description);
+
+/// The same for `links` links, row by row.
 struct ModelTable {
   std::vector<ParameterRow> parameters;
   std::vector<QuantityRow> coordinates, states, signals;

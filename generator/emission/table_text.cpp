@@ -97,26 +97,38 @@ std::string table_arrays(const Description& description, const ModelFunctions& f
   return out.str();
 }
 
-std::string table_entries(const Description& description, const ModelFunctions& functions,
-                          Language language) {
+std::string table_members(const Description& description, const ModelFunctions& functions,
+                          const TableText& text) {
   const ModelSummary& s = functions.summary;
-  const bool c = language == Language::kC;
   std::ostringstream out;
-  out << "      CATENA_MODEL_ABI,\n      sizeof(" << (c ? "" : "::") << "catena_model),\n      "
-      << quoted(s.name) << ",\n      " << quoted(sha256_hex(canonical_text(description)))
-      << ",\n      " << (c ? "NULL" : "nullptr") << ",  // context\n"
-      << "      kLinks,\n      kCoordinates,\n      kStates,\n      kSignals,\n      kParameters,\n"
-      << "      " << functions.terms.size() << ",  // terms\n      " << functions.energies.size()
-      << ",  // energies\n      " << (functions.uses_time ? 1 : 0) << ",  // uses_time\n      "
-      << (functions.observes ? 1 : 0) << ",  // observes\n      " << (s.structured ? 1 : 0)
-      << ",  // structured\n      "
-      << (s.structured ? "sizeof(NewtonMatrix<double>) / sizeof(double)" : "0") << ",\n      "
-      << (functions.has_batch() ? "batch_size()" : "1")
-      << ",  // batch\n      kCoordinateTable,\n      kStateTable,\n      kSignalTable,\n      "
-         "kParameterTable,\n      kTermTable,\n      kEnergyTable,\n";
-  for (const std::string& entry : functions.table_entries(language)) {
-    out << "      " << (!c ? entry : entry == "nullptr" ? "NULL" : entry.substr(2)) << ",\n";
-  }
+  const auto member = [&](const std::string& value, const std::string& comment = "") {
+    out << "      " << value << "," << (comment.empty() ? "" : "  // " + comment) << "\n";
+  };
+  const auto number = [&](auto value, const std::string& comment) {
+    member(std::to_string(value), comment);
+  };
+  member("CATENA_MODEL_ABI");
+  member(text.size);
+  member(text.id.empty() ? quoted(s.name) : text.id, text.id.empty() ? "" : "id");
+  member(quoted(sha256_hex(canonical_text(description))));
+  member(text.context, "context");
+  member(text.links);
+  member(text.coordinates);
+  member(text.states);
+  member(text.signals);
+  member(text.parameters);
+  number(functions.terms.size(), "terms");
+  number(functions.energies.size(), "energies");
+  number(functions.uses_time ? 1 : 0, "uses_time");
+  number(functions.observes ? 1 : 0, "observes");
+  number(s.structured ? 1 : 0, "structured");
+  member(s.structured ? text.newton_work : "0");
+  member(text.batch, "batch");
+  for (const std::string& array : text.arrays) member(array);
+  member("kTermTable");
+  member("kEnergyTable");
+  for (const TableEntry& entry : functions.table_entries())
+    member(entry.given ? text.function(entry.name) : text.null);
   return out.str();
 }
 

@@ -3,7 +3,9 @@
 // The table of a model (catena_model.h) as text that is both C and C++.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "description/description.hpp"
 #include "generator/emission/model_functions.hpp"
@@ -22,9 +24,24 @@ std::string energy_array(const ModelFunctions& functions);
 /// Arrays of coordinates, states, signals, terms, parameters and energies.
 std::string table_arrays(const Description& description, const ModelFunctions& functions);
 
-/// What stands between the braces of the table itself. Constants kLinks ... kParameters and the
-/// functions are expected to be declared: c_residual ... in C++, residual ... in C.
-std::string table_entries(const Description& description, const ModelFunctions& functions,
-                          Language language);
+/// What differs between the tables of a model in C++, in C and for any number of links, as
+/// expressions. The default is that of C++ for one number of links.
+struct TableText {
+  std::string size = "sizeof(::catena_model)", null = "nullptr";
+  std::string id;  ///< empty: that of the model, quoted
+  std::string context = "nullptr";
+  std::string links = "kLinks", coordinates = "kCoordinates", states = "kStates",
+              signals = "kSignals", parameters = "kParameters";
+  std::string newton_work = "sizeof(NewtonMatrix<double>) / sizeof(double)";
+  std::string batch;
+  std::vector<std::string> arrays = {"kCoordinateTable", "kStateTable", "kSignalTable",
+                                     "kParameterTable"};
+  /// The function behind a member of the table that is not null.
+  std::function<std::string(const std::string& member)> function;
+};
+
+/// What stands between the braces of the table itself.
+std::string table_members(const Description& description, const ModelFunctions& functions,
+                          const TableText& text);
 
 }  // namespace catena

@@ -21,6 +21,7 @@ struct Options {
   ModelOptions model;
   std::string output = "generated";
   bool library = false;
+  bool any_links = false;
   bool latex = false;
   bool equations = false;
   std::string format = "c++";
@@ -52,7 +53,7 @@ void print_equations(const Description& description) {
 }
 
 void derive(const Options& options) {
-  const Description description = description_of(options.model);
+  const Description description = description_of(options.model, !options.any_links);
   if (options.equations) {
     print_equations(description);
     return;
@@ -71,12 +72,18 @@ void derive(const Options& options) {
   if (options.library && language == Language::kC) {
     throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
   }
+  if (options.any_links && language == Language::kC) {
+    throw InputError(
+        "--any-links with --format c: the model for any number of links is C++; leave one away");
+  }
   std::optional<Layout> layout;
   if (!options.layout.empty()) {
     layout = options.layout == "straight" ? Layout::kStraight : Layout::kLoops;
   }
-  const EmittedFiles files =
-      emit_files(description, description.links, options.library, progress, layout, language);
+  EmittedFiles files;
+  if (!description.links.empty())
+    files = emit_files(description, description.links, options.library, progress, layout, language);
+  if (options.any_links) files.merge(emit_any_links_files(description));
   std::filesystem::create_directories(options.output);
   for (const auto& [name, text] : files) {
     write_whole_file(std::filesystem::path(options.output) / name, text);
@@ -96,18 +103,24 @@ void add_derive_command(CLI::App& app, int& status) {
                                            "write what models have in common too: look-up,\n"
                                            "CMake's list, the plain chain of any length");
   CLI::Option* format = add_format_option(*command, options->format);
+  CLI::Option* any_links =
+      command->add_flag("--any-links", options->any_links,
+                        "write the model for any number of links too: ID_any.hpp,\nID_any.cpp "
+                        "(C++); alone without --links");
   CLI::Option* layout =
       command
           ->add_option("--layout", options->layout, "straight lines or loops; default: the faster")
           ->check(CLI::IsMember({"straight", "loops"}));
   command->add_flag("--latex", options->latex, "write the equations as LaTeX instead, for reading")
       ->excludes(library)
+      ->excludes(any_links)
       ->excludes(format)
       ->excludes(layout);
   command
       ->add_flag("--equations", options->equations,
                  "print those of at most 3 links, as reports show them")
       ->excludes(library)
+      ->excludes(any_links)
       ->excludes(format)
       ->excludes(layout);
   command->footer("Example: catena derive --links 12 --effect air_drag_quadratic --output drag");

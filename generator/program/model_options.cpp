@@ -31,7 +31,7 @@ Language language_of(const std::string& format) {
   return format == "c" ? Language::kC : Language::kCpp;
 }
 
-Description description_of(const ModelOptions& options) {
+Description description_of(const ModelOptions& options, bool needs_links) {
   Description description =
       options.description.empty() ? plain_chain() : read_description(options.description);
   for (const std::string& effect : options.effects) {
@@ -47,7 +47,7 @@ Description description_of(const ModelOptions& options) {
     description.id = "chain_" + sha256_hex(canonical_text(description)).substr(0, 16);
   }
   if (!options.links.empty()) description.links = options.links;
-  if (description.links.empty()) {
+  if (needs_links && description.links.empty()) {
     throw InputError("no link count: give --links N, or `links = [...]` in the description");
   }
   for (const int n : description.links) {

@@ -23,7 +23,7 @@ void add_model_options(CLI::App& command, ModelOptions& options);
 CLI::Option* add_format_option(CLI::App& command, std::string& format);
 Language language_of(const std::string& format);
 
-/// The description they give, its link counts not empty. Throws InputError.
-Description description_of(const ModelOptions& options);
+/// The description they give. Throws InputError, also where no link count is given and one is needed.
+Description description_of(const ModelOptions& options, bool needs_links = true);
 
 }  // namespace catena

@@ -81,6 +81,43 @@ TEST_CASE("the C of a model computes what its C++ does") {
     CHECK(c->acceleration(c->context, &at, x.data()) == 0);
     CHECK(cpp->acceleration(cpp->context, &at, y.data()) == 0);
     compare(x, y, 1e4 * roundings);
+
+    const auto gradient = [&](const catena_model& model) {
+      const size_t p = static_cast<size_t>(model.parameters);
+      std::vector<double> dq(n), dv(n), dp(p);
+      model.residual_adjoint(model.context, &at, along.a, nullptr, dq.data(), dv.data(), nullptr,
+                             dp.data());
+      dq.insert(dq.end(), dv.begin(), dv.end());
+      dq.insert(dq.end(), dp.begin(), dp.end());
+      return dq;
+    };
+    compare(gradient(*c), gradient(*cpp), 10 * roundings);
+
+    // An implicit step of 10 ms: N is near M, and as well conditioned.
+    REQUIRE(c->structured == 1);
+    REQUIRE(c->newton_work == cpp->newton_work);
+    const double cv = 0.01, cq = cv * cv;
+    std::vector<double> work(static_cast<size_t>(c->newton_work)), other_work(work);
+    REQUIRE(c->newton_factor(c->context, &at, 1.0, cv, cq, work.data()) == 0);
+    REQUIRE(cpp->newton_factor(cpp->context, &at, 1.0, cv, cq, other_work.data()) == 0);
+    x = y = along_state.q;
+    c->newton_solve(c->context, work.data(), x.data());
+    cpp->newton_solve(cpp->context, other_work.data(), y.data());
+    compare(x, y, 1e4 * roundings);
+    std::vector<double> several(n * CATENA_DIRECTIONS);
+    for (size_t i = 0; i < several.size(); ++i)
+      several[i] =
+          along_state.q[i / CATENA_DIRECTIONS] * static_cast<double>(i % CATENA_DIRECTIONS + 1);
+    c->newton_solves(c->context, work.data(), several.data());
+    for (size_t i = 0; i < several.size(); ++i) {
+      CHECK(several[i] == doctest::Approx(x[i / CATENA_DIRECTIONS] *
+                                          static_cast<double>(i % CATENA_DIRECTIONS + 1))
+                              .epsilon(1e-9));
+    }
+    x = y = along_state.v;
+    c->newton_solve_transposed(c->context, work.data(), x.data());
+    cpp->newton_solve_transposed(cpp->context, other_work.data(), y.data());
+    compare(x, y, 1e4 * roundings);
   }
 }
 
