@@ -287,7 +287,9 @@ std::string matrices_text(const ModelFunctions& functions) {
       text = kSemiseparable;
       break;
     case MatrixForm::kQuasiseparable:
-      text = filled_in(std::string(kQuasiseparable) + kQuasiseparableDense, "mass", functions.mass);
+      text = kQuasiseparable;
+      text += kQuasiseparableDense;
+      text = filled_in(text, "mass", functions.mass);
       break;
   }
   if (functions.summary.structured) text += filled_in(kQuasiseparable, "newton", functions.newton);

@@ -56,7 +56,7 @@ void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string
     }
     if (begin < end) the_case.experiments[s].fit_until = end - kHeldOutShare * (end - begin);
   }
-  notes.push_back("the case holds nothing out: the last 30 % of each recording were not fitted");
+  notes.emplace_back("the case holds nothing out: the last 30 % of each recording were not fitted");
 }
 
 Case for_the_search(Case the_case) {

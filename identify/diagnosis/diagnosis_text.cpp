@@ -33,8 +33,8 @@ std::string model_name(const Stage& stage) {
 double rms_of(const GapTest& held_out) { return held_out.count > 0 ? held_out.rms : kNotGiven; }
 
 results::Gap gap_of(const GapTest& fit, const GapTest& held_out, const std::string& unit) {
-  return {fit.rms,    rms_of(held_out), unit,       fit.noise,
-          fit.misfit, fit.present,      fit.autocorrelation, fit.size};
+  return {fit.rms,     rms_of(held_out),    unit,    fit.noise, fit.misfit,
+          fit.present, fit.autocorrelation, fit.size};
 }
 
 results::Candidate candidate_of(const Explanation& explanation, const DiagnosisContext& context,
@@ -65,8 +65,7 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
                                     explanation.model.x[static_cast<Eigen::Index>(j)]);
   }
   if (explanation.candidate >= 0) {
-    const Candidate& candidate =
-        context.library()[static_cast<std::size_t>(explanation.candidate)];
+    const Candidate& candidate = context.library()[static_cast<std::size_t>(explanation.candidate)];
     for (const CandidateParameter& parameter : candidate.parameters)
       entry.units.emplace_back(parameter.name, parameter.unit);
     entry.formulas = formula_entries(candidate.effect);
@@ -172,7 +171,8 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.noise = d.final_fit.noise;
   result.unit = unit;
   for (std::size_t e = 0; e < d.noise.size(); ++e)
-    result.experiment_noise.push_back({experiments[e].spec.name, d.sigmas[e], d.noise[e].autocorrelated});
+    result.experiment_noise.push_back(
+        {experiments[e].spec.name, d.sigmas[e], d.noise[e].autocorrelated});
   result.links = {d.stages.front().links, d.stages.back().links};
   result.where = findings.places.words;
   result.points.name = findings.places.points;

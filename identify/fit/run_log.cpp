@@ -26,7 +26,10 @@ std::string exact(double value) {
 
 std::string exact(const Eigen::VectorXd& x) {
   std::string text;
-  for (const double value : x) text += (text.empty() ? "" : ",") + exact_number_text(value);
+  for (const double value : x) {
+    if (!text.empty()) text += ',';
+    text += exact_number_text(value);
+  }
   return text;
 }
 

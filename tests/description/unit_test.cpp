@@ -55,7 +55,9 @@ TEST_CASE("what is no SI unit is refused with the unit to use") {
   struct Row {
     const char *text, *said;
   };
-  const std::string nested = std::string(40'000, '(') + "m" + std::string(40'000, ')');
+  std::string nested(40'000, '(');
+  nested += 'm';
+  nested.append(40'000, ')');
   const Row rows[] = {
       {"deg", "0.017453292519943295 rad"},
       {"mm", "1 mm = 0.001 m"},

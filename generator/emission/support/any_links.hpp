@@ -30,8 +30,7 @@ template <class Chain>
 class AnyLinksModel {
  public:
   /// links: at least kFewestLinks of <id>_any.hpp.
-  explicit AnyLinksModel(int links)
-      : chain_{links}, table_(table(chain_)) {
+  explicit AnyLinksModel(int links) : chain_{links}, table_(table(chain_)) {
     table_.id = numbered(Chain::kId, links);
     for (const ParameterFamily& family : Chain::kParameters) {
       for (int i = 1; i <= (family.of_each_link ? links : 1); ++i) {
