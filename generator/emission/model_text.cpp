@@ -71,12 +71,19 @@ class Templates {
     head += has_differentials(function) ? "template <class T, class D>\n" : "template <class T>\n";
     head += in_lines(result(function) + " " + function.name + "(", parameters,
                      any_ ? ") const {" : ") {", kHeadWidth);
-    if (any_ && !function.statements.empty()) head += "  const int links = this->links();\n";
+    if (any_ && needs_links(function)) head += "  const int links = this->links();\n";
     head += before(function);
     const std::string after = this->after(function) + "}\n";
     return (any_ ? indented(head) : head) +
            statements_text(function.statements, Language::kCpp, any_ ? 2 : 1) +
            (any_ ? indented(after) : after);
+  }
+
+  static bool needs_links(const Function& function) {
+    bool needs = function.frame == Frame::kMassMatrix || function.frame == Frame::kAcceleration;
+    Statements statements = function.statements;
+    for_each_affine(statements, [&](const Affine& affine) { needs = needs || affine.slope != 0; });
+    return needs;
   }
 
   static std::string result(const Function& function) {

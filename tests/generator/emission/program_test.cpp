@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/input_error.hpp"
 #include "generator/emission/any_links_writer.hpp"
 #include "generator/emission/program_pattern.hpp"
 #include "generator/emission/statement_text.hpp"
@@ -156,8 +157,9 @@ TEST_CASE("the plain chain has a program for any number of links") {
     CHECK(header.find(number) == std::string::npos);
 }
 
-TEST_CASE("a model of another structure has none") {
+TEST_CASE("an effect that changes the equations with the number of links is named") {
   Description description = plain_chain();
   description.effects.push_back(built_in_effect("axial_stretch"));
-  CHECK_THROWS_AS(emit_any_links(description), std::logic_error);
+  CHECK_THROWS_WITH_AS(emit_any_links(description), doctest::Contains("because of axial_stretch"),
+                       InputError);
 }
