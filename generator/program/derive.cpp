@@ -105,8 +105,8 @@ void add_derive_command(CLI::App& app, int& status) {
   CLI::Option* format = add_format_option(*command, options->format);
   CLI::Option* any_links =
       command->add_flag("--any-links", options->any_links,
-                        "write the model for any number of links too: ID_any.hpp,\nID_any.cpp "
-                        "(C++); alone without --links");
+                        "write the C++ for any number of links too: ID_any.hpp,\n"
+                        "ID_any.cpp; alone without --links");
   CLI::Option* layout =
       command
           ->add_option("--layout", options->layout, "straight lines or loops; default: the faster")

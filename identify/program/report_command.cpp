@@ -57,10 +57,11 @@ void add_report_command(CLI::App& program, int& exit_status) {
   command->add_flag("--json", options.json, "print the data of all figures as JSON");
   command->add_flag("-q,--quiet", options.quiet, "print nothing");
   command->footer(
-      "The HTML file needs nothing else: no network, no other file. With --csv or --json\n"
-      "it is written only where --output is given. Pictures for papers: every chart of the\n"
-      "page saves itself as SVG or PNG; catena report RESULT --json | catena-figures FOLDER\n"
-      "draws all of them.\nExample:\n  catena report swing\n"
+      "The HTML file needs nothing else: no network, no other file. With --csv or\n"
+      "--json it is written only where --output is given.\n"
+      "Pictures for papers: every chart of the page saves itself as SVG or PNG;\n"
+      "catena report RESULT --json | catena-figures FOLDER draws all of them.\n"
+      "Example:\n  catena report swing\n"
       "writes swing/report.html.");
   command->callback([&exit_status] { exit_status = write(options); });
 }
