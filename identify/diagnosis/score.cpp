@@ -18,9 +18,8 @@ namespace {
 /// A column of which less than this share survives is numerically one the fit can imitate.
 constexpr double kNothingSurvives = 1e-6;
 
-}  // namespace
-
-ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian) : residual_(std::move(residual)) {
+/// Q: orthonormal columns that span those of the Jacobian, each taken with size one.
+MatrixXd orthogonal_basis(const MatrixXd& jacobian) {
   MatrixXd scaled = jacobian;
   for (Index j = 0; j < scaled.cols(); ++j) {
     const double size = scaled.col(j).norm();
@@ -28,7 +27,14 @@ ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian) : residual_(st
   }
   Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
   qr.setThreshold(1e-10);
-  orthogonal_ = qr.householderQ() * MatrixXd::Identity(scaled.rows(), qr.rank());
+  return qr.householderQ() * MatrixXd::Identity(scaled.rows(), qr.rank());
+}
+
+}  // namespace
+
+ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian)
+    : residual_(std::move(residual)), orthogonal_(residual_.size(), 0) {
+  if (jacobian.cols() > 0) orthogonal_ = orthogonal_basis(jacobian);
   residual_ = project(residual_);
   squares_ = residual_.squaredNorm();
 }

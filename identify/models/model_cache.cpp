@@ -119,6 +119,16 @@ std::string why_not_trusted(const fs::path& folder) {
   }
 }
 
+namespace {
+
+void require_trusted(const fs::path& cache) {
+  if (const std::string why = why_not_trusted(cache); !why.empty())
+    throw ModelError(cache.string() + ": the cache of models is not used, since it holds code: " +
+                     why + ", or set CATENA_CACHE to a folder of yours");
+}
+
+}  // namespace
+
 fs::path ModelCache::default_folder() {
   if (const char* chosen = environment("CATENA_CACHE")) return chosen;
   if (const char* base = environment("XDG_CACHE_HOME")) return fs::path(base) / "catena";
@@ -133,13 +143,8 @@ fs::path ModelCache::default_folder() {
 
 ModelCache::ModelCache(const fs::path& folder) : folder_(fs::absolute(folder)) {
   std::error_code error;
-  fs::create_directories(folder_.parent_path(), error);
-  if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST)
-    throw ModelError(folder_.string() + ": the cache of models cannot be made: " +
-                     std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
-  if (const std::string why = why_not_trusted(folder_); !why.empty())
-    throw ModelError(folder_.string() + ": the cache of models is not used, since it holds code: " +
-                     why + ", or set CATENA_CACHE to a folder of yours");
+  if (!fs::exists(folder_, error)) return;
+  require_trusted(folder_);
   for (const auto& left : fs::directory_iterator(folder_, error)) {
     if (!is_work_folder(left.path())) continue;
     const int lock = lock_folder(left.path());
@@ -162,6 +167,12 @@ std::optional<Model> ModelCache::find(const std::string& key) const {
 }
 
 ModelCache::WorkFolder::WorkFolder(const ModelCache& cache) {
+  std::error_code error;
+  fs::create_directories(cache.folder().parent_path(), error);
+  if (mkdir(cache.folder().c_str(), 0700) != 0 && errno != EEXIST)
+    throw ModelError(cache.folder().string() + ": the cache of models cannot be made: " +
+                     std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
+  require_trusted(cache.folder());
   std::string pattern = (cache.folder() / (std::string(kWork) + "XXXXXX")).string();
   if (!mkdtemp(pattern.data()))
     throw ModelError(cache.folder().string() + ": the cache of models cannot be written: " +

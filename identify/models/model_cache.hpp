@@ -36,8 +36,8 @@ class ModelCache {
   /// the home folder ($HOME, else that of the user's account).
   static std::filesystem::path default_folder();
 
-  /// Opens the cache and makes its folder if there is none (mode 0700). Removes what interrupted
-  /// processes left. Throws ModelError if the folder cannot be made or is not to be trusted.
+  /// Opens the cache, which may not be there yet. Removes what interrupted processes left. Throws
+  /// ModelError if the folder is not to be trusted.
   explicit ModelCache(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -49,6 +49,7 @@ class ModelCache {
   /// kept.
   class WorkFolder {
    public:
+    /// Makes the cache's folder if there is none (mode 0700). Throws ModelError if that fails.
     explicit WorkFolder(const ModelCache& cache);
     ~WorkFolder();
     WorkFolder(const WorkFolder&) = delete;

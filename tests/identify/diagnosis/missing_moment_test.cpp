@@ -15,12 +15,12 @@ namespace {
 constexpr double kNoise = 1e-4;    // m
 constexpr double kSingular = 1.2;  // s, a frame far from both ends
 
-/// Two links that move as 30 % more stiffness says, in this model, with the stiffness of the case.
+/// Two links that move as twice the stiffness says, in this model, with the stiffness of the case.
 FittedModel too_soft(const Model& model) {
   Case the_case = testing::sections(testing::kTwoLinks);
   testing::add_experiment(the_case, "run");
   Case truth = the_case;
-  truth.parameters[0].value *= 1.3;
+  truth.parameters[0].value *= 2;
   const Recording recording = testing::with_truth(
       truth, Model::built_in(2), testing::empty_markers({0.5, 1.0}, 240, 0.01), kNoise);
   const auto problem =

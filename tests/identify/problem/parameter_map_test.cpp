@@ -112,7 +112,8 @@ TEST_CASE("what cannot be set is named") {
     CAPTURE(row.parameters);
     std::string message;
     try {
-      ParameterMap(case_of(kUniform, row.parameters), model());
+      const Case the_case = case_of(kUniform, row.parameters);
+      ParameterMap(the_case, model()).check_values(the_case, model());
     } catch (const InputError& error) {
       message = error.what();
     }

@@ -73,7 +73,10 @@ TEST_CASE("mistakes in a case to be simulated") {
        {"case.toml:16", "lower", "upper"}},
       {"links not a number", "links = 2", "links = \"two\"", {"case.toml:5", "links"}},
       {"no links", "links = 2", "links = 0", {"case.toml:5", "0"}},
-      {"too many links", "links = 2", "links = 50000000", {"case.toml:5", "50000000", "memory"}},
+      {"too many links",
+       "links = 2",
+       "links = 50000000",
+       {"case.toml:5", "50000000", "at most 10000"}},
       {"held too far away",
        "shape = \"straight\"\nangle = 0.6",
        "shape = \"catenary\"\nheld = {side = 1.0, down = 1.0}",
@@ -153,7 +156,7 @@ TEST_CASE("mistakes on the command line") {
   };
   const CommandRow rows[] = {
       {{"symulate"}, {"symulate is not a command; did you mean \"simulate\"?"}},
-      {{"foo"}, {"foo is not a command; known are certify, check,", "simulate"}},
+      {{"foo"}, {"foo is not a command; known are cache, certify, check,", "simulate"}},
       {{"identify", "case.toml", "--threads", "0"}, {"--threads: 0 is not a number above 0"}},
       {{"identify", "case.toml", "--time-limit", "x"}, {"--time-limit: x is not a number above 0"}},
       {{"identify", "case.toml", "--bootstrap", "-1"},

@@ -16,7 +16,7 @@ TEST_CASE("catena report writes a page beside the result, or what else is asked 
 
   const ProcessResult plain = run_catena({"report", path});
   CHECK(plain.exit_status == 0);
-  CHECK(plain.output == path + "/report.html: 12 figures, 0.5 MB\n");
+  CHECK(plain.output == path + "/report.html: 12 figures, 0.3 MB\n");
   CHECK(text_of(folder.path() / "report.html").starts_with("<!DOCTYPE html>"));
   std::filesystem::remove(folder.path() / "report.html");
 
