@@ -14,6 +14,17 @@ namespace catena {
 /// with AVX2, else 2, or 1), chosen when the program runs. Every set gets the bits that
 /// Model::acceleration gives it alone. Allocates when made, not when used; not to be shared between
 /// threads.
+///
+///     const Model model = Model::built_in(4);
+///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.1);
+///     BatchDynamics batch(model);
+///     for (int k = 0; k < BatchDynamics::kBatch; ++k) {
+///       batch.set_parameters(k, parameters);
+///       batch.q(k, 0) = 0.1 * k;  // rad
+///     }
+///     if (batch.evaluate(0.0) == 0) {
+///       const double first = batch.acceleration(7, 0);  // rad/s^2, of the eighth set
+///     }
 class BatchDynamics {
  public:
   static constexpr int kBatch = 8;

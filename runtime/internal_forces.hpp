@@ -28,6 +28,11 @@ struct InternalForces {
 /// parameters, its q, v and z. `signals`: those of the motion.
 /// Throws std::runtime_error that names the coordinate and the time where the mass matrix is not
 /// positive definite.
+///
+///     const Model model = Model::built_in(4);
+///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.1);
+///     Trajectory motion;  // of a simulation
+///     const InternalForces inside = internal_forces(model, parameters, motion);
 InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parameters,
                                const Trajectory& trajectory, const Signals& signals = {});
 
