@@ -251,7 +251,9 @@ class TableFunctions {
         case ParameterKind::kMatrix:
           throw std::logic_error("a matrix in the table");
       }
-      passed.push_back(several ? differentials + "(" + argument + ")" : argument);
+      std::string several_of = differentials;
+      several_of.append("(").append(argument).append(")");
+      passed.push_back(several ? several_of : argument);
     }
     const std::string result = returns_status(function)          ? "int32_t"
                                : function.frame == Frame::kValue ? "double"
