@@ -6,9 +6,11 @@ import {axisTitle} from './numbers.js';
 
 const kPixelRatio = 3;  // about 300 dots per inch where the drawing is 160 mm wide
 
+const kKeptMilliseconds = 60_000;  // a busy browser may begin to read a file seconds after the click
+
 function download(name, url) {
   element('a', {href: url, download: name}).click();
-  setTimeout(() => URL.revokeObjectURL(url), 1000);
+  setTimeout(() => URL.revokeObjectURL(url), kKeptMilliseconds);
 }
 
 /** The drawing as text that needs no style sheet: colours are those shown. */
