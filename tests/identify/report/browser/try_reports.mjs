@@ -31,6 +31,7 @@ async function attempt(name, action) {
 /** A page on the report; whatever it complains of or asks of the network is kept. */
 async function open(report, options = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: 'light', ...options});
+  page.setDefaultTimeout(120_000);  // a machine that runs other tests beside this one may stall for long
   page.complaints = [];
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text());
