@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "generator/checking/attribution.hpp"
+#include "generator/checking/budget.hpp"
 #include "generator/checking/combination.hpp"
 #include "generator/checking/exact_form.hpp"
 #include "generator/checking/expression_text.hpp"
@@ -34,6 +35,8 @@ constexpr double kMostExpanded = 5.5e5;
 
 // The difference of an equation of more products than this is not written out.
 constexpr double kMostWritten = 2e4;
+
+constexpr const char* kTooLongToWrite = "the difference is too long to be written out";
 
 // A factor of an equation longer than this is not written out in a remark.
 constexpr std::size_t kShortFactor = 40;
@@ -78,18 +81,23 @@ class Comparison {
   }
 
   Finding of(const Entry& entry) {
+    Finding finding;
     try {
-      if (entry.quantity == Quantity::kEquation) return of_equation(entry);
-      if (entry.quantity == Quantity::kIdentity)
-        return of_sides({given(entry.value), given(entry.right), {}}, entry.quantity);
-      Contributions parts = model_parts(entry);
-      for (Contribution& part : parts) part.value = given(part.value);
-      const ex model = total(parts);
-      return of_sides({given(entry.value), model, std::move(parts)}, entry.quantity);
+      const Budget budget;
+      return entry.quantity == Quantity::kEquation ? of_equation(entry)
+                                                   : of_sides(sides_of(entry), entry.quantity);
+    } catch (const Overlong& error) {
+      finding.remark = error.what();
     } catch (const std::domain_error& error) {
-      Finding finding;
       finding.verdict = Verdict::kDifferent;
       finding.remark = error.what();
+      return finding;
+    }
+    try {
+      const Budget budget;
+      return by_evaluation(entry);
+    } catch (const std::exception&) {  // too long for evaluation too, or beyond GiNaC's numbers
+      finding.remark = "not decided: " + finding.remark;
       return finding;
     }
   }
@@ -97,6 +105,40 @@ class Comparison {
  private:
   ex given(const ex& expression) const {
     return derivation_.given.empty() ? expression : Replacement(derivation_.given)(expression);
+  }
+
+  Sides sides_of(const Entry& entry) const {
+    if (entry.quantity == Quantity::kIdentity) return {given(entry.value), given(entry.right), {}};
+    Contributions parts = model_parts(entry);
+    for (Contribution& part : parts) part.value = given(part.value);
+    const ex model = total(parts);
+    return {given(entry.value), model, std::move(parts)};
+  }
+
+  /// For what is too long for algebra.
+  Finding by_evaluation(const Entry& entry) {
+    if (entry.quantity == Quantity::kEquation) {
+      const ex hand = given(entry.value - entry.right);
+      return by_motion(hand, solved_for(hand), cleared(hand).denominator).value();
+    }
+    const Sides sides = sides_of(entry);
+    Finding finding;
+    std::optional<bool> equal;
+    try {
+      const Budget budget;
+      equal = vanishes(sides.hand - sides.model, seed_);
+    } catch (const Overlong&) {  // the values at some states may still differ
+    }
+    if (equal && *equal) {
+      finding.verdict = Verdict::kEqual;
+      finding.by_evaluation = true;
+    } else {
+      numeric_evidence(sides, equal.has_value(), finding);
+      finding.remark = finding.verdict == Verdict::kDifferent
+                           ? kTooLongToWrite
+                           : "too long for algebra, and no state tried shows a difference";
+    }
+    return finding;
   }
 
   Contributions model_parts(const Entry& entry) const {
@@ -137,7 +179,11 @@ class Comparison {
     }
     if (equivalent_energy(sides, difference, form, quantity, finding)) return finding;
     numeric_evidence(sides, form.decides(), finding);
-    describe(sides, difference, form, finding);
+    try {
+      describe(sides, difference, form, finding);
+    } catch (const Overlong&) {
+      if (finding.remark.empty()) finding.remark = kTooLongToWrite;
+    }
     return finding;
   }
 
@@ -455,7 +501,9 @@ class Comparison {
   void describe(const Sides& sides, const Fraction& difference, NormalForm& form,
                 Finding& finding) const {
     Fraction shown = difference;
+    if (static_cast<double>(shown.numerator.nops()) > kMostWritten) throw Overlong("a difference");
     if (shown.denominator != 1) {  // cancel what the two have in common
+      spend_for_division(shown);
       const ex both = (shown.numerator / shown.denominator).numer_denom();
       shown = {both.op(0).expand(), both.op(1).expand()};
     }

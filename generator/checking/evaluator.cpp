@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/most_links.hpp"
+#include "generator/checking/budget.hpp"
 #include "generator/checking/expression_evaluator.hpp"
 #include "generator/checking/scope.hpp"
 
@@ -21,7 +22,10 @@ class Evaluator {
   }
 
   Derivation run(const Program& program) {
-    for (const Statement& statement : program) execute(statement);
+    for (const Statement& statement : program) {
+      const Budget budget;
+      execute(statement);
+    }
     mirror();
     collect();
     result_.chain = std::move(scope_.chain);
@@ -50,6 +54,9 @@ class Evaluator {
       perform(statement);
     } catch (const InputError&) {
       throw;
+    } catch (const Overlong& error) {
+      fail(statement.at, std::string("this statement is too long: ") + error.what() +
+                             "; write it, or the loops around it, in smaller steps");
     } catch (const std::exception& error) {  // what GiNaC cannot do
       fail(statement.at, std::string("this cannot be evaluated: ") + error.what());
     }
@@ -132,7 +139,7 @@ class Evaluator {
     const auto replaced = [](const ex& in, const GiNaC::exmap& by) {
       return in.subs(by, GiNaC::subs_options::no_pattern);
     };
-    const ex value = replaced(expressions_.evaluate(statement.expressions[1]), result_.given);
+    const ex value = replaced(expressions_.value(statement.expressions[1]), result_.given);
     if (!scope_.chain->is_constant(value))
       fail(statement.expressions[1].at, "the value of a parameter contains an angle or a rate");
     if (value.has(parameter)) fail(target.at, "this parameter would be given by itself");
@@ -160,7 +167,7 @@ class Evaluator {
       for (const int index : reference.indices)
         expressions_.check_range(target.at, reference, index, 1);
     }
-    store(reference, expressions_.evaluate(value), statement.at);
+    store(reference, expressions_.value(value), statement.at);
   }
 
   /// thetaddot_i = ...: an equation of motion solved for that acceleration.
@@ -173,7 +180,7 @@ class Evaluator {
                        0,
                        reference.text(),
                        expressions_.read(target),
-                       expressions_.evaluate(value),
+                       expressions_.value(value),
                        target.at,
                        {}});
   }
@@ -218,7 +225,7 @@ class Evaluator {
       const int row = static_cast<int>(index) / (known->indices == 2 ? links() : 1) + 1;
       Reference entry{reference.name, {row}};
       if (known->indices == 2) entry.indices.push_back(static_cast<int>(index) % links() + 1);
-      store(entry, expressions_.evaluate(*flat[index]), flat[index]->at);
+      store(entry, expressions_.value(*flat[index]), flat[index]->at);
     }
   }
 
@@ -239,8 +246,8 @@ class Evaluator {
                        number,
                        0,
                        "equation " + std::to_string(number),
-                       expressions_.evaluate(statement.expressions[1]),
-                       expressions_.evaluate(statement.expressions[2]),
+                       expressions_.value(statement.expressions[1]),
+                       expressions_.value(statement.expressions[2]),
                        statement.at,
                        {}});
   }
@@ -252,8 +259,8 @@ class Evaluator {
                        0,
                        0,
                        label,
-                       expressions_.evaluate(statement.expressions[0]),
-                       expressions_.evaluate(statement.expressions[1]),
+                       expressions_.value(statement.expressions[0]),
+                       expressions_.value(statement.expressions[1]),
                        statement.at,
                        {}});
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "generator/checking/budget.hpp"
+
 namespace catena::checking {
 namespace {
 
@@ -24,8 +26,11 @@ numeric exact_number(const std::string& text) {
       if (after_point) --shift;
     }
   }
-  if (i < text.size()) shift += std::stol(text.substr(i + 1).substr(0, 6));
+  if (i < text.size()) shift += std::stol(text.substr(i + 1).substr(0, 9));
   const std::size_t first = std::min(digits.find_first_not_of('0'), digits.size() - 1);
+  constexpr double kBitsPerDigit = 3.33;
+  require_short_number(kBitsPerDigit *
+                       (static_cast<double>(digits.size()) + std::abs(static_cast<double>(shift))));
   return numeric(digits.substr(first).c_str()) * GiNaC::pow(numeric(10), numeric(shift));
 }
 
@@ -153,7 +158,14 @@ numeric ExpressionEvaluator::number(const Expression& expression) {
   return GiNaC::ex_to<numeric>(value);
 }
 
+ex ExpressionEvaluator::value(const Expression& expression) {
+  const ex result = evaluate(expression);
+  require_moderate(result);
+  return result;
+}
+
 ex ExpressionEvaluator::evaluate(const Expression& expression) {
+  Budget::spend(1);
   using Kind = Expression::Kind;
   const auto& parts = expression.children;
   switch (expression.kind) {
@@ -199,8 +211,11 @@ ex ExpressionEvaluator::terms(const Expression& expression) {
 
 ex ExpressionEvaluator::factors(const Expression& expression) {
   GiNaC::exvector values;
+  double bits = 0;
   for (std::size_t i = 0; i < expression.children.size(); ++i) {
     const ex value = evaluate(expression.children[i]);
+    if (GiNaC::is_a<numeric>(value)) bits += bits_of(GiNaC::ex_to<numeric>(value));
+    require_short_number(bits);
     const bool divides = expression.text[i] == '/';
     if (divides && value.is_zero()) fail(expression.children[i].at, "division by zero");
     values.push_back(divides ? GiNaC::pow(value, -1) : value);
@@ -217,7 +232,7 @@ ex ExpressionEvaluator::power(const Expression& expression) {
     fail(expression.at, "0 raised to a power that is not a positive number");
   if (GiNaC::is_a<numeric>(right) && GiNaC::abs(GiNaC::ex_to<numeric>(right)) > 100)
     fail(expression.at, "an exponent beyond 100");
-  return GiNaC::pow(left, right);
+  return moderate_power(left, right);
 }
 
 ex ExpressionEvaluator::call(const Expression& call) {
@@ -236,8 +251,10 @@ ex ExpressionEvaluator::call(const Expression& call) {
   if (name == "ddt") {
     expect_arguments(call, 1, 1);
     if (!scope_.chain) fail(call.at, "ddt (d/dt) belongs to a chain; use diff(y, x)");
+    const ex differentiated = evaluate(call.children[0]);
+    Budget::spend(written_size(differentiated));
     try {
-      return scope_.chain->time_derivative(evaluate(call.children[0]));
+      return scope_.chain->time_derivative(differentiated);
     } catch (const std::invalid_argument& error) {
       fail(call.at, error.what());
     }
@@ -245,9 +262,10 @@ ex ExpressionEvaluator::call(const Expression& call) {
   if (name == "diff") return derivative(call);
   if (name == "at") {
     expect_arguments(call, 3, 3);
-    return evaluate(call.children[0])
-        .subs(variable(call.children[1]) == evaluate(call.children[2]),
-              GiNaC::subs_options::no_pattern);
+    const ex changed = evaluate(call.children[0]);
+    Budget::spend(written_size(changed));
+    return changed.subs(variable(call.children[1]) == evaluate(call.children[2]),
+                        GiNaC::subs_options::no_pattern);
   }
   // M(i,j) is M[i,j], as the dissertation writes it.
   const bool known = scope_.chain && (target_named(name) != nullptr || families().count(name) != 0);
@@ -294,8 +312,13 @@ ex ExpressionEvaluator::derivative(const Expression& call) {
   expect_arguments(call, 2, 3);
   const int order = call.children.size() < 3 ? 1 : integer(call.children[2], "the order");
   if (order < 0 || order > 10) fail(call.children[2].at, "an order from 0 to 10 is expected");
-  return evaluate(call.children[0])
-      .diff(GiNaC::ex_to<GiNaC::symbol>(variable(call.children[1])), static_cast<unsigned>(order));
+  ex result = evaluate(call.children[0]);
+  const ex by = variable(call.children[1]);
+  for (int k = 0; k < order; ++k) {
+    Budget::spend(written_size(result));
+    result = result.diff(GiNaC::ex_to<GiNaC::symbol>(by));
+  }
+  return result;
 }
 
 void ExpressionEvaluator::over_range(const std::string& index, const Expression& from,

@@ -17,7 +17,8 @@ class ExpressionEvaluator {
  public:
   explicit ExpressionEvaluator(Scope& scope) : scope_(scope) {}
 
-  GiNaC::ex evaluate(const Expression& expression);
+  /// The value of a whole expression. Throws Overlong (budget.hpp) if it costs too much.
+  GiNaC::ex value(const Expression& expression);
   /// `what` names the number in messages.
   int integer(const Expression& expression, const std::string& what);
   /// Whether a condition between numbers holds.
@@ -45,6 +46,7 @@ class ExpressionEvaluator {
                                         Family family) const;
   GiNaC::ex unset(Location at, const Reference& reference);
 
+  GiNaC::ex evaluate(const Expression& expression);
   GiNaC::numeric number(const Expression& expression);
   GiNaC::ex terms(const Expression& expression);
   GiNaC::ex factors(const Expression& expression);

@@ -13,7 +13,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "generator/checking/budget.hpp"
 #include "generator/checking/expression_text.hpp"
+#include "generator/checking/shared_tree.hpp"
 
 namespace catena::checking {
 namespace {
@@ -47,10 +49,40 @@ Term split(const ex& term) {
   return {1, term};
 }
 
+/// Expanded, if the account has the products for it.
+ex expand_within_budget(const ex& e) {
+  Budget::spend(products_in(e));
+  return e.expand();
+}
+
+/// The products when the terms of a sum are brought over their common denominator.
+double products_over_common_denominator(const ex& sum) {
+  double products = static_cast<double>(sum.nops());
+  for_each_part(sum, [&](const ex& part) {
+    Budget::spend(1);
+    if (GiNaC::is_a<GiNaC::power>(part) && part.op(1).info(GiNaC::info_flags::negint))
+      products *= products_in(part);
+    return true;
+  });
+  return products;
+}
+
+/// The least common multiple of a divisor and a denominator.
+int common_divisor(int divisor, const numeric& denominator) {
+  const numeric result = GiNaC::lcm(divisor, denominator);
+  if (result > kGreatestDivisor)
+    throw Overlong("roots or fractions of angles have no common denominator up to " +
+                   std::to_string(kGreatestDivisor));
+  return result.to_int();
+}
+
 /// The argument of a sine or exponential as a sum of basic terms.
 std::vector<Term> terms_of(const ex& argument) {
-  ex sum = argument.expand();
-  if (!sum.info(GiNaC::info_flags::polynomial)) sum = sum.normal().expand();
+  ex sum = expand_within_budget(argument);
+  if (!sum.info(GiNaC::info_flags::polynomial)) {
+    Budget::spend(products_over_common_denominator(sum));
+    sum = expand_within_budget(sum.normal());
+  }
   std::vector<Term> result;
   if (GiNaC::is_a<GiNaC::add>(sum)) {
     for (const ex& term : sum) result.push_back(split(term));
@@ -84,11 +116,17 @@ bool is_laurent_monomial(const ex& e) {
 
 }  // namespace
 
+void spend_for_division(const Fraction& fraction) {
+  Budget::spend(10.0 * static_cast<double>(fraction.numerator.nops() + 1) *
+                static_cast<double>(fraction.denominator.nops() + 1));
+}
+
 NormalForm::NormalForm(const std::vector<ex>& expressions) {
   for (const ex& expression : expressions) scan(expression);
 }
 
 void NormalForm::scan(const ex& expression) {
+  Budget::spend(1);
   if (GiNaC::is_a<GiNaC::function>(expression)) {
     const std::string name = function_name(expression);
     if (kCircular.count(name) != 0) scan_argument(expression.op(0), false);
@@ -96,7 +134,7 @@ void NormalForm::scan(const ex& expression) {
   }
   if (GiNaC::is_a<GiNaC::power>(expression) && is_fractional(expression.op(1))) {
     radical_degree_ =
-        std::lcm(radical_degree_, GiNaC::ex_to<numeric>(expression.op(1)).denom().to_int());
+        common_divisor(radical_degree_, GiNaC::ex_to<numeric>(expression.op(1)).denom());
   }
   for (const ex& part : expression) scan(part);
 }
@@ -104,19 +142,19 @@ void NormalForm::scan(const ex& expression) {
 void NormalForm::scan_argument(const ex& argument, bool exponential) {
   for (const Term& term : terms_of(argument)) {
     if (term.base == GiNaC::Pi && !exponential) {  // cos(pi/4) = 2^(1/2)/2
-      radical_degree_ = std::lcm(radical_degree_, 2);
+      radical_degree_ = common_divisor(radical_degree_, 2);
       continue;
     }
-    const int divisor = term.coefficient.denom().to_int();
+    const numeric divisor = term.coefficient.denom();
     if (!is_laurent_monomial(term.base)) decides_ = false;
     if (exponential) {
       Exponential& entry = exponentials_[term.base];
-      entry.divisor = std::lcm(entry.divisor, divisor);
+      entry.divisor = common_divisor(entry.divisor, divisor);
       if (entry.value.is_zero()) entry.value = GiNaC::possymbol();
       generators_[entry.value] = {Role::kExponential, term.base, entry.divisor, ""};
     } else {
       Angle& entry = angles_[term.base];
-      entry.divisor = std::lcm(entry.divisor, divisor);
+      entry.divisor = common_divisor(entry.divisor, divisor);
       cosine_of_[entry.sine] = entry.cosine;
       generators_[entry.sine] = {Role::kSine, term.base, entry.divisor, ""};
       generators_[entry.cosine] = {Role::kCosine, term.base, entry.divisor, ""};
@@ -132,6 +170,7 @@ NormalForm::Generator NormalForm::generator(const ex& symbol) const {
 }
 
 Fraction NormalForm::convert(const ex& e) {
+  Budget::spend(1);
   if (GiNaC::is_a<numeric>(e)) {
     if (!GiNaC::ex_to<numeric>(e).is_rational()) decides_ = false;
     return {e, 1};
@@ -212,8 +251,8 @@ Fraction NormalForm::sine_or_cosine(const ex& argument, bool sine, const ex& who
   ex real = 1, imaginary = 0;  // of the product over b of (c_b + i s_b)^k_b
   const auto multiply = [&](const ex& c, const ex& s) {
     const ex next = real * c - imaginary * s;
-    imaginary = (real * s + imaginary * c).expand();
-    real = next.expand();
+    imaginary = expand_within_budget(real * s + imaginary * c);
+    real = expand_within_budget(next);
   };
   for (const Term& term : terms_of(argument)) {
     if (term.base == GiNaC::Pi) {
@@ -273,6 +312,7 @@ std::optional<ex> NormalForm::logarithm(const Fraction& argument) const {
 Fraction NormalForm::root(const Fraction& radicand, int degree) {
   // Take positive factors out of the root:
   // (f^m rest)^(1/q) = f^(m div q) (f^(m mod q) rest)^(1/q), f > 0.
+  spend_for_division(radicand);
   const ex both = (radicand.numerator / radicand.denominator).normal().numer_denom();
   Fraction drawn{1, 1};
   Fraction rest{1, 1};
@@ -379,7 +419,7 @@ Fraction NormalForm::opaque(const std::string& function, const std::vector<ex>& 
 }
 
 ex NormalForm::reduced(const ex& polynomial) const {
-  const ex expanded = polynomial.expand();
+  const ex expanded = expand_within_budget(polynomial);
   if (cosine_of_.empty() && prime_of_.empty()) return expanded;
   bool changed = false;
   GiNaC::exvector terms;
@@ -413,7 +453,7 @@ ex NormalForm::reduced(const ex& polynomial) const {
     } else {
       reduce_factor(term);
     }
-    terms.push_back(squares ? ex(GiNaC::mul(factors)).expand() : term);
+    terms.push_back(squares ? expand_within_budget(GiNaC::mul(factors)) : term);
     changed = changed || squares;
   };
   if (GiNaC::is_a<GiNaC::add>(expanded)) {
@@ -448,7 +488,7 @@ Fraction NormalForm::reduced(const Fraction& fraction) const {
     }
   }
   if (result.denominator != 1 && is_plain_monomial(result.denominator))
-    result = {(result.numerator / result.denominator).expand(), 1};
+    result = {expand_within_budget(result.numerator / result.denominator), 1};
   return result;
 }
 

@@ -17,6 +17,10 @@ struct Fraction {
   GiNaC::ex denominator = 1;
 };
 
+/// Before common factors of numerator and denominator are searched: takes what that costs from the
+/// account (budget.hpp).
+void spend_for_division(const Fraction& fraction);
+
 /// Rewrites expressions as fractions of polynomials in independent generators, so that an
 /// expression is zero if its numerator is.
 ///

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "generator/checking/budget.hpp"
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/shared_tree.hpp"
 
@@ -17,6 +18,15 @@ std::string name_of_symbol(const GiNaC::ex& symbol) {
   std::ostringstream text;
   text << symbol;
   return text.str();
+}
+
+/// An operation with numbers of so many bits takes as long as one that is symbolic.
+constexpr double kBitsPerOperation = 100;
+
+/// The sine of a greater number would need as many digits of pi as the number has.
+const GiNaC::numeric& greatest_argument() {
+  static const GiNaC::numeric value = GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(1000));
+  return value;
 }
 
 }  // namespace
@@ -70,17 +80,30 @@ GiNaC::numeric Evaluation::value_of(const GiNaC::ex& e) {
   if (is_a<numeric>(e)) return ex_to<numeric>(e);
   const auto known = values_.find(e);
   if (known != values_.end()) return ex_to<numeric>(known->second);
+  const auto spend_bits = [](double bits) { Budget::spend(1 + bits / kBitsPerOperation); };
   numeric result;
   if (is_a<GiNaC::add>(e)) {
-    for (const GiNaC::ex& term : e) result = result + value_of(term);
+    for (const GiNaC::ex& term : e) {
+      result = result + value_of(term);
+      spend_bits(bits_of(result));
+    }
   } else if (is_a<GiNaC::mul>(e)) {
     result = 1;
-    for (const GiNaC::ex& factor : e) result = result * value_of(factor);
+    for (const GiNaC::ex& factor : e) {
+      result = result * value_of(factor);
+      spend_bits(bits_of(result));
+    }
   } else if (is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
-    result = GiNaC::pow(value_of(e.op(0)), ex_to<numeric>(e.op(1)));
+    const numeric base = value_of(e.op(0)), exponent = ex_to<numeric>(e.op(1));
+    spend_bits(bits_of(base) * GiNaC::abs(exponent).to_double());
+    result = GiNaC::pow(base, exponent);
   } else {  // a function, a root, pi
     GiNaC::exmap arguments;
-    for (const GiNaC::ex& argument : e) arguments[argument] = value_of(argument);
+    for (const GiNaC::ex& argument : e) {
+      const numeric value = value_of(argument);
+      if (GiNaC::abs(value) > greatest_argument()) throw std::domain_error("too great an argument");
+      arguments[argument] = value;
+    }
     const GiNaC::ex value = Replacement(arguments)(e).evalf();
     if (!is_a<numeric>(value)) throw std::domain_error("a symbol without a value");
     result = ex_to<numeric>(value);

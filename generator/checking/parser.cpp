@@ -6,13 +6,11 @@
 #include <initializer_list>
 #include <utility>
 
+#include "common/nesting.hpp"
 #include "generator/checking/lexer.hpp"
 
 namespace catena::checking {
 namespace {
-
-// Brackets, conditionals and blocks deeper than this are a mistake, and would exhaust the stack.
-constexpr int kDeepest = 500;
 
 constexpr std::array<std::string_view, 16> kReserved = {
     "for", "if",    "then",    "else",     "elseif", "end",      "and",      "or",
@@ -38,9 +36,9 @@ class Parser {
   class Depth {
    public:
     explicit Depth(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kDeepest)
+      if (++parser_.depth_ > kDeepestNesting)
         throw error_at(parser_.file_, parser_.next().at,
-                       "nested more than " + std::to_string(kDeepest) + " deep");
+                       "nested more than " + std::to_string(kDeepestNesting) + " deep");
     }
     ~Depth() { --parser_.depth_; }
     Depth(const Depth&) = delete;
@@ -238,6 +236,9 @@ class Parser {
       do {
         loops.push_back({Statement::Kind::kFor, next().at, {}, {}, {}, {}});
         range(loops.back());
+        if (loops.size() > kDeepestNesting)
+          throw error_at(file_, loops.back().at,
+                         "nested more than " + std::to_string(kDeepestNesting) + " deep");
       } while (accept(","));
     }
     end_statement();

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/input_error.hpp"
+#include "common/nesting.hpp"
 
 namespace catena::results {
 namespace {
@@ -559,7 +560,13 @@ Json parsed(const std::filesystem::path& file) {
                     file.string()));
   }
   try {
-    return Json::parse(stream);
+    return Json::parse(stream, [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+      if (depth > kDeepestNesting)
+        throw InputError(
+            fmt::format("{}: lists and tables nested more than {} deep; catena writes no such file",
+                        file.string(), kDeepestNesting));
+      return true;
+    });
   } catch (const Json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, at byte {}; was it written by catena and whole?",
                                  file.string(), error.byte));

@@ -13,6 +13,16 @@ using namespace catena;
 using namespace catena::checking;
 using namespace catena::tests;
 
+namespace {
+
+std::string repeated(int times, const std::string& part) {
+  std::string result;
+  for (int k = 0; k < times; ++k) result += part;
+  return result;
+}
+
+}  // namespace
+
 TEST_CASE("wrong derivations are refused with line, column and what was expected") {
   struct Row {
     std::string text;
@@ -72,6 +82,14 @@ TEST_CASE("wrong derivations are refused with line, column and what was expected
       {"symbols x\nidentity ddt(x) = 0", "2:10", "belongs to a chain"},
       {"symbols x\nidentity log(0) = 0", "2:10", "log cannot be evaluated"},
       {"symbols x\ny[1] = " + std::string(600, '(') + "x" + std::string(600, ')'), "2:", "nested"},
+      {"symbols x\ny[1] = x for i = 1..1" + repeated(40000, ", i = 1..1"), "2:", "nested"},
+      {"symbols x\ny[1] = x\ny[i] = sin(y[i-1]) for i = 2..40000", "3:1", "200 deep"},
+      {"symbols x\ny[1] = x\ny[i] = 1/(x + y[i-1]) for i = 2..40000", "3:1", "200 deep"},
+      {"symbols x\ny[1] = x\ny[i] = y[i-1]*(y[i-1] + 1) for i = 2..60", "3:1", "operations"},
+      {"symbols x\ny = sum(i = 1..1000000, sum(j = 1..1000000, i))", "2:1", "operations"},
+      {"symbols x\ny = ((2^100)^100)^100", "2:1", "30 000 digits"},
+      {"symbols x\ny = (((2*x)^100)^100)^100", "2:1", "30 000 digits"},
+      {"symbols x\ny = 1e999999999", "2:1", "30 000 digits"},
   };
   for (const Row& row : rows) {
     INFO(row.text);
@@ -87,6 +105,36 @@ TEST_CASE("wrong derivations are refused with line, column and what was expected
   }
   CHECK_THROWS_WITH_AS((void)checked("links 2\nx = 3"), doctest::Contains("nothing to check"),
                        InputError);
+}
+
+TEST_CASE("what is too long for algebra is evaluated, or left undecided") {
+  struct Row {
+    std::string identity;
+    Verdict verdict;
+    bool by_evaluation;
+  };
+  const std::string nested = "((x + y)^90 + 1)^90", fractions = [] {
+    std::string sum = "1/(x + y)";
+    for (int k = 2; k < 60; ++k)
+      sum += " + 1/(x^" + std::to_string(k) + " + y + " + std::to_string(k) + ")";
+    return sum;
+  }();
+  const std::vector<Row> rows = {
+      {nested + " = x", Verdict::kDifferent, false},
+      {nested + "*((x + y)^2 - x^2 - 2*x*y - y^2) = 0", Verdict::kEqual, true},
+      {fractions + " = x", Verdict::kDifferent, false},
+      {"sin(" + fractions + ") = 2", Verdict::kDifferent, false},
+      {"(((((x + 1)^90 + 1)^90 + 1)^90 + 1)^90 + 1)^90 = x", Verdict::kUndecided, false},
+      {"exp(exp(exp(exp(10^9)))) = x", Verdict::kUndecided, false},
+      {"sin(exp(10^9)) = 2", Verdict::kUndecided, false},
+      {"x^(1/9973)*x^(1/9967) = x", Verdict::kDifferent, false},
+  };
+  for (const Row& row : rows) {
+    INFO(row.identity);
+    const Checked result = checked("symbols y\npositive x\nidentity \"it\": " + row.identity);
+    CHECK(result.of("it").verdict == row.verdict);
+    CHECK(result.of("it").by_evaluation == row.by_evaluation);
+  }
 }
 
 TEST_CASE("long sums neither exhaust the stack nor take long") {

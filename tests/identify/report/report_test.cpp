@@ -102,6 +102,11 @@ TEST_CASE("a file that cannot be read says where and why") {
   std::ofstream(folder.path() / "half.json") << "{\"format\": 1, ";
   CHECK_THROWS_WITH_AS(read_document(folder.path() / "half.json"), doctest::Contains("not JSON"),
                        InputError);
+  const std::string opening(40000, '['), closing(40000, ']');
+  std::ofstream(folder.path() / "deep.json")
+      << R"({"format": 1, "kind": "result", "title": )" << opening << closing << "}";
+  CHECK_THROWS_WITH_AS(read_document(folder.path() / "deep.json"), doctest::Contains("200 deep"),
+                       InputError);
 }
 
 TEST_CASE(

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a statement of a derivation may cost. Powers in powers, loops in loops and functions in
+// functions need only a few characters, and more time and memory than there is.
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <stdexcept>
+
+namespace catena::checking {
+
+/// Operations for one statement with its loops, and again for the comparison of one entry: numbers
+/// and names evaluated, products of terms expanded. Some ten seconds to a minute. The longest that
+/// is known to be wanted, the Lagrangian of 60 links, needs a tenth of it.
+inline constexpr double kMostOperations = 1e7;
+
+/// Bits of a number: 30 000 decimal digits.
+inline constexpr double kMostBits = 1e5;
+
+/// The greatest degree of a root, and common denominator of roots and fractions of angles.
+inline constexpr int kGreatestDivisor = 10000;
+
+/// A statement needs more than it may.
+class Overlong : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The account of one statement while it lives; one inside another counts for itself.
+class Budget {
+ public:
+  explicit Budget(double operations = kMostOperations) : left_(operations), outer_(current_) {
+    current_ = this;
+  }
+  ~Budget() { current_ = outer_; }
+  Budget(const Budget&) = delete;
+  Budget& operator=(const Budget&) = delete;
+
+  /// Throws Overlong if the current account has not so many operations left.
+  static void spend(double operations);
+
+ private:
+  double left_;
+  Budget* outer_;
+  static thread_local Budget* current_;
+};
+
+/// Throws Overlong if a number would have more than kMostBits.
+void require_short_number(double bits);
+
+/// Throws Overlong if functions, powers, sums and products of a value are nested deeper than
+/// kDeepestNesting (common/nesting.hpp), all assignments on the way to it together, or if a number
+/// in it is too long. 12 links eliminated by hand are 61 deep. Takes from the account what GiNaC
+/// needs to look at the value.
+void require_moderate(const GiNaC::ex& value);
+
+/// base^exponent, or Overlong if the numbers in it would be too long.
+GiNaC::ex moderate_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
+
+/// Bits of the numerator and denominator of a rational number; 0 of others, whose length is fixed.
+double bits_of(const GiNaC::numeric& number);
+
+/// The parts of an expression as written out, each occurrence counted: what differentiation and
+/// replacement visit.
+double written_size(const GiNaC::ex& expression);
+
+/// The products when sums, products and powers of expanded polynomials are expanded.
+double products_in(const GiNaC::ex& expression);
+
+}  // namespace catena::checking
