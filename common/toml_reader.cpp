@@ -355,7 +355,8 @@ void TomlTable::fail_type(std::string_view key, std::string_view wanted) const {
 
 void TomlTable::finish() const {
   const auto& asked = document_->asked[table_];
-  for (const auto& [key, node] : in_file_order(as_table(table_))) {
+  for (const auto& [name, node] : in_file_order(as_table(table_))) {
+    const std::string& key = name;  // clang 14 lets no lambda take `name`
     if (!asked.contains(key)) {
       const std::vector<std::string> known(asked.begin(), asked.end());
       throw InputError(file() + ":" + std::to_string(line(key)) + ": unknown key \"" + path(key) +

@@ -16,6 +16,14 @@ namespace {
 
 constexpr long kStepsPerCheckPoint = 500;
 
+// A run is given up early if, after so many steps, the latter half of them tells that it needs this
+// many times max_steps. What is that stiff swings without damping, as damped motion lets steps grow.
+constexpr long kStepsToTell = 100'000;
+constexpr double kHopeless = 100;
+
+// From 2^31 on, the models' sines are not numbers (sine_cosine.hpp).
+constexpr double kGreatestAngle = 0x1p30;
+
 // s. At rest CVODES chooses its first step from the distance to the last time. The distance is
 // limited so that the first step does not skip changes of the signals.
 constexpr double kFirstSight = 100.0;
@@ -228,22 +236,33 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
     const double longest = std::max(std::abs(times.front()), std::abs(times.back()));
     CVodeSetMinStep(cvodes_.get(), 64.0 * std::numeric_limits<double>::epsilon() * longest);
   }
+  double reached = times[0], half_way = reached;
   for (long step = 0; next < times.size(); ++step) {
     double t = times[0];
-    if (step >= options_.max_steps) {
-      CVodeGetCurrentTime(cvodes_.get(), &t);
+    if (step == kStepsToTell / 2) half_way = reached;
+    const bool hopeless = step == kStepsToTell && (reached - half_way) * 2 / kStepsToTell *
+                                                          kHopeless *
+                                                          static_cast<double>(options_.max_steps) <
+                                                      times.back() - reached;
+    if (step >= options_.max_steps || hopeless) {
+      double length = 0;
+      CVodeGetLastStep(cvodes_.get(), &length);
       result.status = Status::kTooManySteps;
-      result.message = std::to_string(options_.max_steps) +
-                       " steps were taken and t = " + number_text(t) + " s is reached, of " +
-                       number_text(times.back()) + " s";
+      result.message =
+          std::to_string(step) + " steps were taken and t = " + number_text(reached) +
+          " s is reached, of " + number_text(times.back()) + " s; the last step is " +
+          number_text(length) +
+          " s long: something stiff or light swings fast. Simulate a shorter time, add "
+          "damping, make the joints less stiff, or raise max_steps";
       break;
     }
     const double sight = step == 0 ? std::min(times.back(), t + kFirstSight) : times.back();
     const int flag = this->step(step, sight, t);
     if (flag < 0) {
-      explain(flag, result);
+      explain(flag, reached, result);
       break;
     }
+    reached = t;
     for (; next < times.size() && times[next] <= t; ++next) record(times[next], next, result);
     if (options_.keep_going && next < times.size() && !options_.keep_going(t)) {
       result.status = Status::kInterrupted;
@@ -306,7 +325,7 @@ void Integrator::record_energy(double t, std::size_t column, SensitiveSimulation
   result.energy_imbalance = std::max(result.energy_imbalance, std::abs(balance));
 }
 
-void Integrator::explain(int flag, SensitiveSimulation& result) {
+void Integrator::explain(int flag, double reached, SensitiveSimulation& result) {
   StepSolver::Failure failure;
   const char* what = "";
   switch (flag) {
@@ -336,7 +355,16 @@ void Integrator::explain(int flag, SensitiveSimulation& result) {
           failure.element = i;
     }
   }
-  switch (failure.status) {
+  if (!std::isfinite(failure.t)) failure.t = reached;  // CVODES chose no finite step
+  const double* angle = elements(y_.get());
+  const auto great = std::find_if(angle, angle + n_, [](double value) {
+    return std::isfinite(value) && std::abs(value) > kGreatestAngle;
+  });
+  switch (great != angle + n_ ? Status::kNotRun : failure.status) {
+    case Status::kNotRun:
+      failure = {Status::kNotFinite, static_cast<int>(great - angle), failure.t};
+      what = "an angle is beyond 2^30 rad";
+      break;
     case Status::kNotFinite:
       what = "the equations give no finite number";
       break;

@@ -59,7 +59,7 @@ class Integrator {
   int step(long number, double last, double& t);
   void record(double t, std::size_t column, SensitiveSimulation& result);
   void record_energy(double t, std::size_t column, SensitiveSimulation& result);
-  void explain(int flag, SensitiveSimulation& result);
+  void explain(int flag, double reached, SensitiveSimulation& result);
   void count(SensitiveSimulation& result) const;
   std::string name_of(int element) const;
 

@@ -122,8 +122,15 @@ ParameterSpec read_parameter(const TomlTable& table) {
   return parameter;
 }
 
+/// Angles in rad, or rates in rad/s. Sines of greater angles have fewer digits.
+constexpr double kGreatestAngle = 1e6;
+
 void check_coefficients(const TomlTable& table, std::string_view key, Shape shape, int links,
-                        int terms, std::size_t given) {
+                        int terms, const std::vector<double>& values) {
+  for (const double value : values)
+    if (!(std::abs(value) <= kGreatestAngle))
+      table.fail(key, shortest_number(value) + "; must lie within -1e6 and 1e6");
+  const std::size_t given = values.size();
   const int expected = shape == Shape::kStraight ? 1
                        : shape == Shape::kAngles ? links
                        : shape == Shape::kSmooth ? terms
@@ -142,8 +149,11 @@ InitialSpec read_initial(const TomlTable& table, int links) {
     initial.coefficients = {table.number("angle")};
   if (initial.shape == Shape::kAngles) initial.coefficients = table.numbers("angles");
   if (initial.shape == Shape::kSmooth) initial.coefficients = table.numbers("coefficients");
-  check_coefficients(table, initial.shape == Shape::kAngles ? "angles" : "coefficients",
-                     initial.shape, links, initial.terms, initial.coefficients.size());
+  check_coefficients(table,
+                     initial.shape == Shape::kAngles     ? "angles"
+                     : initial.shape == Shape::kStraight ? "angle"
+                                                         : "coefficients",
+                     initial.shape, links, initial.terms, initial.coefficients);
   if (linear) initial.free = table.optional_flag("free").value_or(false);
   if (initial.shape == Shape::kCatenary) {
     const TomlTable held = table.table("held");
@@ -160,7 +170,7 @@ InitialSpec read_initial(const TomlTable& table, int links) {
       initial.velocity_terms = count(*velocity, "terms", initial.velocity_terms, 1);
     initial.velocity_coefficients = velocity->numbers("rates");
     check_coefficients(*velocity, "rates", initial.velocity_shape, links, initial.velocity_terms,
-                       initial.velocity_coefficients.size());
+                       initial.velocity_coefficients);
     initial.velocity_free = velocity->optional_flag("free").value_or(false);
   }
   return initial;

@@ -49,6 +49,7 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
   files.emplace_back("result.json", result);
   add_motion_files(problem, -1, motion, files);
   write_output(output_folder(options), files);
+  std::cerr << energy_warning(motion.simulation);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json)
     std::cout << simulation_table(motion) << "written to " << output_folder(options).string()
@@ -69,6 +70,7 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
     if (!succeeded(motions.back().simulation,
                    problem.experiments()[static_cast<std::size_t>(e)].spec.name))
       return kExitInterrupted;
+    std::cerr << energy_warning(motions.back().simulation);
     add_motion_files(problem, e, motions.back(), files);
   }
   const std::string result = comparison_result_text(problem, x, evaluation, motions);

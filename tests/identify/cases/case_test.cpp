@@ -248,6 +248,8 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"factor = 2.0", "factor = 0.0", "not zero"},
       {"shape = \"smooth\"", "shape = \"smoth\"", "smooth"},
       {"rates = [0.25]", "rates = [0.25, 1.0]", "this shape has 1"},
+      {"rates = [0.25]", "rates = [1e200]", "must lie within -1e6 and 1e6"},
+      {"rates = [0.25]", "rates = [inf]", "must lie within -1e6 and 1e6"},
       {"data = \"data.csv\"", "data = \"absent.csv\"", "there is no such file"},
       {"fit_until = 2.25", "fit_until = 0.25", "must be after from"},
       {"to = 3.5", "to = 0.5", "must be after from"},

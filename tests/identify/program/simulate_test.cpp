@@ -62,6 +62,17 @@ TEST_CASE("a simulation that fails says which state and when, exits with 1 and w
   CHECK(!std::filesystem::exists(output));
 }
 
+TEST_CASE("a balance of energies that is lost is said") {
+  const testing::TemporaryFolder folder;
+  const auto loose = folder.write(
+      "loose.toml",
+      testing::replaced(testing::kSwing, "step = 0.02", "step = 0.02\nrelative_tolerance = 1"));
+  const ProcessResult run =
+      run_catena({"simulate", loose, "--output", folder.path() / "out", "--quiet"});
+  CHECK(run.exit_status == 0);
+  CHECK(run.output.find("warning: the energy balance is off by") != std::string::npos);
+}
+
 TEST_CASE("help fits a screen and shows an example") {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"--help"}, {"simulate", "--help"}, {"identify", "--help"}}) {
