@@ -145,7 +145,8 @@ struct Effect {
   std::string id;
   std::string title;
   std::string description;
-  std::string form_of;      ///< id of the effect of which this is another law; empty: of none
+  std::string form_of;  ///< id of the effect of which this is another law; empty: of none
+  bool rare = false;    ///< a diagnosis looks for it only where the case says that it is possible
   std::string source_file;  ///< path, or "built in: <id>"
   std::vector<EffectParameter> parameters;
   std::vector<Constant> constants;

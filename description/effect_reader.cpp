@@ -68,6 +68,7 @@ class EffectReader {
     effect_.description = file_.text("description");
     effect_.form_of = file_.optional_text("form_of").value_or("");
     if (!effect_.form_of.empty()) check_identifier(file_, "form_of", effect_.form_of);
+    effect_.rare = file_.optional_flag("rare").value_or(false);
     read_parameters();
     read_constants();
     read_signals();

@@ -63,9 +63,8 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   const auto finished = std::make_shared<FinishedDiagnosis>();
   const auto work = [&] {
     const Case the_case = read_case(case_file);
-    finished->context =
-        std::make_unique<DiagnosisContext>(the_case.description, effects, finished->scratch.path(),
-                                           fit_least_squares, ProviderOptions{});
+    finished->context = std::make_unique<DiagnosisContext>(
+        the_case, effects, finished->scratch.path(), fit_least_squares, ProviderOptions{});
     DiagnosisContext& context = *finished->context;
     context.stop = &stop;
     context.threads = threads;
@@ -156,11 +155,14 @@ void add_diagnoses(py::module_& module) {
                                         "prints.")
       .def_property_readonly(
           "verdict", [](const Shared& d) { return name_of(d->found.verdict); },
-          "none, named, ambiguous or unexplained.")
+          "none, named, ambiguous, partly or unexplained.")
       .def_property_readonly("sentence", [](const Shared& d) { return d->found.sentence; })
       .def_property_readonly("notes", [](const Shared& d) { return d->found.notes; })
       .def_property_readonly(
           "effects", [](const Shared& d) { return d->found.effects; }, "Those of the final model.")
+      .def_property_readonly(
+          "certain", [](const Shared& d) { return d->found.certain; },
+          "Those of them that stand whatever else is missing.")
       .def_property_readonly(
           "links", [](const Shared& d) { return d->found.stages.back().links; },
           "Of the final model.")

@@ -72,7 +72,8 @@ std::string case_text(const Cable& cable, const Camera& camera, int case_links) 
          "fit_until = " +
          number(std::round(camera.duration * 0.7 * 10) / 10) +
          "\n\n"
-         "[error]\nmeasure = \"least_squares\"\n\n[optimiser]\nmethod = \"least_squares\"\n";
+         "[error]\nmeasure = \"least_squares\"\n\n[optimiser]\nmethod = \"least_squares\"\n\n"
+         "[diagnosis]\npossible = [\"steady_wind\"]\n";
 }
 
 std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& camera,

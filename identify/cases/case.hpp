@@ -52,7 +52,9 @@ struct ParameterSpec {
   bool per_experiment = false;           ///< an unknown of its own in every experiment (sensors)
   std::map<std::string, double> values;  ///< per_experiment: by name, where it is not `value`
   Scale scale = Scale::kLinear;
-  std::string where;  ///< "case.toml:12", for messages
+  double measured = kNotGiven;            ///< before the fit, in another way; with
+  double standard_deviation = kNotGiven;  ///< a prior of the fit; NaN: none
+  std::string where;                      ///< "case.toml:12", for messages
 
   /// Its value in the experiment (or window) of that name.
   double value_in(const std::string& experiment) const {
@@ -181,6 +183,13 @@ struct SimulationSpec {
   long max_steps = 1'000'000;
 };
 
+/// What a diagnosis may take for granted.
+struct DiagnosisSpec {
+  double good_enough = kNotGiven;     ///< m or rad, RMS: a gap below it counts as closed
+  std::vector<std::string> possible;  ///< effects that are looked for only where a case names them
+  std::vector<std::string> impossible;  ///< effects that cannot be there
+};
+
 /// A whole case: read by case_reader.hpp, written by case_writer.hpp, or made in a program:
 ///
 ///     Case the_case;
@@ -209,6 +218,7 @@ struct Case {
   ErrorSpec error;
   OptimiserSpec optimiser;
   SimulationSpec simulation;
+  DiagnosisSpec diagnosis;
 };
 
 }  // namespace catena

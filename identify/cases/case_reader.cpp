@@ -2,8 +2,11 @@
 #include "identify/cases/case_reader.hpp"
 
 #include <cmath>
-#include <fstream>
+#include <locale>
+#include <map>
+#include <numbers>
 #include <set>
+#include <sstream>
 
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
@@ -113,6 +116,13 @@ ParameterSpec read_parameter(const TomlTable& table) {
       parameter.values[experiment] = value;
     }
   }
+  parameter.standard_deviation = optional_positive(table, "standard_deviation", kNotGiven);
+  if (!std::isnan(parameter.standard_deviation) && !parameter.free)
+    table.fail("standard_deviation",
+               shortest_number(parameter.standard_deviation) +
+                   "; what is not known exactly is fitted: say free = true, too");
+  if (!std::isnan(parameter.standard_deviation))
+    parameter.measured = table.optional_number("measured").value_or(parameter.value);
   const bool strictly_positive = parameter.lower > 0;
   parameter.scale = strictly_positive ? Scale::kLogarithmic : Scale::kLinear;
   if (table.has("scale")) parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
@@ -325,6 +335,35 @@ SimulationSpec read_simulation(const TomlTable& table) {
   return simulation;
 }
 
+/// "2 mm" in m, "3 mrad" in rad.
+double read_tolerance(const TomlTable& table, std::string_view key) {
+  const std::string text = table.text(key);
+  static const std::map<std::string, double> units = {{"m", 1},
+                                                      {"cm", 1e-2},
+                                                      {"mm", 1e-3},
+                                                      {"um", 1e-6},
+                                                      {"rad", 1},
+                                                      {"mrad", 1e-3},
+                                                      {"deg", std::numbers::pi / 180}};
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  double value = 0;
+  std::string unit, rest;
+  if (!(words >> value >> unit) || words >> rest || !units.contains(unit) || !(value > 0))
+    table.fail(key, "\"" + text +
+                        "\"; must be a positive number and one of m, cm, mm, um, rad, "
+                        "mrad and deg, such as \"2 mm\"");
+  return value * units.at(unit);
+}
+
+DiagnosisSpec read_diagnosis(const TomlTable& table) {
+  DiagnosisSpec diagnosis;
+  if (table.has("good_enough")) diagnosis.good_enough = read_tolerance(table, "good_enough");
+  diagnosis.possible = table.texts("possible");
+  diagnosis.impossible = table.texts("impossible");
+  return diagnosis;
+}
+
 /// Refuses a value for an experiment that the case does not have. Windows are called
 /// "NAME from 0.5 s".
 void check_value_names(const TomlTable& table, const ParameterSpec& parameter,
@@ -339,6 +378,23 @@ void check_value_names(const TomlTable& table, const ParameterSpec& parameter,
     if (!known)
       table.fail("values",
                  "\"" + name + "\" is no experiment of this case" + suggestion(name, names));
+  }
+}
+
+/// A standard deviation weighs a parameter against residuals, which then must be in units of theirs.
+void check_priors(const std::vector<TomlTable>& tables, const Case& the_case) {
+  for (std::size_t j = 0; j < tables.size(); ++j) {
+    const double deviation = the_case.parameters[j].standard_deviation;
+    if (std::isnan(deviation)) continue;
+    if (the_case.error.measure != Measure::kLeastSquares)
+      tables[j].fail("standard_deviation",
+                     shortest_number(deviation) + "; only the measure least_squares takes it");
+    for (const ExperimentSpec& experiment : the_case.experiments)
+      if (experiment.use == Use::kFit && std::isnan(experiment.noise))
+        tables[j].fail("standard_deviation",
+                       shortest_number(deviation) +
+                           "; it is weighed against the noise, and experiment \"" +
+                           experiment.name + "\" states none; give its noise");
   }
 }
 
@@ -387,10 +443,13 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
                                 "\" counts residuals in units of the noise, and experiment \"" +
                                 experiment.name + "\" states none; give its noise");
   }
+  check_priors(parameters, the_case);
   if (const auto table = file.optional_table("optimiser"))
     the_case.optimiser = read_optimiser(*table);
   if (const auto table = file.optional_table("simulation"))
     the_case.simulation = read_simulation(*table);
+  if (const auto table = file.optional_table("diagnosis"))
+    the_case.diagnosis = read_diagnosis(*table);
   file.finish();
   return the_case;
 }

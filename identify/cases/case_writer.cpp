@@ -53,6 +53,11 @@ class Writer {
   void numbers(const std::string& key, const std::vector<double>& values) {
     if (!values.empty()) line(key, list(values));
   }
+  void texts(const std::string& key, const std::vector<std::string>& values) {
+    std::string items;
+    for (const std::string& value : values) items += (items.empty() ? "" : ", ") + quoted(value);
+    if (!values.empty()) line(key, "[" + items + "]");
+  }
   std::string take() { return std::move(out_); }
 
  private:
@@ -85,6 +90,8 @@ void write_parameter(Writer& out, const ParameterSpec& parameter) {
   const Scale usual = parameter.lower > 0 ? Scale::kLogarithmic : Scale::kLinear;
   if (parameter.scale != usual) out.text("scale", word(kScaleWords, parameter.scale));
   out.number("factor", parameter.factor, 1);
+  out.number("measured", parameter.measured);
+  out.number("standard_deviation", parameter.standard_deviation);
   out.flag("per_experiment", parameter.per_experiment);
   std::string values;
   for (const auto& [experiment, value] : parameter.values)
@@ -188,6 +195,17 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
   write_signals(out, experiment.signals, "experiment.signal", directory);
 }
 
+void write_diagnosis(Writer& out, const DiagnosisSpec& diagnosis) {
+  if (std::isnan(diagnosis.good_enough) && diagnosis.possible.empty() &&
+      diagnosis.impossible.empty())
+    return;
+  out.header("[diagnosis]");
+  if (!std::isnan(diagnosis.good_enough))
+    out.text("good_enough", shortest_number(diagnosis.good_enough) + " m");
+  out.texts("possible", diagnosis.possible);
+  out.texts("impossible", diagnosis.impossible);
+}
+
 }  // namespace
 
 std::string case_text(const Case& the_case, const std::filesystem::path& directory) {
@@ -236,6 +254,7 @@ std::string case_text(const Case& the_case, const std::filesystem::path& directo
   out.number("absolute_tolerance_velocity", wanted.absolute_tolerance_velocity,
              simulation.absolute_tolerance_velocity);
   out.count("max_steps", wanted.max_steps, simulation.max_steps);
+  write_diagnosis(out, the_case.diagnosis);
   return out.take();
 }
 

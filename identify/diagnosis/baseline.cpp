@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kFirstEvaluations = 40;  // of each start; the best goes on
 constexpr int kEvaluations = 80;       // of every later fit
+// RMS over the scatter of the motion: a fit in step with the motion leaves less, one out of step 1.
+constexpr double kFollows = 0.3;
 constexpr double kHeldOutShare = 0.3;  // of a recording, where the case holds nothing out
 
 double squares(const FittedModel& model) {
@@ -36,6 +38,48 @@ VectorXd more_damped(const Problem& problem, double factor) {
       value = std::clamp(factor * value, spec.lower, spec.upper);
   }
   return start;
+}
+
+/// Growing windows, windows that are to meet and robust losses have their own ways to the minimum.
+LeastSquares as_the_case_asks(DiagnosisContext& context) {
+  return [&context](const Problem& problem, const FitOptions& options) {
+    return fit(problem, options, context.least_squares);
+  };
+}
+
+/// Whether a fit leaves as much as if it did not follow the motion: its phase ran away.
+bool loses_the_motion(const FittedModel& model) {
+  double left = 0, motion = 0;
+  for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
+    for (Index c = 0; c < model.fit_residual[e].rows(); ++c) {
+      const auto measured = model.problem->experiments()[e].recording.measured.row(c).head(
+          model.fit_residual[e].cols());
+      double sum = 0, sum_of_squares = 0, count = 0;
+      for (Index k = 0; k < measured.size(); ++k) {
+        if (std::isnan(measured[k])) continue;
+        sum += measured[k];
+        sum_of_squares += measured[k] * measured[k];
+        count += 1;
+        left += std::pow(model.fit_residual[e](c, k), 2);
+      }
+      if (count > 0) motion += sum_of_squares - sum * sum / count;
+    }
+  return left > kFollows * kFollows * motion;
+}
+
+/// From a short beginning on, each twice as long as the one before.
+std::vector<double> growing_windows(const Problem& problem) {
+  double longest = 0;
+  for (const Experiment& experiment : problem.experiments())
+    if (experiment.fitted())
+      longest = std::max(
+          longest,
+          experiment.recording.time[static_cast<std::size_t>(experiment.recording.fit_frames - 1)] -
+              experiment.recording.time.front());
+  std::vector<double> windows;
+  for (double length = longest / 64; length < 0.75 * longest; length *= 2)
+    windows.push_back(length);
+  return windows;
 }
 
 }  // namespace
@@ -65,6 +109,7 @@ Case for_the_search(Case the_case) {
   simulation.absolute_tolerance_position = std::max(simulation.absolute_tolerance_position, 1e-8);
   simulation.absolute_tolerance_velocity = std::max(simulation.absolute_tolerance_velocity, 1e-7);
   the_case.optimiser.tolerance = std::max(the_case.optimiser.tolerance, 1e-4);
+  the_case.optimiser.method = FitMethod::kLeastSquares;
   return the_case;
 }
 
@@ -72,23 +117,37 @@ FittedModel fit_baseline(Case the_case, DiagnosisContext& context) {
   the_case.optimiser.max_evaluations =
       std::min(the_case.optimiser.max_evaluations, kFirstEvaluations);
   const Model model_of_case = context.model_with({}, the_case.links);
-  const auto problem = std::make_shared<const Problem>(the_case, model_of_case);
   // With more damping the motion is simpler, and what the fit descends on too.
   const std::vector<double> factors = {1, 5, 25};
-  std::vector<FittedModel> fits(factors.size());
-  in_parallel(factors.size(), context.threads, [&](std::size_t k) {
-    fits[k] =
-        fit_model(problem, more_damped(*problem, factors[k]), context.least_squares, context.stop);
-  });
-  context.stop_if_asked();
-  FittedModel* best = nullptr;
-  for (FittedModel& fit : fits)
-    if (fit.ok && (!best || squares(fit) < squares(*best))) best = &fit;
-  if (!best) throw std::runtime_error("the baseline could not be fitted: " + fits[0].message);
+  std::vector<FittedModel> fits;
+  const auto fit_from_each_start = [&] {
+    const auto problem = std::make_shared<const Problem>(the_case, model_of_case);
+    const std::size_t first = fits.size();
+    fits.resize(first + factors.size());
+    in_parallel(factors.size(), context.threads, [&](std::size_t k) {
+      fits[first + k] = fit_model(problem, more_damped(*problem, factors[k]),
+                                  as_the_case_asks(context), context.stop);
+    });
+    context.stop_if_asked();
+  };
+  const auto best = [&] {
+    const FittedModel* least = nullptr;
+    for (const FittedModel& fit : fits)
+      if (fit.ok && (!least || squares(fit) < squares(*least))) least = &fit;
+    return least;
+  };
+  fit_from_each_start();
+  if (the_case.optimiser.growing_windows.empty() && (!best() || loses_the_motion(*best()))) {
+    the_case.optimiser.growing_windows = growing_windows(*fits.front().problem);
+    fit_from_each_start();
+  }
+  if (!best())
+    throw std::runtime_error("the baseline could not be fitted: " + fits.front().message);
+  the_case.optimiser.growing_windows.clear();  // the start of what follows is near enough
   the_case.optimiser.max_evaluations = kEvaluations;
   const auto longer = std::make_shared<const Problem>(the_case, model_of_case);
-  FittedModel model = fit_model(longer, best->x, context.least_squares, context.stop);
-  return model.ok ? model : *best;
+  FittedModel model = fit_model(longer, best()->x, context.least_squares, context.stop);
+  return model.ok ? model : *best();
 }
 
 }  // namespace catena

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
 #include "identify/diagnosis/score.hpp"
 
 namespace catena {
@@ -72,18 +74,64 @@ std::vector<int> Candidate::with_role(ParameterRole role) const {
   return found;
 }
 
+namespace {
+
+bool has(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool has_data_of_kind(const Case& the_case, DataKind kind) {
+  return std::any_of(the_case.experiments.begin(), the_case.experiments.end(),
+                     [&](const ExperimentSpec& experiment) { return experiment.kind == kind; });
+}
+
+/// Why an effect cannot be there in this case; empty: it can.
+std::string why_impossible(const Effect& effect, const Case& the_case) {
+  const DiagnosisSpec& spec = the_case.diagnosis;
+  if (has(spec.impossible, effect.id)) return "the case says that it is impossible";
+  if (effect.rare && !has(spec.possible, effect.id))
+    return "rare; tried where the case has it in diagnosis.possible";
+  const Sensor& sensor = effect.sensor;
+  const bool of_camera = sensor.side.given() || sensor.down.given();
+  if (of_camera && !has_data_of_kind(the_case, DataKind::kMarkers))
+    return "a camera would report it; the data are angles";
+  if (sensor.angle.given() && !of_camera && !has_data_of_kind(the_case, DataKind::kAngles))
+    return "an encoder would report it; the data are markers";
+  return "";
+}
+
+void check_known(const std::vector<std::string>& ids, const char* key, const Case& the_case,
+                 const std::vector<std::string>& known) {
+  for (const std::string& id : ids)
+    if (!has(known, id))
+      throw InputError(the_case.file.string() + ": diagnosis." + key + ": \"" + id +
+                       "\" is no effect" + suggestion(id, known));
+}
+
+}  // namespace
+
 std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
-                                             const Description& present) {
+                                             const Description& present, const Case& the_case) {
   std::vector<Candidate> library;
+  std::vector<std::string> known = built_in_effect_ids();
   const auto add = [&](Effect effect) {
     for (const Effect& other : present.effects)
       if (other.id == effect.id) return;
     // A file of the user's own comes before the built-in effect of the same name.
     std::erase_if(library, [&](const Candidate& known) { return known.id == effect.id; });
+    const std::string reason = why_impossible(effect, the_case);
     library.push_back(candidate_of(std::move(effect)));
+    if (!reason.empty()) library.back().unavailable = reason;
   };
   for (const std::string& id : built_in_effect_ids()) add(built_in_effect(id));
-  for (const auto& file : files) add(read_effect(file));
+  for (const auto& file : files) {
+    Effect effect = read_effect(file);
+    known.push_back(effect.id);
+    add(std::move(effect));
+  }
+  for (const Effect& effect : present.effects) known.push_back(effect.id);
+  check_known(the_case.diagnosis.possible, "possible", the_case, known);
+  check_known(the_case.diagnosis.impossible, "impossible", the_case, known);
   std::sort(library.begin(), library.end(),
             [](const Candidate& a, const Candidate& b) { return a.id < b.id; });
   return library;

@@ -45,10 +45,12 @@ struct Candidate {
   std::vector<int> with_role(ParameterRole role) const;
 };
 
-/// The built-in effects and those of the files given, less what `the_case` has in its model already
-/// (`present`): in the order of their ids. What cannot be tried says why.
+/// The built-in effects and those of the files given, less what the case has in its model already
+/// (`present`): in the order of their ids. What cannot be tried says why: what the case calls
+/// impossible, what is rare and which the case does not call possible, and what another sensor than
+/// the case's reports. Throws InputError for effects that the case names and nobody knows.
 std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
-                                             const Description& present);
+                                             const Description& present, const Case& the_case);
 
 /// Values of the shape parameters (in the order of candidate.parameters, kShape ones only) at which
 /// the score is taken: the frequencies given, velocities of both signs at a sixtieth, a twentieth

@@ -10,14 +10,15 @@ namespace catena {
 
 namespace fs = std::filesystem;
 
-DiagnosisContext::DiagnosisContext(const fs::path& description,
-                                   const std::vector<fs::path>& effect_files, fs::path folder,
-                                   LeastSquares solver, ProviderOptions provider_options)
+DiagnosisContext::DiagnosisContext(const Case& the_case, const std::vector<fs::path>& effect_files,
+                                   fs::path folder, LeastSquares solver,
+                                   ProviderOptions provider_options)
     : least_squares(std::move(solver)),
       provider(std::move(provider_options)),
-      original_(description.empty() ? plain_chain() : read_description(description)),
+      original_(the_case.description.empty() ? plain_chain()
+                                             : read_description(the_case.description)),
       folder_(std::move(folder)),
-      library_(library_of_candidates(effect_files, original_)) {}
+      library_(library_of_candidates(effect_files, original_, the_case)) {}
 
 const Candidate* DiagnosisContext::find(const std::string& id) const {
   const auto found = std::find_if(library_.begin(), library_.end(),

@@ -37,10 +37,9 @@ struct DiagnosisProgress {
 /// and somebody to tell what is going on.
 class DiagnosisContext {
  public:
-  /// `description`: of the case (empty: the plain chain); `effect_files`: the user's own effects;
-  /// `folder`: where descriptions are written.
-  DiagnosisContext(const std::filesystem::path& description,
-                   const std::vector<std::filesystem::path>& effect_files,
+  /// `effect_files`: the user's own effects; `folder`: where descriptions are written. Throws
+  /// InputError for effects that the case names and nobody knows.
+  DiagnosisContext(const Case& the_case, const std::vector<std::filesystem::path>& effect_files,
                    std::filesystem::path folder, LeastSquares least_squares,
                    ProviderOptions provider);
 

@@ -35,8 +35,7 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   if ((!explained(state.found.stages) || one_may_imitate_two(state.found.stages)) &&
       add_pair(state))
     look_ahead_and_back(state);
-  context.begin("fitting the final model");
-  conclude(state.found, the_case, options, context);
+  conclude(state, the_case);
   context.stop_if_asked();
   return std::move(state.found);
 }

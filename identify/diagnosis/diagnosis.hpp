@@ -7,6 +7,7 @@
 #include "identify/diagnosis/explanation.hpp"
 #include "identify/diagnosis/links.hpp"
 #include "identify/diagnosis/noise.hpp"
+#include "identify/diagnosis/shares.hpp"
 
 namespace catena {
 
@@ -14,6 +15,7 @@ enum class DiagnosisVerdict {
   kNone,         ///< nothing is missing
   kNamed,        ///< one or more effects
   kAmbiguous,    ///< effects that these data cannot tell apart
+  kPartly,       ///< effects that are there but leave a gap
   kUnexplained,  ///< a gap that nothing in the library closes
 };
 const char* name_of(DiagnosisVerdict verdict);
@@ -52,6 +54,8 @@ struct Diagnosis {
   std::vector<double> sigmas;             ///< per experiment, the noise that was used, m or rad
   std::vector<Stage> stages;              ///< baseline first
   std::vector<std::string> effects;       ///< of the final model
+  std::vector<std::string> certain;       ///< those of them that stand whatever is left
+  Shares shares;                          ///< of the misfit, among the effects
   bool freer_start = false;               ///< the start of the motion needed more terms
   std::vector<Alternative> alternatives;  ///< undecided ones
   std::vector<Alternative> forms;         ///< undecided too, but laws of the effect that is named

@@ -114,6 +114,22 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
     text += "  the residuals are smoother than white noise: this noise level says little\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
 
+  if (!d.shares.empty()) {
+    const auto share = [](const ShareInterval& of) {
+      return fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * of.share, 100 * of.lower,
+                         100 * of.upper);
+    };
+    const auto line = [&](const std::string& name, const ShareInterval& fitted,
+                          const ShareInterval& held_out) {
+      text += fmt::format("{:34} {:>24} {:>24}\n", name, share(fitted),
+                          d.shares.has_held_out ? share(held_out) : "-");
+    };
+    text +=
+        fmt::format("\n{:34} {:>24} {:>24}\n", "share of the squared misfit", "fitted", "held out");
+    for (const EffectShare& effect : d.shares.effects)
+      line(effect.effect, effect.fitted, effect.held_out);
+    line("left", d.shares.left_fitted, d.shares.left_held_out);
+  }
   if (d.stages.front().fit.present && !findings.places.words.empty()) {
     text += "\nwhere: ";
     for (std::size_t i = 0; i < findings.places.words.size(); ++i)
@@ -230,6 +246,20 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
          parameter.standard_error,
          results::Interval{parameter.value - half, parameter.value + half}});
   }
+  const auto add_share = [&](const std::string& name, const ShareInterval& fitted,
+                             const ShareInterval& held_out) {
+    results::Share& share = result.shares.emplace_back();
+    share.name = name;
+    share.fit = fitted.share;
+    share.fit_interval = {fitted.lower, fitted.upper};
+    if (!d.shares.has_held_out) return;
+    share.validate = held_out.share;
+    share.validate_interval = {held_out.lower, held_out.upper};
+  };
+  for (const EffectShare& effect : d.shares.effects)
+    add_share(effect.effect, effect.fitted, effect.held_out);
+  if (!d.shares.empty()) add_share("left", d.shares.left_fitted, d.shares.left_held_out);
+  result.certain = d.certain;
   const auto others = [](const std::vector<Alternative>& list) {
     std::vector<results::OtherEffect> entries;
     for (const Alternative& other : list)

@@ -125,7 +125,8 @@ std::vector<NoiseLevel> noise_levels(const FittedModel& model) {
 
 namespace {
 
-GapTest gap_of(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas) {
+GapTest gap_of(const FittedModel& model, const std::vector<MatrixXd>& residuals,
+               const std::vector<double>& sigmas) {
   std::vector<MatrixXd> present;
   std::vector<double> present_sigmas;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
@@ -133,17 +134,20 @@ GapTest gap_of(const std::vector<MatrixXd>& residuals, const std::vector<double>
     present.push_back(residuals[e]);
     present_sigmas.push_back(sigmas[e]);
   }
-  return test_gap(present, present_sigmas);
+  GapTest test = test_gap(present, present_sigmas);
+  test.good_enough = test.rms <= model.problem->the_case().diagnosis.good_enough;
+  test.present = test.present && !test.good_enough;
+  return test;
 }
 
 }  // namespace
 
 GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas) {
-  return gap_of(model.fit_residual, sigmas);
+  return gap_of(model, model.fit_residual, sigmas);
 }
 
 GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas) {
-  return gap_of(model.held_out_residual, sigmas);
+  return gap_of(model, model.held_out_residual, sigmas);
 }
 
 VectorXd stacked(const std::vector<MatrixXd>& matrices, const std::vector<MatrixXd>& measured_where,

@@ -36,7 +36,8 @@ struct GapTest {
   double autocorrelation = 0;
   double size = 0;  ///< excess of the mean square over the noise, in standard deviations
   bool present = false;
-  long count = 0;  ///< residuals
+  bool good_enough = false;  ///< the RMS is within what the case accepts
+  long count = 0;            ///< residuals
 
   double ratio() const { return noise > 0 ? rms / noise : 0; }
 };

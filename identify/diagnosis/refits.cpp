@@ -28,7 +28,8 @@ VectorXd scaled(const Candidate& candidate, const Problem& problem, VectorXd x, 
     if (j < 0) continue;
     if (parameter.role == ParameterRole::kAmplitude)
       x[j] = parameter.neutral + factor * (x[j] - parameter.neutral);
-    x[j] = std::clamp(x[j], parameter.lower, parameter.upper);
+    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+    x[j] = std::clamp(x[j], unknown.lower, unknown.upper);
   }
   return x;
 }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kLines = 8;                 // frequencies where the residuals are strongest
 constexpr int kFrequencies = 24;          // and others, evenly spaced
+constexpr double kFewestPeriods = 2;      // in the longest fitted part: fewer show no frequency
 constexpr double kHighestFrequency = 12;  // Hz
 
 double angle_of_frequency(double frequency, double t) {
@@ -42,6 +43,11 @@ Sampling longest_sampling(const FittedModel& model) {
 }
 
 }  // namespace
+
+double lowest_shown_frequency(const FittedModel& model) {
+  const Sampling sampling = longest_sampling(model);
+  return sampling.duration > 0 ? kFewestPeriods / sampling.duration : 0;
+}
 
 std::vector<double> strongest_frequencies(const FittedModel& model,
                                           const std::vector<double>& sigmas, int count) {
@@ -93,6 +99,7 @@ std::vector<double> driving_frequencies(const FittedModel& model,
   if (sampling.duration == 0) return {};
   const double step = std::max(0.5 / sampling.duration, sampling.highest() / kFrequencies);
   for (double f = step; f <= sampling.highest(); f += step) frequencies.push_back(f);
+  std::erase_if(frequencies, [&](double f) { return f < lowest_shown_frequency(model); });
   return frequencies;
 }
 

@@ -13,6 +13,10 @@ namespace catena {
 std::vector<double> strongest_frequencies(const FittedModel& model,
                                           const std::vector<double>& sigmas, int count);
 
+/// The lowest frequency (Hz) that the longest fitted part shows: two periods of it. 0 where no
+/// experiment has eight fitted frames.
+double lowest_shown_frequency(const FittedModel& model);
+
 /// Frequencies (Hz) at which a driven motion is looked for: the strongest lines of the residuals,
 /// and, since what a force of one frequency leaves after a fit need not be strongest there, others
 /// half a resolution apart.

@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/verdict.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/final_model.hpp"
+#include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 
 namespace catena {
 namespace {
 
+bool held_out_gap_left(const GapTest& held_out) {
+  return held_out.count > 0 && !held_out.good_enough &&
+         held_out.ratio() > kThresholds.closed_held_out;
+}
+
 /// Little enough where it was fitted and where it was not.
 bool closed(const std::vector<Stage>& stages, bool with_effects, const GapTest& fit,
             const GapTest& held_out) {
-  return fit.ratio() <= kThresholds.closed && (!with_effects || !only_imitated(stages, fit)) &&
-         (held_out.count == 0 || held_out.ratio() <= kThresholds.closed_held_out);
+  const bool fitted = fit.good_enough || (fit.ratio() <= kThresholds.closed &&
+                                          (!with_effects || !only_imitated(stages, fit)));
+  return fitted && !held_out_gap_left(held_out);
 }
 
 /// " with 24 links (12 were too few)", or nothing.
@@ -33,19 +42,64 @@ std::string sentence_of_none(const Diagnosis& found) {
          ".";
 }
 
+/// "84 % (81 to 87)"
+std::string in_percent(const ShareInterval& share) {
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f})", 100 * share.share, 100 * share.lower,
+                     100 * share.upper);
+}
+
+/// "air_drag_linear explains 84 % (81 to 87), ...": of the effects in `which`.
+std::string shares_in_words(const Diagnosis& found, const std::vector<std::string>& which) {
+  std::vector<std::string> parts;
+  for (const EffectShare& share : found.shares.effects)
+    if (std::find(which.begin(), which.end(), share.effect) != which.end())
+      parts.push_back(share.effect + " explains " + in_percent(share.fitted));
+  return listed(parts) + " of the squared misfit";
+}
+
+/// What the final model leaves: how much, how large, and where.
+std::string remainder_in_words(const Diagnosis& found) {
+  const bool angles = found.final.problem->experiments().front().spec.kind == DataKind::kAngles;
+  const char* const unit = angles ? "mrad" : "mm";
+  std::string words = fmt::format("{:.3g} {} are left, {:.3g} times the noise",
+                                  1e3 * found.final_fit.rms, unit, found.final_fit.ratio());
+  if (found.final_held_out.count > 0)
+    words +=
+        fmt::format(" ({:.3g} {} where it was not fitted)", 1e3 * found.final_held_out.rms, unit);
+  for (const std::string& place : residual_places(found.final, found.sigmas).words)
+    words += ", " + place;
+  return words;
+}
+
+std::string sentence_of_partly(const Diagnosis& found) {
+  std::string sentence = fmt::format("Missing, but not alone: {}. {}.", listed(found.certain),
+                                     shares_in_words(found, found.certain));
+  std::vector<std::string> doubtful;
+  for (const std::string& id : found.effects)
+    if (std::find(found.certain.begin(), found.certain.end(), id) == found.certain.end())
+      doubtful.push_back(id);
+  if (!doubtful.empty())
+    sentence += fmt::format(" Not certain: {}.", shares_in_words(found, doubtful));
+  return sentence + fmt::format(" {} stays: {}.", in_percent(found.shares.left_fitted),
+                                remainder_in_words(found));
+}
+
 std::string sentence_of_unexplained(const Diagnosis& found, const DiagnosisOptions& options) {
-  if (!found.effects.empty())
-    return "There is a gap; " + listed(found.effects) +
-           " would explain part of it, but what is left is above the noise.";
-  return options.max_effects > 0
-             ? "There is a gap, and nothing in the library explains it."
-             : "There is a gap. No effect was looked for: at most 0 effects were allowed.";
+  if (options.max_effects == 0)
+    return "There is a gap. No effect was looked for: at most 0 effects were allowed.";
+  const std::string left = remainder_in_words(found);
+  if (found.effects.empty())
+    return fmt::format("There is a gap, and nothing in the library explains it. {}.", left);
+  return fmt::format("There is a gap; {} would explain part of it, but this is not certain. {}.",
+                     listed(found.effects), left);
 }
 
 std::string sentence_of_effects(const Diagnosis& found) {
   std::string sentence = "Missing: " + listed(found.effects) + of_more_links(found) + ".";
   for (const Alternative& form : found.forms)
     sentence += " Its other form " + form.explanation.id + " would do as well.";
+  if (found.shares.effects.size() > 1)
+    sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
   if (found.alternatives.empty()) return sentence;
   std::vector<std::string> others;
   for (const Alternative& alternative : found.alternatives)
@@ -56,7 +110,7 @@ std::string sentence_of_effects(const Diagnosis& found) {
 }  // namespace
 
 bool gap_left(const GapTest& fit, const GapTest& held_out) {
-  return fit.present || (held_out.count > 0 && held_out.ratio() > kThresholds.closed_held_out);
+  return fit.present || held_out_gap_left(held_out);
 }
 
 bool gap_left(const Stage& stage) { return gap_left(stage.fit, stage.held_out); }
@@ -96,14 +150,35 @@ bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
              kThresholds.imitated * std::pow(misfit_without_effects(stages), 2);
 }
 
-void conclude(Diagnosis& found, const Case& asked, const DiagnosisOptions& options,
-              DiagnosisContext& context) {
+namespace {
+
+/// Effects that stand whatever else is missing: each takes a good part of the misfit away where it
+/// was fitted and some where it was not, and nothing that was tried in its place does as well.
+std::vector<std::string> certain_effects(const Diagnosis& found) {
+  std::vector<std::string> certain;
+  for (const EffectShare& share : found.shares.effects) {
+    const bool rivalled =
+        std::any_of(found.alternatives.begin(), found.alternatives.end(),
+                    [&](const Alternative& other) { return other.instead_of == share.effect; });
+    const bool predicts = !found.shares.has_held_out || share.held_out.lower > 0;
+    if (!rivalled && predicts && share.fitted.lower > kThresholds.worthwhile)
+      certain.push_back(share.effect);
+  }
+  return certain;
+}
+
+}  // namespace
+
+void conclude(DiagnosisState& state, const Case& asked) {
+  Diagnosis& found = state.found;
+  state.context.begin("fitting the final model");
   const Stage& last = found.stages.back();
   found.final = last.model;
-  make_final_model(found, asked, context);
+  make_final_model(found, asked, state.context);
   found.final_fit = fit_gap(found.final, found.sigmas);
   found.final_held_out = held_out_gap(found.final, found.sigmas);
   found.parameters = final_parameters(found);
+  found.shares = shares_of(state);
 
   const bool is_closed =
       closed(found.stages, !found.effects.empty(), found.final_fit, found.final_held_out);
@@ -115,8 +190,11 @@ void conclude(Diagnosis& found, const Case& asked, const DiagnosisOptions& optio
     return;
   }
   if (!is_closed || found.effects.empty()) {
-    found.verdict = DiagnosisVerdict::kUnexplained;
-    found.sentence = sentence_of_unexplained(found, options);
+    found.certain = certain_effects(found);
+    found.verdict =
+        found.certain.empty() ? DiagnosisVerdict::kUnexplained : DiagnosisVerdict::kPartly;
+    found.sentence = found.certain.empty() ? sentence_of_unexplained(found, state.options)
+                                           : sentence_of_partly(found);
     return;
   }
   std::erase_if(found.alternatives, [](const Alternative& alternative) {
@@ -125,6 +203,7 @@ void conclude(Diagnosis& found, const Case& asked, const DiagnosisOptions& optio
   });
   found.verdict =
       found.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
+  if (found.alternatives.empty()) found.certain = found.effects;
   found.sentence = sentence_of_effects(found);
 }
 
@@ -136,6 +215,8 @@ const char* name_of(DiagnosisVerdict verdict) {
       return "named";
     case DiagnosisVerdict::kAmbiguous:
       return "ambiguous";
+    case DiagnosisVerdict::kPartly:
+      return "partly";
     case DiagnosisVerdict::kUnexplained:
       return "unexplained";
   }

@@ -5,7 +5,7 @@
 
 #include "identify/cases/case.hpp"
 #include "identify/diagnosis/context.hpp"
-#include "identify/diagnosis/diagnosis.hpp"
+#include "identify/diagnosis/state.hpp"
 
 namespace catena {
 
@@ -34,9 +34,9 @@ double misfit_without_effects(const std::vector<Stage>& stages);
 /// leave a trace of it, from what their laws get slightly wrong. `last`: what is left with them.
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
 
-/// Fits the final model as `asked` says and tells what the stages amount to. Throws
+/// Divides the misfit among the effects, fits the final model as `asked` says, and tells what the
+/// stages amount to. Throws
 /// std::runtime_error where it cannot be simulated, ModelError where it cannot be made.
-void conclude(Diagnosis& found, const Case& asked, const DiagnosisOptions& options,
-              DiagnosisContext& context);
+void conclude(DiagnosisState& state, const Case& asked);
 
 }  // namespace catena

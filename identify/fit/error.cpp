@@ -96,8 +96,8 @@ std::vector<Distance> distances_of(const Problem& problem, const Residuals& resi
   return out;
 }
 
-ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& evaluation) {
-  ShootingDefects defects;
+SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& evaluation) {
+  SoftConstraints defects;
   const Index size = 2 * problem.model().coordinates();
   Index count = 0;
   for (const Experiment& experiment : problem.experiments())
@@ -120,6 +120,37 @@ ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& ev
     row += size;
   }
   return defects;
+}
+
+SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation) {
+  SoftConstraints all = shooting_defects_of(problem, evaluation);
+  struct Prior {
+    Index unknown;
+    double measured, deviation;
+  };
+  std::vector<Prior> priors;
+  for (Index j = 0; j < evaluation.x.size(); ++j) {
+    const int parameter = problem.unknowns()[static_cast<std::size_t>(j)].parameter;
+    if (parameter < 0) continue;
+    const ParameterSpec& spec = problem.the_case().parameters[static_cast<std::size_t>(parameter)];
+    if (!std::isnan(spec.standard_deviation))
+      priors.push_back({j, spec.measured, spec.standard_deviation});
+  }
+  all.priors = static_cast<Index>(priors.size());
+  const Index defects = all.value.size(), count = defects + all.priors;
+  all.value.conservativeResize(count);
+  all.weight.conservativeResize(count);
+  if (evaluation.with_jacobian) {
+    all.jacobian.conservativeResize(count, evaluation.x.size());
+    all.jacobian.bottomRows(count - defects).setZero();
+  }
+  for (std::size_t p = 0; p < priors.size(); ++p) {
+    const Index row = defects + static_cast<Index>(p);
+    all.value[row] = evaluation.x[priors[p].unknown] - priors[p].measured;
+    all.weight[row] = 1 / priors[p].deviation;
+    if (evaluation.with_jacobian) all.jacobian(row, priors[p].unknown) = 1;
+  }
+  return all;
 }
 
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
@@ -187,14 +218,14 @@ double sum_of_losses(const Problem& problem, const Eigen::VectorXd& r) {
   return sum;
 }
 
-/// The case's measure of residuals and shooting defects.
+/// The case's measure of residuals and constraints.
 double error_of(const Problem& problem, const Residuals& residuals,
-                const ShootingDefects& defects) {
+                const SoftConstraints& constraints) {
   double error = 0;
   switch (problem.the_case().error.measure) {
     case Measure::kLeastSquares:
       error = sum_of_losses(problem, residuals.value.cwiseQuotient(noise_of(problem, residuals))) +
-              defects.value.cwiseProduct(defects.weight).squaredNorm();
+              constraints.value.cwiseProduct(constraints.weight).squaredNorm();
       error = std::sqrt(error / static_cast<double>(residuals.value.size()));
       break;
     case Measure::kMeanDistance: {
@@ -218,16 +249,16 @@ double error_of(const Problem& problem, const Residuals& residuals,
 
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part) {
   if (!evaluation.ok) return kInfinite;
-  const ShootingDefects defects =
-      part == Part::kFit ? shooting_defects_of(problem, evaluation) : ShootingDefects{};
-  return error_of(problem, residuals_of(problem, evaluation, part), defects);
+  const SoftConstraints constraints =
+      part == Part::kFit ? constraints_of(problem, evaluation) : SoftConstraints{};
+  return error_of(problem, residuals_of(problem, evaluation, part), constraints);
 }
 
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
   if (!evaluation.ok) return {false, {}, {}, kInfinite};
   Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit),
-                shooting_defects_of(problem, evaluation), 0};
-  misfit.error = error_of(problem, misfit.residuals, misfit.defects);
+                constraints_of(problem, evaluation), 0};
+  misfit.error = error_of(problem, misfit.residuals, misfit.constraints);
   return misfit;
 }
 
@@ -236,7 +267,7 @@ double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::V
   gradient.setZero(static_cast<Index>(problem.unknowns().size()));
   if (!misfit.ok) return kInfinite;
   const Residuals& residuals = misfit.residuals;
-  const ShootingDefects& defects = misfit.defects;
+  const SoftConstraints& constraints = misfit.constraints;
   const Eigen::VectorXd& r = residuals.value;
   const auto rounded = [&](double square) { return std::sqrt(square + rounding * rounding); };
   Eigen::VectorXd by_residual(r.size());
@@ -245,7 +276,7 @@ double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::V
     case Measure::kLeastSquares: {
       const Eigen::VectorXd noise = noise_of(problem, residuals);
       const auto count = static_cast<double>(r.size());
-      const Eigen::VectorXd gaps = defects.value.cwiseProduct(defects.weight);
+      const Eigen::VectorXd gaps = constraints.value.cwiseProduct(constraints.weight);
       error =
           std::sqrt((sum_of_losses(problem, r.cwiseQuotient(noise)) + gaps.squaredNorm()) / count);
       by_residual = r.array() / noise.array().square() / (count * error);
@@ -253,7 +284,8 @@ double error_and_gradient(const Problem& problem, const Misfit& misfit, Eigen::V
       if (spec.loss != Loss::kNone)
         for (Index i = 0; i < r.size(); ++i)
           by_residual[i] *= loss_of(spec, std::pow(r[i] / noise[i], 2)).slope;
-      gradient = defects.jacobian.transpose() * gaps.cwiseProduct(defects.weight) / (count * error);
+      gradient = constraints.jacobian.transpose() * gaps.cwiseProduct(constraints.weight) /
+                 (count * error);
       break;
     }
     case Measure::kMeanDistance: {

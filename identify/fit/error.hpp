@@ -34,14 +34,21 @@ struct Distance {
 };
 std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
 
+/// What a fit should meet beside the measurements, each with a weight.
+struct SoftConstraints {
+  Eigen::VectorXd value;     ///< zero where it is met
+  Eigen::MatrixXd jacobian;  ///< constraints x unknowns, empty if the evaluation had none
+  Eigen::VectorXd weight;    ///< of each in units of the residuals over their noise
+  Eigen::Index priors = 0;   ///< the last so many are knowledge with errors of its own
+};
+
 /// The shooting defects of joined windows: where each window ends minus where the next one starts;
 /// angles (rad), then rates (rad/s), window by window. Empty where no windows are joined.
-struct ShootingDefects {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd jacobian;  ///< defects x unknowns, empty if the evaluation had none
-  Eigen::VectorXd weight;    ///< of each in units of the residuals over their noise
-};
-ShootingDefects shooting_defects_of(const Problem& problem, const Evaluation& evaluation);
+SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& evaluation);
+
+/// The shooting defects; then, for each unknown with a standard deviation, the unknown minus what
+/// was measured, in its unit.
+SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation);
 
 /// The noise sigma of each residual, m or rad: the experiment's, or 1 where it states none. Under
 /// the likelihood: what the residuals of its channel show, see channels_of.
@@ -61,15 +68,15 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
 
 /// The case's error measure (m, rad; for least squares with noise given: in units of the noise, by
 /// the case's loss).
-/// Infinite if the evaluation failed; a failed simulation is never a good fit. Shooting defects
-/// count with their weight in the fitted part.
+/// Infinite if the evaluation failed; a failed simulation is never a good fit. Constraints count with
+/// their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
 /// The fitted part of an evaluation: what the optimisers work with.
 struct Misfit {
   bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty
   Residuals residuals;
-  ShootingDefects defects;
+  SoftConstraints constraints;
   double error = 0;  ///< error_of
 };
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation);

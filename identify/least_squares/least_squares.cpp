@@ -158,7 +158,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   ceres::Problem solver(problem_options);
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
-  const ShootingDefects& defects = simulated.defects();
+  const SoftConstraints& constraints = simulated.constraints();
   const bool squares = of_squares(problem);
   const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
   const DistanceCost::Box box = box_of(problem);
@@ -168,10 +168,10 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
     for (Index i = 0; i < noise.size(); ++i)
       solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
                               error.loss == Loss::kNone ? nullptr : new CaseLoss(error), y.data());
-    for (Index i = 0; i < defects.value.size(); ++i)
+    for (Index i = 0; i < constraints.value.size(); ++i)
       solver.AddResidualBlock(
-          new Block(simulated, defects.value, defects.jacobian, i, defects.weight[i]), nullptr,
-          y.data());
+          new Block(simulated, constraints.value, constraints.jacobian, i, constraints.weight[i]),
+          nullptr, y.data());
   } else {
     // In units of the start's error, as if each were over its noise.
     const double scale = static_cast<double>(first.value.size()) / simulated.error();

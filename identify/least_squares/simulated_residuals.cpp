@@ -76,7 +76,7 @@ void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x) {
         (x[j] <= unknown.lower && gradient[j] > 0) || (x[j] >= unknown.upper && gradient[j] < 0);
     const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
     misfit_.residuals.jacobian.col(j) *= slope;
-    misfit_.defects.jacobian.col(j) *= slope;
+    misfit_.constraints.jacobian.col(j) *= slope;
     gradient[j] *= slope;
   }
   steepness_ = misfit_.error > 0 ? gradient.norm() / misfit_.error : 0;

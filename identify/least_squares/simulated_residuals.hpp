@@ -31,7 +31,7 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
 
   bool ok() const { return misfit_.ok; }
   const Residuals& residuals() const { return misfit_.residuals; }
-  const ShootingDefects& defects() const { return misfit_.defects; }
+  const SoftConstraints& constraints() const { return misfit_.constraints; }
   /// In the case's measure, here and at the point before whose derivatives were asked for.
   double error() const { return misfit_.error; }
   double error_before() const { return error_before_; }

@@ -13,6 +13,7 @@ namespace catena {
 /// Predictions of all experiments (those to be fitted, or all) and, if asked for, their derivatives
 /// by the unknowns.
 struct Evaluation {
+  Eigen::VectorXd x;                    ///< the unknowns
   std::vector<Prediction> predictions;  ///< one per experiment; kNotRun where not asked for
   bool with_jacobian = false;
   bool ok = false;      ///< every prediction asked for succeeded and is finite

@@ -44,8 +44,7 @@ int diagnose_case(const DiagnoseOptions& options) {
       progress.clear();
       std::cerr << "catena: " + line + "\n";
     };
-  DiagnosisContext context(the_case.description, options.effects, scratch.path(), fit_least_squares,
-                           provider);
+  DiagnosisContext context(the_case, options.effects, scratch.path(), fit_least_squares, provider);
   context.stop = &interrupted();
   context.threads = options.threads;
   context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
@@ -82,8 +81,8 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
       program.add_subcommand("diagnose", "find what a model lacks, add it, show the gap shrink");
   command->footer(
       "Example:\n  catena diagnose cable.toml --output found\n"
-      "prints the verdict first: none, named, ambiguous or unexplained (exit status 0\n"
-      "for all four), and writes found/diagnosis.json, diagnosed.toml (the case with\n"
+      "prints the verdict first: none, named, ambiguous, partly or unexplained (exit\n"
+      "status 0 for all five), and writes found/diagnosis.json, diagnosed.toml (the case with\n"
       "the effect), model.toml and the emitted code in found/model.");
   add_common_options(*command, options);
   command

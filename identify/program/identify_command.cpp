@@ -136,7 +136,7 @@ void complete(const Problem& problem, const IdentifyOptions& options, Identifica
 
 /// How well joined windows meet: nothing to say where none are joined.
 std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluation) {
-  const ShootingDefects defects = shooting_defects_of(problem, evaluation);
+  const SoftConstraints defects = shooting_defects_of(problem, evaluation);
   const Eigen::Index n = problem.model().coordinates();
   double angle = 0, rate = 0;
   for (Eigen::Index i = 0; i < defects.value.size(); ++i)

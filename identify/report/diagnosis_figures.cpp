@@ -57,6 +57,47 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   add(figures, "gap", std::move(figure));
 }
 
+/// One row for each share, its interval as a line; the held-out part a little below.
+void add_shares(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  if (diagnosis.shares.empty()) return;
+  constexpr double kApart = 0.12;
+  Figure figure;
+  figure.title = "Shares of the misfit";
+  figure.caption =
+      "What each effect explains of the squared misfit that the model without effects leaves, "
+      "averaged over the orders in which effects may be added, and what is left with all of them. "
+      "The lines are intervals of 95 %.";
+  figure.x = {"share", "%"};
+  figure.y.label = "";
+  figure.y_downwards = true;
+  Series fitted{"fitted part", {}, {}, Mark::kPoints, 1};
+  Series held_out{"held out", {}, {}, Mark::kPoints, 2};
+  Series fitted_lines{"interval, fitted part", {}, {}, Mark::kLine, 1};
+  Series held_out_lines{"interval, held out", {}, {}, Mark::kLine, 2};
+  const auto draw = [](Series& points, Series& lines, double row, double share,
+                       const std::optional<Interval>& interval) {
+    points.x.push_back(100 * share);
+    points.y.push_back(row);
+    if (!interval) return;
+    for (const double end : {interval->low, interval->high, kAbsent}) {
+      lines.x.push_back(100 * end);
+      lines.y.push_back(row);
+    }
+  };
+  for (std::size_t i = 0; i < diagnosis.shares.size(); ++i) {
+    const Share& share = diagnosis.shares[i];
+    const double row = static_cast<double>(i + 1);
+    figure.y.categories.push_back(share.name);
+    draw(fitted, fitted_lines, row - kApart, share.fit, share.fit_interval);
+    if (share.validate_interval)
+      draw(held_out, held_out_lines, row + kApart, share.validate, share.validate_interval);
+  }
+  figure.rules = {{true, 0, ""}, {true, 100, ""}};
+  for (Series* series : {&fitted, &fitted_lines, &held_out, &held_out_lines})
+    if (!series->x.empty()) figure.series.push_back(std::move(*series));
+  add(figures, "shares", std::move(figure));
+}
+
 void add_scores(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   constexpr std::size_t kShown = 12;
   for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
@@ -271,6 +312,7 @@ void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& fi
 
 void add_diagnosis_figures(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   add_gap(diagnosis, figures);
+  add_shares(diagnosis, figures);
   add_before_after(diagnosis, figures);
   add_scores(diagnosis, figures);
   add_missing_force(diagnosis, figures);

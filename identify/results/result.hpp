@@ -315,6 +315,15 @@ struct FinalEstimate {
   std::optional<Interval> interval;
 };
 
+/// Of the squared misfit of the model without effects; 1 is all of it.
+struct Share {
+  std::string name;  ///< an effect, or "left"
+  double fit = kAbsent;
+  std::optional<Interval> fit_interval;  ///< 95 %
+  double validate = kAbsent;
+  std::optional<Interval> validate_interval;
+};
+
 struct Diagnosis {
   std::string title;
   Named versions;
@@ -331,6 +340,8 @@ struct Diagnosis {
   std::vector<Round> rounds;
   std::vector<EffectEntry> effects;  ///< of the final model
   std::vector<FinalEstimate> parameters;
+  std::vector<Share> shares;
+  Words certain;  ///< effects that stand whatever else is missing
   Words members;
   std::vector<OtherEffect> undecided, forms, runners_up;
   std::string experiment_that_tells;

@@ -260,6 +260,14 @@ void fields(auto& archive, Is<OtherEffect> auto& other) {
   archive.optional("experiment_that_tells", other.experiment_that_tells);
 }
 
+void fields(auto& archive, Is<Share> auto& share) {
+  archive("name", share.name);
+  archive("fit", share.fit);
+  archive.optional("fit_interval", share.fit_interval);
+  archive("validate", share.validate);
+  archive.optional("validate_interval", share.validate_interval);
+}
+
 CATENA_FIELDS(Dependence, on, share)
 void fields(auto& archive, Is<MissingForce> auto& force) {
   archive("experiment", force.experiment);
@@ -311,6 +319,8 @@ void fields(auto& archive, Is<Diagnosis> auto& diagnosis) {
   archive("rounds", diagnosis.rounds);
   archive("effects", diagnosis.effects);
   archive("parameters", diagnosis.parameters);
+  archive.optional("shares", diagnosis.shares);
+  archive.optional("certain", diagnosis.certain);
   archive("members", diagnosis.members);
   archive("undecided", diagnosis.undecided);
   archive("forms", diagnosis.forms);

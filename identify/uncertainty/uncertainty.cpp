@@ -191,24 +191,23 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     throw std::runtime_error("fewer measured values (" + std::to_string(count) +
                              ") than unknowns (" + std::to_string(unknowns) + ")");
   const VectorXd r = pseudo_residuals(problem, residuals.value.cwiseProduct(weights));
-  const ShootingDefects defects =
-      shooting_defects_of(problem, evaluation);  // of joined windows: they bind the starts
+  const SoftConstraints constraints = constraints_of(problem, evaluation);
 
   Uncertainty out;
   out.noise = expected_noise > 0
                   ? expected_noise
                   : std::sqrt(r.squaredNorm() /
-                              static_cast<double>(count - unknowns + defects.value.size()));
+                              static_cast<double>(count - unknowns + constraints.value.size()));
   if (!(out.noise > 0)) out.noise = std::numeric_limits<double>::min();
   jacobian /= out.noise;
-  MatrixXd with_defects(count + defects.value.size(), unknowns);
-  with_defects << jacobian,
-      defects.weight.asDiagonal() * defects.jacobian * range.asDiagonal() / out.noise;
-  const SingularDirections all = singular_directions(with_defects);
+  MatrixXd with_constraints(count + constraints.value.size(), unknowns);
+  with_constraints << jacobian,
+      constraints.weight.asDiagonal() * constraints.jacobian * range.asDiagonal() / out.noise;
+  const SingularDirections all = singular_directions(with_constraints);
   out.singular_values = all.values;
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
   const double largest =
-      defects.value.size() ? singular_directions(jacobian).values[0] : out.singular_values[0];
+      constraints.value.size() ? singular_directions(jacobian).values[0] : out.singular_values[0];
   const double smallest = 1e-6 * largest;
   Index rank = 0;
   while (rank < unknowns && out.singular_values[rank] > smallest) ++rank;
@@ -225,9 +224,13 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
         pairs > 0 && std::abs(autocorrelation) > 2.58 / std::sqrt(static_cast<double>(pairs));
     if (out.autocorrelated) {
       const double rho = std::clamp(autocorrelation, -0.97, 0.97);
-      covariance = inverse * autoregressive_middle(residuals, jacobian, rho) * inverse;
+      const MatrixXd known_before = with_constraints.bottomRows(constraints.priors);
+      const MatrixXd of_priors = known_before.transpose() * known_before;
+      covariance =
+          inverse * (autoregressive_middle(residuals, jacobian, rho) + of_priors) * inverse;
       const VectorXd robust =
-          (inverse * robust_middle(residuals, jacobian, r / out.noise, rho) * inverse).diagonal();
+          (inverse * (robust_middle(residuals, jacobian, r / out.noise, rho) + of_priors) * inverse)
+              .diagonal();
       // The robust estimate scatters; where it is far above, markers are correlated or autocorrelation
       // lasts longer than AR(1) knows.
       constexpr double kFarAbove = 2;

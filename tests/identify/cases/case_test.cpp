@@ -120,6 +120,11 @@ duration = 4.0
 step = 0.002
 relative_tolerance = 1e-07
 max_steps = 5000
+
+[diagnosis]
+good_enough = "0.002 m"
+possible = ["steady_wind"]
+impossible = ["scale", "camera_tilt"]
 )";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -158,6 +163,46 @@ TEST_CASE("a case is read as it stands") {
   CHECK(the_case.error.loss == Loss::kHuber);
   CHECK(the_case.optimiser.growing_windows.size() == 2);
   CHECK(the_case.simulation.max_steps == 5000);
+}
+
+TEST_CASE("a tolerance is a number and a unit, and a diagnosis names effects") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const auto diagnosis = [&](const std::string& good_enough) {
+    return parse_case(replaced(kWhole, "\"0.002 m\"", good_enough), "case.toml", folder.path())
+        .diagnosis;
+  };
+  CHECK(diagnosis("\"2 mm\"").good_enough == doctest::Approx(0.002));
+  CHECK(diagnosis("\"3 mrad\"").good_enough == doctest::Approx(0.003));
+  CHECK(diagnosis("\"2 mm\"").impossible == std::vector<std::string>{"scale", "camera_tilt"});
+  for (const char* wrong : {"\"2\"", "\"2 miles\"", "\"-2 mm\"", "\"2 mm or so\"", "\"\""})
+    CHECK(failure([&] { diagnosis(wrong); }).find("diagnosis.good_enough") != std::string::npos);
+}
+
+TEST_CASE("a standard deviation needs a free parameter, least squares and the noise") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const auto read = [&](const std::string& text) {
+    return parse_case(text, "case.toml", folder.path());
+  };
+  const std::string known =
+      replaced(kWhole, "value = 0.1\n", "value = 0.1\nstandard_deviation = 0.02\n");
+  CHECK(read(known).parameters[0].measured == 0.1);
+  CHECK(read(replaced(known, "standard_deviation", "measured = 0.3\nstandard_deviation"))
+            .parameters[0]
+            .measured == 0.3);
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    const std::string message = failure([&] { read(text); });
+    CAPTURE(message);
+    CHECK(message.find("standard_deviation") != std::string::npos);
+    CHECK(message.find(why) != std::string::npos);
+  };
+  refused(replaced(known, "free = true\n", ""), "say free = true");
+  const std::string loss = "\nloss = \"huber\"\nloss_scale = 2.5";
+  refused(replaced(replaced(known, loss, ""), "noise = 0.001\n", ""), "states none");
+  refused(replaced(known, "measure = \"least_squares\"\nloss = \"huber\"\nloss_scale = 2.5",
+                   "measure = \"likelihood\""),
+          "only the measure least_squares");
 }
 
 TEST_CASE("what is written is read back the same") {

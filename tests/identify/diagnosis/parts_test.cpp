@@ -221,7 +221,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the built-in effects as candidates: amplitudes, shapes, phases, limits and forms") {
-  const auto library = catena::library_of_candidates({}, catena::plain_chain());
+  const auto library = catena::library_of_candidates({}, catena::plain_chain(), {});
   const auto find = [&](const std::string& id) {
     const auto found =
         std::find_if(library.begin(), library.end(), [&](const auto& c) { return c.id == id; });

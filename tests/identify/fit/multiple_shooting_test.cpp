@@ -98,7 +98,7 @@ TEST_CASE(
   CHECK(found.error == doctest::Approx(kNoise).epsilon(0.05));
   const Evaluation evaluation = evaluate(joined, found.x, false, true);
   REQUIRE(evaluation.ok);
-  const ShootingDefects defects = shooting_defects_of(joined, evaluation);
+  const SoftConstraints defects = shooting_defects_of(joined, evaluation);
   CHECK(defects.value.size() == 15 * 4);
   CHECK(defects.value.cwiseAbs().maxCoeff() < 1e-5);  // one motion, not pieces
   const Uncertainty uncertainty = uncertainty_of(joined, found.x);
@@ -121,7 +121,7 @@ TEST_CASE(
 TEST_CASE("derivatives of the shooting defects agree with differences") {
   const Problem problem = arms(0.5, true);
   const Eigen::VectorXd x = problem.start();
-  const ShootingDefects defects = shooting_defects_of(problem, evaluate(problem, x, false, true));
+  const SoftConstraints defects = shooting_defects_of(problem, evaluate(problem, x, false, true));
   REQUIRE(defects.jacobian.cols() == x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double h = 1e-4 * std::max(std::abs(x[j]), 1e-2);

@@ -201,7 +201,7 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
             {"shapes", "frames", "position_angle", "residuals", "error_over_time", "residual_map",
              "spectrum_angle"}},
         Row{made_diagnosis(),
-            with(seen, {"gap", "scores", "before_after_error", "before_after_position",
+            with(seen, {"gap", "shares", "scores", "before_after_error", "before_after_position",
                         "residual_map_before", "residual_map_after", "before_after_spectrum",
                         "missing_force"})}}) {
     const auto figures = report_figures(read(row.result));

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace catena {
+
+class DiagnosisState;
+
+/// A share with its 95 % interval; 1 is the whole misfit of the model without effects.
+struct ShareInterval {
+  double share = 0, lower = 0, upper = 0;
+};
+
+/// What one effect takes away of the misfit.
+struct EffectShare {
+  std::string effect;
+  ShareInterval fitted, held_out;
+};
+
+/// How the misfit of the model without effects, with the last number of links, divides among the
+/// effects found and what they leave. The misfit is the mean square of the residuals over the noise,
+/// less one.
+///
+/// An effect explains more or less by the order in which effects are added. Its share is the mean
+/// over all orders (Shapley value). That needs a fit with every subset of the effects.
+///
+/// The intervals come from a moving-block bootstrap: blocks of frames are drawn again from the
+/// residuals of all these fits together. They say how much the shares depend on this stretch of
+/// motion. They do not say whether the effects are the right ones.
+struct Shares {
+  std::vector<EffectShare> effects;          ///< in the order found
+  ShareInterval left_fitted, left_held_out;  ///< what is left with all of them
+  bool has_held_out = false;
+  bool empty() const { return effects.empty(); }
+};
+
+/// Shares of the effects of `state.found.final`. Empty without effects, and where the model with some
+/// of them cannot be fitted. Throws Interrupted.
+Shares shares_of(DiagnosisState& state);
+
+/// For every subset of the effects (bit i of the index: effect i is in it) the residuals of each
+/// experiment, channels x frames; NaN where nothing was measured.
+using SubsetResiduals = std::vector<std::vector<Eigen::MatrixXd>>;
+
+/// One interval per effect, then that of what is left. `seed`: of the bootstrap. Empty where the
+/// model without effects leaves no misfit.
+std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
+                                           const std::vector<double>& sigmas, unsigned seed);
+
+}  // namespace catena

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Parameters that were measured before, with a standard deviation.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "identify/fit/error.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/recordings.hpp"
+
+using namespace catena;
+
+namespace {
+
+constexpr double kNoise = 1e-3, kTruth = 0.1;
+
+/// Two links filmed for 2 s; the stiffness was measured before, 20 % too large.
+Problem problem(double standard_deviation) {
+  Case the_case = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(the_case, "run");
+  the_case.experiments[0].noise = kNoise;
+  Case truth = the_case;
+  truth.parameters[0].value = kTruth;
+  truth.parameters[1].value = 0.005;
+  const Recording film = testing::with_truth(
+      truth, Model::built_in(2), testing::empty_markers({0.5, 1.0}, 60, 1.0 / 30), kNoise);
+  the_case.parameters[0].measured = 1.2 * kTruth;
+  the_case.parameters[0].standard_deviation = standard_deviation;
+  return Problem(the_case, Model::built_in(2), {film});
+}
+
+}  // namespace
+
+TEST_CASE("what is known exactly stays, what is hardly known follows the data, in between by weight") {
+  const auto found = [](double standard_deviation) {
+    const Problem known = problem(standard_deviation);
+    const FitResult result = fit_least_squares(known, {});
+    return std::pair(result.x[0], uncertainty_of(known, result.x).estimates[0].standard_error);
+  };
+  const auto [free, error_of_data] = found(kNotGiven);
+  CHECK(free == doctest::Approx(kTruth).epsilon(0.05));
+  CHECK(found(1e-7).first == doctest::Approx(1.2 * kTruth).epsilon(1e-5));
+  CHECK(found(10).first == doctest::Approx(free).epsilon(1e-3));
+  // A prior as sure as the data: half-way, with an error smaller by the root of two.
+  const auto [between, error] = found(error_of_data);
+  CHECK(between == doctest::Approx((free + 1.2 * kTruth) / 2).epsilon(0.02));
+  CHECK(error == doctest::Approx(error_of_data / std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("the gradient of the error counts the prior") {
+  const Problem known = problem(0.01);
+  Eigen::VectorXd x = known.start(), gradient;
+  const auto error = [&](const Eigen::VectorXd& at) {
+    return error_of(known, evaluate(known, at, false, false), Part::kFit);
+  };
+  error_and_gradient(known, misfit_of(known, evaluate(known, x, false, true)), gradient);
+  const double step = 1e-5 * x[0];
+  Eigen::VectorXd above = x, below = x;
+  above[0] += step;
+  below[0] -= step;
+  CHECK(gradient[0] == doctest::Approx((error(above) - error(below)) / (2 * step)).epsilon(1e-4));
+}
+
+TEST_CASE("a case written at the fitted values keeps what was measured before") {
+  const Problem known = problem(0.01);
+  Eigen::VectorXd x = known.start();
+  x[0] = 0.11;
+  CHECK(known.with(x).parameters[0].value == 0.11);
+  CHECK(known.with(x).parameters[0].measured == doctest::Approx(1.2 * kTruth));
+}
