@@ -57,5 +57,7 @@ TEST_CASE("what the case calls impossible is not looked for, and must be an effe
   CHECK(why_not("pivot_damping", the_case) == "the case says that it is impossible");
   CHECK(why_not("pivot_stiffness", the_case) == "");
   the_case.diagnosis.impossible = {"pivot_dampign"};
-  CHECK(failure([&] { library_of_candidates({}, plain_chain(), the_case); }).find("did you mean \"pivot_damping\"?") != std::string::npos);
+  CHECK(failure([&] {
+          library_of_candidates({}, plain_chain(), the_case);
+        }).find("did you mean \"pivot_damping\"?") != std::string::npos);
 }

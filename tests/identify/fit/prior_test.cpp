@@ -33,7 +33,8 @@ Problem problem(double standard_deviation) {
 
 }  // namespace
 
-TEST_CASE("what is known exactly stays, what is hardly known follows the data, in between by weight") {
+TEST_CASE(
+    "what is known exactly stays, what is hardly known follows the data, in between by weight") {
   const auto found = [](double standard_deviation) {
     const Problem known = problem(standard_deviation);
     const FitResult result = fit_least_squares(known, {});
