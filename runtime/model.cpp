@@ -44,10 +44,13 @@ std::string fault_of(const catena_model* table) {
       table->signals < 0 || table->parameters < 0 || table->terms < 0 || table->energies < 0)
     return "its counts of links, coordinates, states, signals, parameters, terms or energies are "
            "impossible";
+  // A table for fits has no terms, no energies and not what only results need.
+  const bool for_fits = table->terms == 0 && table->energies == 0;
   const bool complete =
-      table->residual && table->residual_tangent && table->residual_term && table->mass_matrix &&
-      table->bias && table->acceleration && table->accelerations && table->energy &&
-      table->positions && table->positions_tangent && table->velocities && table->internal_forces &&
+      table->residual && table->residual_tangent && table->acceleration && table->accelerations &&
+      table->positions && table->positions_tangent && table->velocities &&
+      (for_fits || (table->residual_term && table->mass_matrix && table->bias && table->energy &&
+                    table->internal_forces)) &&
       (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
       (table->structured == 0 || (table->newton_factor && table->newton_solve)) &&
       (table->observes == 0 ||

@@ -37,15 +37,21 @@ int force_index(const Symbol& variable) {
 
 }  // namespace
 
-Chain::Chain(const Description& description, int links, const std::string& only_term)
+Chain::Chain(const Description& description, int links, const std::string& only_term,
+             EffectForces effect_forces)
     : description_(description),
       links_(links),
       only_term_(only_term),
-      time_(definitions_, rate_family) {
+      time_(definitions_, rate_family),
+      forces_(effect_forces) {
   make_inputs();
   make_kinematics();
   add_chain_terms();
-  for (const Effect& effect : description_.effects) add_effect_terms(effect);
+  for (const Effect& effect : description_.effects) {
+    if (forces_ == EffectForces::kApart) apart_ = effect.id;
+    add_effect_terms(effect);
+  }
+  apart_.clear();
   pull_back();
   add_support_power();
   add_sensors();
@@ -204,7 +210,25 @@ void Chain::make_kinematics() {
 }
 
 void Chain::add_generalised_force(const ex& variable, const ex& force) {
-  generalised_force_[definitions_.number_of(variable)] += force;
+  add_generalised_force(definitions_.number_of(variable), force);
+}
+
+void Chain::add_generalised_force(int variable, const ex& force) {
+  ex& sum = apart_.empty() ? generalised_force_[variable] : force_of_effect_[variable][apart_];
+  sum += force;
+}
+
+// The force of a variable, those of effects under names of their own.
+ex Chain::generalised_force_of(int variable) {
+  ex force = generalised_force_[variable];
+  const Symbol symbol = definitions_[variable];
+  for (const auto& [effect, part] : force_of_effect_[variable]) {
+    const ex named =
+        definitions_.define(effect + "_" + force_family(symbol.family), force_index(symbol), part);
+    if (GiNaC::is_a<GiNaC::symbol>(named)) effect_forces_.insert(definitions_.number_of(named));
+    force += named;
+  }
+  return force;
 }
 
 void Chain::add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part) {
@@ -224,8 +248,8 @@ void Chain::add_kinetic(const std::string& item, const ex& energy) {
     const Symbol symbol = definitions_[number];
     const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
     const auto rate = variable_of_rate_.find(number);
-    if (rate != variable_of_rate_.end()) generalised_force_[rate->second] += time_.of(derivative);
-    if (variables_.count(number)) generalised_force_[number] -= derivative;
+    if (rate != variable_of_rate_.end()) add_generalised_force(rate->second, time_.of(derivative));
+    if (variables_.count(number)) add_generalised_force(number, -derivative);
     if (symbol.family == "sine") {
       add_generalised_force(theta_[symbol.index], -derivative * cosine_[symbol.index]);
     } else if (symbol.family == "cosine") {
@@ -240,7 +264,7 @@ void Chain::add_potential(const std::string& item, const ex& energy) {
   for (const int number : definitions_.symbols_of(energy)) {
     const Symbol symbol = definitions_[number];
     const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
-    if (variables_.count(number)) generalised_force_[number] += derivative;
+    if (variables_.count(number)) add_generalised_force(number, derivative);
     if (symbol.family == "sine") {
       add_generalised_force(theta_[symbol.index], derivative * cosine_[symbol.index]);
     } else if (symbol.family == "cosine") {
@@ -257,7 +281,7 @@ void Chain::add_dissipation(const std::string& item, const ex& function) {
     if (rate == variable_of_rate_.end()) continue;
     const ex symbol = definitions_[number].symbol;
     const ex derivative = function.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
-    generalised_force_[rate->second] += derivative;
+    add_generalised_force(rate->second, derivative);
     power += symbol * derivative;
   }
   add_energy(item, EnergyItem::kDissipated, power);
@@ -324,12 +348,13 @@ void Chain::pull_back() {
   // Later variables are functions of earlier ones, so the last one comes first.
   for (auto variable = variables_.rbegin(); variable != variables_.rend(); ++variable) {
     const int number = *variable;
-    const auto found = generalised_force_.find(number);
-    if (definitions_[number].is_input || found == generalised_force_.end()) continue;
+    if (definitions_[number].is_input ||
+        (!generalised_force_.contains(number) && !force_of_effect_.contains(number)))
+      continue;
     const Symbol symbol = definitions_[number];
-    const ex force =
-        definitions_.define(force_family(symbol.family), force_index(symbol), found->second);
-    found->second = force;
+    const ex force = definitions_.define(force_family(symbol.family), force_index(symbol),
+                                         generalised_force_of(number));
+    generalised_force_[number] = force;
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       const Symbol below = definitions_[argument];
       const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(below.symbol));
@@ -344,7 +369,7 @@ void Chain::pull_back() {
   }
   for (const ex& q : coordinates_) {
     const Symbol symbol = definitions_[definitions_.number_of(q)];
-    residual_.push_back(definitions_.named(generalised_force_[definitions_.number_of(q)],
+    residual_.push_back(definitions_.named(generalised_force_of(definitions_.number_of(q)),
                                            "residual_" + symbol.family, symbol.index));
   }
   for (Link i = 1; i <= links_; ++i) {

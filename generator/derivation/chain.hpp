@@ -39,11 +39,15 @@ struct EnergyItem {
   std::vector<GiNaC::ex> parts;  ///< to be summed
 };
 
+/// kApart: the generalised forces of every effect are definitions of their own.
+enum class EffectForces { kMerged, kApart };
+
 class Chain {
  public:
   /// Derives the equations. `only_term` is empty for all terms; otherwise it names the only one
   /// that is kept: "kinetic", "gravity", "elastic", "friction", "torque" or the id of an effect.
-  Chain(const Description& description, int links, const std::string& only_term = "");
+  Chain(const Description& description, int links, const std::string& only_term = "",
+        EffectForces effect_forces = EffectForces::kMerged);
 
   Definitions& definitions() { return definitions_; }
   int links() const { return links_; }
@@ -67,6 +71,8 @@ class Chain {
   GiNaC::ex rate(const GiNaC::ex& expression) { return time_.of(expression); }
 
   const std::vector<EnergyItem>& energies() const { return energies_; }
+  /// Whether a definition is the generalised force of one effect (EffectForces::kApart).
+  bool is_effect_force(int number) const { return effect_forces_.contains(number); }
   /// Joint moments, link tensions, curvatures (see catena_model.h), links entries each.
   const std::vector<GiNaC::ex>& moments() const { return moments_; }
   const std::vector<GiNaC::ex>& tensions() const { return tensions_; }
@@ -101,6 +107,8 @@ class Chain {
   void add_force(const std::string& item, const std::vector<Component>& components);
   void add_energy(const std::string& item, EnergyItem::Kind kind, const ex& part);
   void add_generalised_force(const ex& variable, const ex& force);
+  void add_generalised_force(int variable, const ex& force);
+  ex generalised_force_of(int variable);
   ex spacing(Link i) const;
   ex define_variable(const std::string& family, int index, const ex& value);
 
@@ -142,6 +150,10 @@ class Chain {
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y
   std::map<int, ex> generalised_force_;  ///< number of y -> its generalised force
+  std::string apart_;  ///< the effect whose forces are being added apart; empty: none
+  std::map<int, std::map<std::string, ex>> force_of_effect_;  ///< number of y -> effect -> force
+  std::set<int> effect_forces_;                               ///< numbers of their definitions
+  EffectForces forces_;
 };
 
 }  // namespace catena

@@ -35,7 +35,7 @@ void add(Form& form, const Basis& basis, const ex& coefficient) {
 class Linearisation {
  public:
   Linearisation(Chain& chain, const Weights& weights)
-      : definitions_(chain.definitions()), weights_(weights), links_(chain.links()) {
+      : chain_(chain), definitions_(chain.definitions()), weights_(weights), links_(chain.links()) {
     for (size_t k = 0; k < chain.states().size(); ++k) {
       state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
     }
@@ -186,13 +186,24 @@ class Linearisation {
         form[{Basis::kCarriedUp, symbol.family, symbol.index}] = 1;
       } else {
         for (const auto& [basis, coefficient] : inner) {
-          // Functions and roots in derivatives get names too.
-          add(form, basis, definitions_.named(coefficient, symbol.family + "_slope", symbol.index));
+          // Functions and roots in derivatives get names too; the slope of a force apart is apart.
+          add(form, basis,
+              chain_.is_effect_force(number)
+                  ? definitions_.define(slope_family(symbol, basis), symbol.index, coefficient)
+                  : definitions_.named(coefficient, symbol.family + "_slope", symbol.index));
         }
       }
     }
     known_[number] = form;
     return form;
+  }
+
+  // A name that is the same at every link.
+  static std::string slope_family(const Symbol& symbol, const Basis& basis) {
+    const std::string by = basis.family.empty() ? "angle" : basis.family;
+    if (symbol.index == kNoIndex || basis.index == symbol.index)
+      return symbol.family + "_slope_by_" + by;
+    return symbol.family + "_slope_by_" + by + (basis.index < symbol.index ? "_before" : "_after");
   }
 
   // delta z = cv (f' u + df/dz delta z), f' the change of the rate f with z held.
@@ -217,6 +228,7 @@ class Linearisation {
     return form;
   }
 
+  const Chain& chain_;
   Definitions& definitions_;
   Weights weights_;
   int links_;

@@ -99,23 +99,25 @@ std::string summary_name(const std::string& model, Language language) {
 
 EmittedFiles emit_any_links_files(const Description& description) {
   EmittedFiles files = support_text();
+  files.erase("any_nonzero.hpp");
   files.merge(emit_any_links(description));
   return files;
 }
 
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
-                        std::optional<Layout> layout, Language language) {
+                        std::optional<Layout> layout, Language language, FunctionSet set) {
   const bool c = language == Language::kC;
   EmittedFiles files = support_text();
   files.erase("any_links.hpp");
+  if (set == FunctionSet::kAll) files.erase("any_nonzero.hpp");
   if (c) files = {{"catena_model.h", files.at("catena_model.h")}};
   std::vector<std::string> names;
   for (const int n : links) {
     const auto start = std::chrono::steady_clock::now();
     const Layout chosen = layout.value_or(layout_for(n));
     EmittedModel model =
-        c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen);
+        c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen, set);
     const std::string name = model.summary.name;
     names.push_back(name);
     files.merge(model.files);

@@ -23,12 +23,12 @@ using EmittedFiles = std::map<std::string, std::string>;
 /// a summary of what was found (summary_name).
 /// `library`: also the look-up of all of them (models.hpp, models.cpp) and the list for CMake; in
 /// C++, for a description without effects, with the model for any number of links.
-/// `progress` is told of each model. `layout`: for all of them; else layout_for each.
+/// `progress` is told of each model. `layout`: for all of them; else layout_for each. `set`: in C++.
 /// Throws InputError for an effect that the chain cannot have.
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
                         std::optional<Layout> layout = std::nullopt,
-                        Language language = Language::kCpp);
+                        Language language = Language::kCpp, FunctionSet set = FunctionSet::kAll);
 
 /// The model for any number of links (any_links_writer.hpp) and what is needed to compile it, in C++.
 /// Throws InputError where the equations change with the number in more than bounds of loops.

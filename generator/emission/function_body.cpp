@@ -35,6 +35,9 @@ struct Family {
   bool is_output = false;
   bool along = false;  // depends on a differential
   int sweep = -1;
+  std::string adds_to;   // the family whose values this one adds to; empty: it has its own
+  std::set<int> guard;   // switches of which one must be on; empty: always computed
+  bool zero = false;     // read where it was not computed
   bool local = true;     // read only at the same link in the same sweep
   bool carried = false;  // or at the one before, and elsewhere at the sweep's last: see carry()
 };
@@ -63,9 +66,14 @@ std::string family_of(const Output& output) {
 class Body {
  public:
   Body(const Definitions& definitions, const std::vector<Output>& outputs, const Inputs& inputs,
-       Layout layout)
-      : definitions_(definitions), outputs_(outputs), inputs_(inputs), layout_(layout) {
+       Layout layout, std::vector<Switch> switches)
+      : definitions_(definitions),
+        outputs_(outputs),
+        inputs_(inputs),
+        layout_(layout),
+        switches_(std::move(switches)) {
     collect();
+    if (!switches_.empty()) guard();
     for (const auto& [family, input] : inputs)
       has_differentials_ = has_differentials_ || is_differential(input);
   }
@@ -162,24 +170,193 @@ class Body {
       family.is_output = true;
       family.items[output.index] = {name, output.index, output.value, -1, &output};
     }
-    for (Family& family : families_) {
-      for (const auto& [index, item] : family.items) {
-        for (const int number : definitions_.symbols_of(item.value)) {
-          const Symbol& symbol = definitions_[number];
-          if (symbol.is_input && !given(symbol)) {
-            throw std::logic_error("input not declared: " + symbol.family);
-          }
-          if (given(symbol)) continue;
-          const bool relative = index != kNoIndex && symbol.index != kNoIndex;
-          family.dependencies.insert({symbol.family, relative ? symbol.index - index : kUnrelated});
-        }
-      }
-    }
+    for (Family& family : families_) depend(family);
     for (Family& family : families_) {
       for (const auto& [index, item] : family.items)
         family.along = family.along || along(item.value);
     }
     position_ = std::move(position);
+  }
+
+  void depend(Family& family) const {
+    for (const auto& [index, item] : family.items) {
+      for (const int number : definitions_.symbols_of(item.value)) {
+        const Symbol& symbol = definitions_[number];
+        if (symbol.is_input && !given(symbol)) {
+          throw std::logic_error("input not declared: " + symbol.family);
+        }
+        if (given(symbol)) continue;
+        const bool relative = index != kNoIndex && symbol.index != kNoIndex;
+        family.dependencies.insert({symbol.family, relative ? symbol.index - index : kUnrelated});
+      }
+    }
+  }
+
+  // ---- switches -------------------------------------------------------------------------------
+
+  // The switch of an input; -1: it has none.
+  int switch_of(const std::string& family) const {
+    const std::string plain = family.starts_with("d_") ? family.substr(2) : family;
+    for (size_t k = 0; k < switches_.size(); ++k)
+      if (switches_[k].families.contains(plain)) return static_cast<int>(k);
+    return -1;
+  }
+
+  static std::vector<ex> products_of(const ex& sum) {
+    if (!GiNaC::is_a<GiNaC::add>(sum)) return {sum};
+    return {sum.begin(), sum.end()};
+  }
+
+  // The switches of which one must be on for a product not to be zero; empty: it needs none.
+  std::set<int> product_needs(const ex& product) const {
+    std::set<int> fewest;
+    const auto factor = [&](const ex& f) {
+      if (!GiNaC::is_a<GiNaC::symbol>(f)) return;
+      const auto found = needs_.find(definitions_.number_of(f));
+      if (found != needs_.end() && (fewest.empty() || found->second.size() < fewest.size()))
+        fewest = found->second;
+    };
+    const auto power = [&](const ex& f) {
+      if (!GiNaC::is_a<GiNaC::power>(f))
+        factor(f);
+      else if (f.op(1).info(GiNaC::info_flags::posint))
+        factor(f.op(0));
+    };
+    if (GiNaC::is_a<GiNaC::mul>(product))
+      for (const ex& f : product) power(f);
+    else
+      power(product);
+    return fewest;
+  }
+
+  // The same for a sum.
+  std::set<int> needs(const ex& sum) const {
+    std::set<int> all;
+    for (const ex& product : products_of(sum)) {
+      const std::set<int> one = product_needs(product);
+      if (one.empty()) return {};
+      all.insert(one.begin(), one.end());
+    }
+    return all;
+  }
+
+  // Finds which families matter only where a switch is on.
+  void guard() {
+    std::vector<const Item*> items;  // in the order of their numbers, outputs last
+    for (const Family& family : families_)
+      for (const auto& [index, item] : family.items) items.push_back(&item);
+    std::stable_sort(items.begin(), items.end(), [](const Item* a, const Item* b) {
+      return static_cast<unsigned>(a->number) < static_cast<unsigned>(b->number);
+    });
+    for (const Item* item : items) {
+      for (const int number : definitions_.symbols_of(item->value)) {
+        const Symbol& symbol = definitions_[number];
+        if (const int k = switch_of(symbol.family); given(symbol) && k >= 0) needs_[number] = {k};
+      }
+    }
+    for (const Item* item : items) {
+      if (item->output != nullptr) continue;
+      if (std::set<int> needs = this->needs(item->value); !needs.empty())
+        needs_[item->number] = std::move(needs);
+    }
+    // From the outputs back: a product that is zero asks for none of its factors.
+    std::map<int, std::set<int>> guards;
+    std::set<int> always;
+    for (auto it = items.rbegin(); it != items.rend(); ++it) {
+      const Item& item = **it;
+      const bool is_always = item.output != nullptr || always.contains(item.number);
+      for (const ex& product : products_of(item.value)) {
+        const std::set<int> asked = product_needs(product);
+        for (const int number : definitions_.symbols_of(product)) {
+          if (!asked.empty())
+            guards[number].insert(asked.begin(), asked.end());
+          else if (is_always)
+            always.insert(number);
+          else
+            guards[number].insert(guards[item.number].begin(), guards[item.number].end());
+        }
+      }
+    }
+    for (Family& family : families_) {
+      bool is_always = family.is_output;
+      for (const auto& [index, item] : family.items) {
+        is_always = is_always || always.contains(item.number);
+        family.guard.insert(guards[item.number].begin(), guards[item.number].end());
+      }
+      if (is_always) family.guard.clear();
+    }
+    split();
+    for (const Family& reader : families_)
+      for (const Dependency& d : reader.dependencies) {
+        Family& read = families_[position_.at(d.family)];
+        const bool only_there =
+            !reader.guard.empty() && std::includes(read.guard.begin(), read.guard.end(),
+                                                   reader.guard.begin(), reader.guard.end());
+        if (!read.guard.empty() && !only_there) read.zero = true;
+      }
+  }
+
+  // What a family adds up only where a switch is on becomes a family of its own, which adds it.
+  void split() {
+    const size_t count = families_.size();
+    for (size_t k = 0; k < count; ++k) {
+      const std::string name = families_[k].name;
+      const bool chained =
+          std::any_of(families_[k].dependencies.begin(), families_[k].dependencies.end(),
+                      [&](const Dependency& d) { return d.family == name; });
+      if (chained) continue;
+      std::map<std::set<int>, Family> parts;
+      for (auto& [index, item] : families_[k].items) {
+        ex rest = 0;
+        std::map<std::set<int>, ex> sums;
+        for (const ex& product : products_of(item.value)) {
+          const std::set<int> needs = product_needs(product);
+          const std::set<int>& guard = families_[k].guard;
+          const bool apart = !needs.empty() && needs != guard &&
+                             (guard.empty() || std::includes(guard.begin(), guard.end(),
+                                                             needs.begin(), needs.end()));
+          (apart ? sums[needs] : rest) += product;
+        }
+        item.value = rest;
+        for (auto& [needs, sum] : sums) {
+          Item& part = parts[needs].items[index];
+          part = item;
+          part.value = sum;
+        }
+      }
+      if (parts.empty()) continue;
+      families_[k].dependencies.clear();
+      depend(families_[k]);
+      for (auto& [needs, part] : parts) {
+        part.name = name + "+" + std::to_string(families_.size());
+        part.adds_to = name;
+        part.guard = needs;
+        part.is_output = true;
+        part.dependencies.insert({name, 0});
+        depend(part);
+        adding_[name].push_back(part.name);
+        position_[part.name] = families_.size();
+        families_.push_back(std::move(part));
+      }
+    }
+    // Who reads a sum reads all of it.
+    for (Family& family : families_) {
+      const std::set<Dependency> direct = family.dependencies;
+      for (const Dependency& d : direct) {
+        if (d.family == family.adds_to) continue;
+        if (const auto found = adding_.find(d.family); found != adding_.end())
+          for (const std::string& part : found->second)
+            family.dependencies.insert({part, d.offset});
+      }
+    }
+  }
+
+  // The inputs of a guard that this function has.
+  std::vector<std::string> numbers_of(const std::set<int>& guard) const {
+    std::vector<std::string> names;
+    for (const auto& [rank, family] : used_inputs_)
+      if (guard.contains(switch_of(family))) names.push_back(family);
+    return names;
   }
 
   bool along(const ex& value) {
@@ -209,14 +386,16 @@ class Body {
                        [&](const Dependency& d) { return done(d.family); });
   }
 
-  std::vector<size_t> sweep_in(int direction) const {
+  std::vector<size_t> sweep_in(int direction, const std::set<int>& guard) const {
     std::vector<size_t> included;
     std::set<std::string> names;
     for (bool grown = true; grown;) {
       grown = false;
       for (size_t k = 0; k < families_.size(); ++k) {
         const Family& family = families_[k];
-        if (family.sweep >= 0 || names.count(family.name) || family.items.count(kNoIndex)) continue;
+        if (family.sweep >= 0 || names.count(family.name) || family.items.count(kNoIndex) ||
+            family.guard != guard)
+          continue;
         const bool fits = std::all_of(
             family.dependencies.begin(), family.dependencies.end(), [&](const Dependency& d) {
               if (done(d.family)) return true;
@@ -284,6 +463,14 @@ class Body {
     });
   }
 
+  // Of the families that have no sweep yet; what is always computed first.
+  std::set<std::set<int>> open_guards() const {
+    std::set<std::set<int>> guards;
+    for (const Family& family : families_)
+      if (family.sweep < 0) guards.insert(family.guard);
+    return guards;
+  }
+
   void schedule() {
     for (;;) {
       bool open = false, alone = false;
@@ -297,7 +484,12 @@ class Body {
       }
       if (!open) break;
       if (alone) continue;
-      const auto forward = sweep_in(1), backward = sweep_in(-1);
+      std::vector<size_t> forward, backward;
+      for (const std::set<int>& guard : open_guards()) {
+        forward = sweep_in(1, guard);
+        backward = sweep_in(-1, guard);
+        if (!forward.empty() || !backward.empty()) break;
+      }
       if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
       const int direction = forward.size() >= backward.size() ? 1 : -1;
       const auto& members = direction > 0 ? forward : backward;
@@ -357,10 +549,15 @@ class Body {
     return {symbol.family, std::move(place), input && input->kind == InputKind::kArray};
   }
 
-  Assignment assignment(const Item& item, Sum value) {
+  Assignment assignment(const Item& item, Sum value, bool adds = false) {
     // In a function of differentials what depends on none is a constant, mostly zero.
     return {item.output->array, item.output->place, std::move(value),
-            has_differentials_ && !along(item.value)};
+            has_differentials_ && !along(item.value), adds};
+  }
+
+  // Whether a family without an index is more than a name for one value.
+  bool is_changed(const Family& family) const {
+    return !family.guard.empty() || adding_.contains(family.name);
   }
 
   static Statement at_link(Statement statement, int link) {
@@ -369,12 +566,19 @@ class Body {
   }
 
   // The statement of an item of a sweep, relative to its link.
-  Statement statement(const Item& item, const ReadSymbol& read) {
+  Statement statement(const Item& item, const ReadSymbol& read, bool adds) {
     Sum value = polynomial(definitions_, item.value, item.index, read);
-    if (item.output != nullptr) return assignment(item, std::move(value));
+    if (item.output != nullptr) return assignment(item, std::move(value), adds);
     const Family& family = families_[position_.at(item.family)];
     if (item.index != kNoIndex && !family.local && !family.carried)
-      return Assignment{{"", family.name, {}}, ArrayPlace{{}, true, 0}, std::move(value)};
+      return Assignment{{"", family.name, {}},
+                        ArrayPlace{{}, true, 0},
+                        std::move(value),
+                        family.along && !along(item.value),
+                        adds};
+    if (item.index == kNoIndex && is_changed(family))
+      return Assignment{
+          {"", family.name, {}}, {}, std::move(value), family.along && !along(item.value), adds};
     return NamedValue{type_of(family), family.name, std::move(value)};
   }
 
@@ -398,7 +602,8 @@ class Body {
     Statements statements;
     for (const size_t k : sweep.families) {
       const auto item = families_[k].items.find(link);
-      if (item != families_[k].items.end()) statements.push_back(statement(item->second, read));
+      if (item != families_[k].items.end())
+        statements.push_back(statement(item->second, read, !families_[k].adds_to.empty()));
     }
     for (const size_t k : sweep.families) {
       const Family& family = families_[k];
@@ -410,8 +615,35 @@ class Body {
   }
 
   void write_sweep(const Sweep& sweep) {
+    const std::set<int>& guard = families_[sweep.families.front()].guard;
+    Statements statements;
+    write_statements(sweep, guard.empty() ? body_ : statements);
+    if (!guard.empty()) add_block({std::move(statements), numbers_of(guard)});
+  }
+
+  // Blocks of one guard become one; declarations go before it.
+  void add_block(Block block) {
+    auto declared = body_.end();
+    while (declared != body_.begin() && std::holds_alternative<Variable>(*(declared - 1)))
+      --declared;
+    Block* last = declared == body_.begin() ? nullptr : std::get_if<Block>(&*(declared - 1));
+    if (last == nullptr || last->unless_zero != block.unless_zero) {
+      body_.emplace_back(std::move(block));
+      return;
+    }
+    last->body.insert(last->body.end(), std::make_move_iterator(block.body.begin()),
+                      std::make_move_iterator(block.body.end()));
+    std::rotate(declared - 1, declared, body_.end());
+  }
+
+  // Declarations go to the body of the function.
+  void write_statements(const Sweep& sweep, Statements& out) {
     if (sweep.direction == 0) {
-      for (Statement& one : of_link(sweep, kNoIndex)) body_.push_back(std::move(one));
+      for (const size_t k : sweep.families)
+        if (is_changed(families_[k]) && !families_[k].is_output)
+          body_.push_back(
+              Variable{type_of(families_[k]), families_[k].name, {}, families_[k].zero});
+      for (Statement& one : of_link(sweep, kNoIndex)) out.push_back(std::move(one));
       return;
     }
     int first = 1'000'000, last = -1;
@@ -424,7 +656,7 @@ class Body {
       if (family.carried) {
         body_.push_back(Variable{type_of(family), family.name + "_last", {}});
       } else if (!family.is_output && !family.local) {
-        body_.push_back(Variable{type_of(family), family.name, largest + 1});
+        body_.push_back(Variable{type_of(family), family.name, largest + 1, family.zero});
       }
       any_local = any_local || family.carried || (!family.is_output && family.local);
     }
@@ -438,14 +670,14 @@ class Body {
         if (next != here) break;
       }
       if (std::abs(end - link) >= 3) {
-        body_.push_back(Loop{link, end - step, step, std::move(here)});
+        out.push_back(Loop{link, end - step, step, std::move(here)});
       } else if (!here.empty()) {
         for (int k = link; k != end; k += step) {
           Statements one = at_step(here, k);
           if (any_local) {
-            body_.push_back(Block{std::move(one)});
+            out.push_back(Block{std::move(one)});
           } else {
-            for (Statement& statement : one) body_.push_back(std::move(statement));
+            for (Statement& statement : one) out.push_back(std::move(statement));
           }
         }
       }
@@ -459,6 +691,9 @@ class Body {
   const std::vector<Output>& outputs_;
   const Inputs& inputs_;
   Layout layout_;
+  std::vector<Switch> switches_;
+  std::map<int, std::set<int>> needs_;  // number -> it is zero unless one of these is on
+  std::map<std::string, std::vector<std::string>> adding_;  // family -> those that add to it
   bool has_differentials_ = false;
   std::vector<Family> families_;
   std::map<std::string, size_t> position_;
@@ -471,8 +706,9 @@ class Body {
 }  // namespace
 
 Statements function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                         const Inputs& inputs, Layout layout) {
-  Body body(definitions, outputs, inputs, layout);
+                         const Inputs& inputs, Layout layout, const std::vector<Switch>& switches) {
+  Body body(definitions, outputs, inputs, layout,
+            layout == Layout::kStraight ? std::vector<Switch>{} : switches);
   return layout == Layout::kStraight ? body.straight() : body.loops();
 }
 

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,17 @@ enum class Layout {
   kWholeSweeps  ///< such loops uncut: less is stored between them, for scalars that are vectors
 };
 
-/// The statements that compute `outputs`, inputs first.
+/// What need not be computed while some numbers are zero: an effect at its neutral values.
+struct Switch {
+  std::set<std::string> families;  ///< inputs without an index
+};
+
+/// The statements that compute `outputs`, inputs first. Definitions that matter only where a switch
+/// is on (one of its inputs, or their differentials, is not zero) are computed only there; not in
+/// Layout::kStraight.
 /// Throws std::logic_error if the outputs need an input that `inputs` does not have.
 Statements function_body(const Definitions& definitions, const std::vector<Output>& outputs,
-                         const Inputs& inputs, Layout layout);
+                         const Inputs& inputs, Layout layout,
+                         const std::vector<Switch>& switches = {});
 
 }  // namespace catena

@@ -11,19 +11,36 @@ namespace {
 
 std::string differential_family(const std::string& family) { return "d_" + family; }
 
+// An effect is off while all numbers are zero that are so at its neutral values.
+std::vector<Switch> switches_of(const Description& description) {
+  std::vector<Switch> switches;
+  for (const Effect& effect : description.effects) {
+    Switch off;
+    for (const EffectParameter& parameter : effect.parameters)
+      if (parameter.neutral == 0 && parameter.scope == Scope::kModel)
+        off.families.insert(effect.id + "_" + parameter.name);
+    if (!off.families.empty()) switches.push_back(std::move(off));
+  }
+  return switches;
+}
+
 }  // namespace
 
-FunctionBuilder::FunctionBuilder(const Description& description, int links, Layout layout)
+FunctionBuilder::FunctionBuilder(const Description& description, int links, Layout layout,
+                                 FunctionSet set)
     : description_(description),
       links_(links),
       layout_(layout),
-      chain_(description, links),
+      chain_(description, links, "",
+             set == FunctionSet::kFits ? EffectForces::kApart : EffectForces::kMerged),
       definitions_(chain_.definitions()),
       tangent_(definitions_, differential_family),
       at_(inputs_of(description, links, "at", false, Type::kScalar)),
       at_and_along_(at_) {
   at_and_along_.merge(inputs_of(description, links, "along", true, Type::kDifferential));
   for (const char* weight : {"ca", "cv", "cq"}) at_and_along_[weight] = at_[weight] = std::nullopt;
+  result_.set = set;
+  if (!has_all()) switches_ = switches_of(description);
 }
 
 ModelFunctions FunctionBuilder::build() {
@@ -38,20 +55,20 @@ ModelFunctions FunctionBuilder::build() {
   s.parameters = static_cast<int>(table.parameters.size());
   seed_tangent();
   residual();
-  terms();
+  if (has_all()) terms();
   if (s.states > 0) state_rates();
   mass_and_acceleration();
   newton();
-  energy();
+  if (has_all()) energy();
   positions();
-  internal_forces();
+  if (has_all()) internal_forces();
   if (chain_.sensor().given) sensor();
-  adjoint();
+  if (has_all()) adjoint();
   const std::vector<int> used = all_symbols();
   result_.uses_time = s.signals > 0 || std::any_of(used.begin(), used.end(), [&](int number) {
                         return definitions_[number].family == "time";
                       });
-  result_.energies = chain_.energies();
+  if (has_all()) result_.energies = chain_.energies();
   for (const Function& function : result_.functions) {
     if (!function.statements.empty())
       s.functions.push_back({function.name, operations_of(function.statements)});

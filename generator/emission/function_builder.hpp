@@ -17,7 +17,7 @@ namespace catena {
 
 class FunctionBuilder {
  public:
-  FunctionBuilder(const Description& description, int links, Layout layout);
+  FunctionBuilder(const Description& description, int links, Layout layout, FunctionSet set);
 
   /// All of them; to be called once.
   ModelFunctions build();
@@ -41,17 +41,25 @@ class FunctionBuilder {
   void sensor();
 
   // what they share
+  bool has_all() const { return result_.set == FunctionSet::kAll; }
   void seed_tangent();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
   Statements body(const std::vector<Output>& outputs, const Inputs& inputs) {
-    return function_body(definitions_, outputs, inputs, layout_);
+    return function_body(definitions_, outputs, inputs, layout_, switches_);
   }
 
   void add(const std::string& name, const std::string& comment, std::vector<Parameter> parameters,
            Statements statements, Frame frame = Frame::kStatements) {
     result_.functions.push_back(
         {name, comment, std::move(parameters), std::move(statements), frame, true});
+  }
+  /// One that only the table of all functions has.
+  void add_of_all(const std::string& name, const std::string& comment,
+                  std::vector<Parameter> parameters, Statements statements,
+                  Frame frame = Frame::kStatements) {
+    add(name, comment, std::move(parameters), std::move(statements), frame);
+    result_.functions.back().in_table = has_all();
   }
   /// One that the table does not have.
   void add_inner(const std::string& name, const std::string& comment,
@@ -98,6 +106,7 @@ class FunctionBuilder {
   Definitions& definitions_;
   Differential tangent_;
   Inputs at_, at_and_along_;
+  std::vector<Switch> switches_;  ///< of the effects
   ModelFunctions result_;
 };
 

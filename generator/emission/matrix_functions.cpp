@@ -53,7 +53,7 @@ void FunctionBuilder::mass_and_acceleration() {
   ModelSummary& s = result_.summary;
   Substitution bias = without_acceleration(chain_);
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
-  add("bias", "r with a = 0.", {at(), result("h")}, body(from_one("h", h), at_));
+  add_of_all("bias", "r with a = 0.", {at(), result("h")}, body(from_one("h", h), at_));
 
   const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
@@ -67,8 +67,8 @@ void FunctionBuilder::mass_and_acceleration() {
     const auto inertial = each(chain_.residual(), [&](const ex& e) { return along_a.of(e); });
     add_inner("inertial", "M a, of the chain and of every effect.", {at(), result("r")},
               body(from_one("r", inertial), at_));
-    add("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
-        {at(), result("M")}, {}, Frame::kMassColumns);
+    add_of_all("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
+               {at(), result("M")}, {}, Frame::kMassColumns);
     add("acceleration", acceleration_comment, {at(), result("a")}, {}, Frame::kDenseAcceleration);
     return;
   }
@@ -82,14 +82,15 @@ void FunctionBuilder::mass_and_acceleration() {
   result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
                   mass.upper_rank, mass.lower_rank};
   const std::vector<Output> entries = all_entries(mass, symmetric);
-  add("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_), Frame::kMassMatrix);
+  add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
+             Frame::kMassMatrix);
   std::vector<Output> all = entries;
   for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
     all.push_back(output);
   }
   add("acceleration", acceleration_comment, {at(), result("a")}, body(all, at_),
       Frame::kAcceleration);
-  if (layout_ != Layout::kLoops) return;
+  if (layout_ != Layout::kLoops || !has_all()) return;
   result_.accelerations = "accelerations";
   add_inner("accelerations",
             "The same, bit for bit, in the order that suits a T of several numbers.",

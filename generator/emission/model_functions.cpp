@@ -19,35 +19,37 @@ int ModelFunctions::most_links_of_batch() const {
 
 std::vector<TableEntry> ModelFunctions::table_entries() const {
   const bool states = summary.states > 0, structured = summary.structured;
+  const bool all = set == FunctionSet::kAll;
   return {{"residual", true},
           {"residual_tangent", true},
           {"residual_tangents", true},
-          {"residual_adjoint", true},
-          {"residual_term", true},
+          {"residual_adjoint", all},
+          {"residual_term", all},
           {"state_rate", states},
           {"state_rate_tangent", states},
           {"state_rate_tangents", states},
-          {"mass_matrix", true},
-          {"bias", true},
+          {"mass_matrix", all},
+          {"bias", all},
           {"acceleration", true},
           {"accelerations", true},
           {"newton_factor", structured},
           {"newton_solve", structured},
           {"newton_solves", structured},
-          {"newton_solve_transposed", structured},
-          {"energy", true},
+          {"newton_solve_transposed", all && structured},
+          {"energy", all},
           {"positions", true},
           {"positions_tangent", true},
           {"velocities", true},
-          {"internal_forces", true},
+          {"internal_forces", all},
           {"observe", observes},
           {"observe_tangent", observes},
           {"clock", observes},
           {"clock_tangent", observes}};
 }
 
-ModelFunctions model_functions(const Description& description, int links, Layout layout) {
-  return FunctionBuilder(description, links, layout).build();
+ModelFunctions model_functions(const Description& description, int links, Layout layout,
+                               FunctionSet set) {
+  return FunctionBuilder(description, links, layout, set).build();
 }
 
 }  // namespace catena

@@ -77,10 +77,13 @@ struct ModelFunctions {
   /// The function for a T of several numbers: "acceleration", or one in an order of its own.
   std::string accelerations;
   bool uses_time = false, observes = false;
+  FunctionSet set = FunctionSet::kAll;
 
   /// Whether the table has accelerations of a batch of points: not where their arrays would not fit
   /// a thread's stack.
-  bool has_batch() const { return summary.links <= most_links_of_batch(); }
+  bool has_batch() const {
+    return set == FunctionSet::kAll && summary.links <= most_links_of_batch();
+  }
   /// Up to how many links they would fit.
   int most_links_of_batch() const;
   /// Members of the table from `residual` on, in its order.
@@ -89,6 +92,7 @@ struct ModelFunctions {
 
 /// Derives the model. `links`: at least 1.
 /// Throws InputError for an effect that the chain cannot have.
-ModelFunctions model_functions(const Description& description, int links, Layout layout);
+ModelFunctions model_functions(const Description& description, int links, Layout layout,
+                               FunctionSet set = FunctionSet::kAll);
 
 }  // namespace catena

@@ -294,7 +294,9 @@ class TableFunctions {
            "  auto&& matrix = matrix_in" + given("work") + ";\n  " + object() +
            "newton_matrix(point(at), ca, cv, cq, matrix);\n  return matrix.factor();\n}\n" +
            solve("newton_solve", "solve(x)") + solve("newton_solves", "solve(directions(x))") +
-           solve("newton_solve_transposed", "solve_transposed(x)");
+           (model_.set == FunctionSet::kAll
+                ? solve("newton_solve_transposed", "solve_transposed(x)")
+                : "");
   }
 
   std::string batch_text() const {

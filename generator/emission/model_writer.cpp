@@ -26,8 +26,9 @@ std::string header_text(const Description& description, const ModelFunctions& fu
   out << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
-      << structure_text(functions)
-      << "#pragma once\n\n#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include "
+      << structure_text(functions) << "#pragma once\n\n"
+      << (functions.set == FunctionSet::kFits ? "#include \"any_nonzero.hpp\"\n" : "")
+      << "#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include "
          "\"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
   out << "extern \"C\" {\nstruct catena_model;\n}\n\n";
@@ -75,8 +76,8 @@ std::string model_name(const Description& description, int links) {
   return description.id + "_" + std::to_string(links);
 }
 
-EmittedModel emit_model(const Description& description, int links, Layout layout) {
-  const ModelFunctions functions = model_functions(description, links, layout);
+EmittedModel emit_model(const Description& description, int links, Layout layout, FunctionSet set) {
+  const ModelFunctions functions = model_functions(description, links, layout, set);
   EmittedModel model;
   model.summary = functions.summary;
   const std::string name = functions.summary.name;

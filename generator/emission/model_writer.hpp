@@ -31,12 +31,20 @@ struct ModelSummary {
   std::vector<FunctionSummary> functions;
 };
 
+enum class FunctionSet {
+  kAll,
+  /// What a fit calls; the rest of the table is null. An effect at its neutral values costs next to
+  /// nothing: what it computes is left out.
+  kFits
+};
+
 struct EmittedModel {
   ModelSummary summary;
   std::map<std::string, std::string> files;  ///< name -> text: <name>.hpp, <name>.cpp
 };
 
-EmittedModel emit_model(const Description& description, int links, Layout layout);
+EmittedModel emit_model(const Description& description, int links, Layout layout,
+                        FunctionSet set = FunctionSet::kAll);
 
 /// "chain_12"
 std::string model_name(const Description& description, int links);

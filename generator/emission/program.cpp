@@ -98,7 +98,9 @@ Affine& Affine::operator+=(const Affine& other) {
 }
 
 bool Factor::operator==(const Factor& other) const { return value == other.value; }
-bool Block::operator==(const Block& other) const { return body == other.body; }
+bool Block::operator==(const Block& other) const {
+  return body == other.body && unless_zero == other.unless_zero;
+}
 bool Loop::operator==(const Loop& other) const {
   return first == other.first && last == other.last && step == other.step && body == other.body;
 }

@@ -109,6 +109,7 @@ struct Variable {
   Type type = Type::kScalar;
   std::string name;
   std::optional<Affine> entries;  ///< of an array
+  bool zero = false;              ///< zero from the start
   bool operator==(const Variable&) const = default;
 };
 
@@ -125,11 +126,12 @@ struct Assignment {
   std::optional<ArrayPlace> place;
   Sum value;
   bool as_differential = false;  ///< the value is of type T, the array of type D
+  bool adds = false;             ///< to what is there
   bool operator==(const Assignment&) const = default;
 };
 
 struct Loop;
-/// Statements with names of their own.
+/// Statements with names of their own, left out where all numbers of `unless_zero` are zero.
 struct Block;
 
 using Statement = std::variant<Input, Variable, NamedValue, Assignment, Loop, Block>;
@@ -137,6 +139,7 @@ using Statements = std::vector<Statement>;
 
 struct Block {
   Statements body;
+  std::vector<std::string> unless_zero = {};  ///< names of variables; empty: never left out
   bool operator==(const Block&) const;
 };
 

@@ -79,7 +79,8 @@ class Printer {
 
   void operator()(const Variable& variable) {
     line(type_text(variable.type) + " " + variable.name +
-         (variable.entries ? "[" + affine_text(*variable.entries) + "];" : ";"));
+         (variable.entries ? "[" + affine_text(*variable.entries) + "]" : "") +
+         (variable.zero ? " = {};" : ";"));
   }
 
   void operator()(const NamedValue& named) {
@@ -90,11 +91,16 @@ class Printer {
     std::string target = array_text(assignment.array);
     if (assignment.place) target += "[" + place_text(*assignment.place) + "]";
     const std::string value = sum_text(assignment.value);
-    line(target + " = " + (assignment.as_differential && !in_c_ ? "D(" + value + ")" : value) +
-         ";");
+    line(target + (assignment.adds ? " += " : " = ") +
+         (assignment.as_differential && !in_c_ ? "D(" + value + ")" : value) + ";");
   }
 
-  void operator()(const Block& block) { in_braces("{", block.body); }
+  void operator()(const Block& block) {
+    std::string condition;
+    for (const std::string& name : block.unless_zero)
+      condition += (condition.empty() ? "if (any_nonzero(" : ", ") + name;
+    in_braces(condition + (condition.empty() ? "{" : ")) {"), block.body);
+  }
 
   void operator()(const Loop& loop) {
     const bool up = loop.step > 0;

@@ -22,6 +22,7 @@ struct Options {
   std::string output = "generated";
   bool library = false;
   bool any_links = false;
+  bool for_fits = false;
   bool latex = false;
   bool equations = false;
   std::string format = "c++";
@@ -72,17 +73,22 @@ void derive(const Options& options) {
   if (options.library && language == Language::kC) {
     throw InputError("--library with --format c: the look-up of the models is C++; leave one away");
   }
+  if (options.for_fits && language == Language::kC) {
+    throw InputError("--for-fits with --format c: such a model is C++; leave one away");
+  }
   if (options.any_links && language == Language::kC) {
     throw InputError(
         "--any-links with --format c: the model for any number of links is C++; leave one away");
   }
   std::optional<Layout> layout;
+  if (options.for_fits) layout = Layout::kLoops;
   if (!options.layout.empty()) {
     layout = options.layout == "straight" ? Layout::kStraight : Layout::kLoops;
   }
   EmittedFiles files;
   if (!description.links.empty())
-    files = emit_files(description, description.links, options.library, progress, layout, language);
+    files = emit_files(description, description.links, options.library, progress, layout, language,
+                       options.for_fits ? FunctionSet::kFits : FunctionSet::kAll);
   if (options.any_links) files.merge(emit_any_links_files(description));
   std::filesystem::create_directories(options.output);
   for (const auto& [name, text] : files) {
@@ -107,6 +113,12 @@ void add_derive_command(CLI::App& app, int& status) {
       command->add_flag("--any-links", options->any_links,
                         "write the C++ for any number of links too: ID_any.hpp,\n"
                         "ID_any.cpp; alone without --links");
+  command
+      ->add_flag("--for-fits", options->for_fits,
+                 "write only what fits call, in C++; effects at their\n"
+                 "neutral values cost nothing")
+      ->excludes(library)
+      ->excludes(any_links);
   CLI::Option* layout =
       command
           ->add_option("--layout", options->layout, "straight lines or loops; default: the faster")

@@ -56,8 +56,9 @@ Model DiagnosisContext::once(const std::string& key, const std::function<Model()
   return model.get();
 }
 
-Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int links) {
-  std::string key = std::to_string(links);
+Model DiagnosisContext::made_with(const std::vector<std::string>& effects, int links,
+                                  bool for_fits) {
+  std::string key = (for_fits ? "fits " : "all ") + std::to_string(links);
   for (const std::string& effect : effects) key += " " + effect;
   return once(key, [&] {
     std::string id = original_.id;
@@ -66,8 +67,21 @@ Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int 
       id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
     const fs::path file = folder_ / (sha256_hex(key) + ".toml");
     write_description_with(effects, links, id, file);
-    return provide_model(file, links, provider);
+    ProviderOptions options = provider;
+    options.for_fits = for_fits;
+    return provide_model(file, links, options);
   });
+}
+
+Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int links) {
+  const bool shared = std::none_of(effects.begin(), effects.end(), [&](const std::string& effect) {
+    return find(effect)->own_model;
+  });
+  return shared && !effects.empty() ? model_with_all(links) : made_with(effects, links, true);
+}
+
+Model DiagnosisContext::complete_model_with(const std::vector<std::string>& effects, int links) {
+  return made_with(effects, links, false);
 }
 
 Model DiagnosisContext::model_with_all(int links, const std::vector<std::string>& needed) {
@@ -77,7 +91,7 @@ Model DiagnosisContext::model_with_all(int links, const std::vector<std::string>
     if (wanted || (candidate.unavailable.empty() && !candidate.own_model))
       effects.push_back(candidate.id);
   }
-  return model_with(effects, links);
+  return made_with(effects, links, true);
 }
 
 void DiagnosisContext::begin(const std::string& doing, std::size_t count) {

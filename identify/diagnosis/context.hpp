@@ -50,13 +50,16 @@ class DiagnosisContext {
   void write_description_with(const std::vector<std::string>& effects, int links,
                               const std::string& id, const std::filesystem::path& file) const;
 
-  /// The case's model with every candidate that can share a model, and those of `needed` that
-  /// cannot. Derived and compiled once for every number of links: at the neutral values it is the
-  /// case's model.
-  Model model_with_all(int links, const std::vector<std::string>& needed = {});
-  /// The case's model with these effects alone, derived and compiled. Several threads may each have
-  /// theirs made at once. Both throw ModelError where a model cannot be made.
+  /// A model for fits with these effects: the case's model if there are none, else one with every
+  /// candidate that can share a model. Derived and compiled once for every number of links. At the
+  /// neutral values of the others it is the case's model with these effects, and as fast. An effect
+  /// that shares none has a model of its own. Several threads may each have theirs made at once.
   Model model_with(const std::vector<std::string>& effects, int links);
+  /// The same with every candidate that can share a model, and those of `needed` that cannot.
+  Model model_with_all(int links, const std::vector<std::string>& needed = {});
+  /// The case's model with these effects and no others, with all its functions. All three throw
+  /// ModelError where a model cannot be made.
+  Model complete_model_with(const std::vector<std::string>& effects, int links);
 
   LeastSquares least_squares;
   ProviderOptions provider;
@@ -80,6 +83,8 @@ class DiagnosisContext {
   }
 
  private:
+  /// The case's model with these effects and no others.
+  Model made_with(const std::vector<std::string>& effects, int links, bool for_fits);
   /// What `make` gives, made once for a key.
   Model once(const std::string& key, const std::function<Model()>& make);
   void tell();  // with progress_mutex_ held

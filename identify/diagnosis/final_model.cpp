@@ -97,7 +97,7 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext&
   Case the_case = diagnosis.final.problem->with(diagnosis.final.x);
   the_case.simulation = asked.simulation;
   the_case.optimiser = asked.optimiser;
-  const Model model = context.model_with(diagnosis.effects, the_case.links);
+  const Model model = context.complete_model_with(diagnosis.effects, the_case.links);
   if (!diagnosis.effects.empty())
     diagnosis.equality = largest_difference(context.model_with({}, the_case.links), model, 1);
   const auto problem = std::make_shared<const Problem>(the_case, model);

@@ -84,13 +84,14 @@ std::string run_derivation(const std::vector<std::string>& command, const std::s
   return result.output;
 }
 
-std::vector<std::string> derivation(const fs::path& derive, const fs::path& description,
-                                    int links) {
+std::vector<std::string> derivation(const fs::path& derive, const fs::path& description, int links,
+                                    bool for_fits = false) {
   std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
   if (!description.empty()) {
     command.push_back("--description");
     command.push_back(fs::absolute(description).string());
   }
+  if (for_fits) command.push_back("--for-fits");
   return command;
 }
 
@@ -134,6 +135,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
 
   const bool any_links =
       description.effects.empty() && links >= kFewestLinks && links <= kMostLinks;
+  if (any_links && options.for_fits) return any_links_model(links);
   const auto without_compiling = [&](const std::string& missing) {
     if (options.notice)
       options.notice(missing + " was not found: " + std::to_string(links) +
@@ -157,6 +159,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
                         std::to_string(CATENA_MODEL_ABI) + ", " +
                         std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;
+  if (options.for_fits) decides += "\nfor fits";
   const ModelCache cache(options.cache_directory.empty() ? ModelCache::default_folder()
                                                          : options.cache_directory);
   const std::string key = sha256_hex(decides);
@@ -176,7 +179,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   }
   const ModelCache::WorkFolder work(cache);
   const fs::path sources = work.path() / "model";
-  std::vector<std::string> command = derivation(derive, description_file, links);
+  std::vector<std::string> command = derivation(derive, description_file, links, options.for_fits);
   command.insert(command.end(), {"--output", sources.string()});
   run_derivation(command, "deriving the model");
 

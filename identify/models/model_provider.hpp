@@ -12,8 +12,10 @@ namespace catena {
 
 struct ProviderOptions {
   std::filesystem::path derive_program;  ///< empty: beside this program, in its libexec, or in PATH
-  std::filesystem::path cache_directory;           ///< empty: ModelCache::default_folder()
-  std::string compiler;                            ///< empty: $CXX, else c++
+  std::filesystem::path cache_directory;  ///< empty: ModelCache::default_folder()
+  std::string compiler;                   ///< empty: $CXX, else c++
+  /// Only what fits call (docs/model-table.md): compiled sooner. A plain chain is not compiled.
+  bool for_fits = false;
   std::function<void(const std::string&)> notice;  ///< one line before something takes its time
 };
 

@@ -10,6 +10,8 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
                        const std::vector<double>& times, const SimulationSpec& settings,
                        const Signals& signals, const std::function<bool()>& keep_going) {
   SimulationOptions options = simulation_options(settings);
+  // A model for fits has neither energies nor internal forces.
+  options.energy = options.energy && model.energies() > 0;
   if (keep_going) options.keep_going = [&](double) { return keep_going(); };
   Motion motion;
   motion.simulation = simulate(model, parameters, initial, times, options, signals);
@@ -23,7 +25,7 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
     motion.side.col(k) = at.side;
     motion.down.col(k) = at.down;
   }
-  if (motion.simulation.status == Status::kSuccess)
+  if (motion.simulation.status == Status::kSuccess && model.table().internal_forces != nullptr)
     motion.forces = internal_forces(model, parameters, path, signals);
   return motion;
 }

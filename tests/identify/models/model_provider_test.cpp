@@ -224,3 +224,83 @@ angle = 0.6
     CHECK(at.jacobian.col(j).cwiseAbs().maxCoeff() > 1e-3);
   }
 }
+
+namespace {
+
+// What a fit asks of a model, at a state that depends on no parameter.
+struct Answers {
+  explicit Answers(const Model& model, const std::vector<std::pair<std::string, double>>& values) {
+    const int n = model.coordinates();
+    Eigen::VectorXd q(n), v(n), a(n), p = model.default_parameters();
+    for (int i = 0; i < n; ++i) {
+      q[i] = 0.5 - 0.2 * i;
+      v[i] = 0.3 + 0.7 * i;
+      a[i] = 2.0 - i;
+    }
+    for (int k = 0; k < p.size(); ++k)
+      if (!std::isfinite(p[k])) p[k] = 0.1 + 0.01 * k;
+    for (const auto& [name, value] : values) p[model.parameter_index(name)] = value;
+    Eigen::VectorXd dp = Eigen::VectorXd::Zero(p.size());
+    dp[model.parameter_index("load_mass")] = 1;
+    for (const auto& [name, value] : values) dp[model.parameter_index(name)] = 1;
+    const Eigen::VectorXd none(0);
+    const catena_point at{0.4, q.data(), v.data(), a.data(), none.data(), none.data(), p.data()};
+    const catena_point along{0, v.data(), a.data(), q.data(), none.data(), none.data(), dp.data()};
+    numbers.resize(n, 4);
+    model.residual(at, numbers.col(0).data());
+    model.residual_tangent(at, along, numbers.col(1).data());
+    CHECK(model.acceleration(at, numbers.col(2).data()) == 0);
+    std::vector<double> work(static_cast<std::size_t>(model.table().newton_work));
+    CHECK(model.newton_factor(at, 1.0, 0.02, 0.0004, work.data()) == 0);
+    numbers.col(3) = numbers.col(0);
+    model.newton_solve(work.data(), numbers.col(3).data());
+  }
+  Eigen::MatrixXd numbers;
+};
+
+}  // namespace
+
+TEST_CASE("a model for fits has the numbers of the complete one, and its effects can rest") {
+  const testing::TemporaryFolder folder;
+  ProviderOptions options = options_for(folder, nullptr);
+  const auto description =
+      folder.write("d.toml",
+                   "format = 1\nkind = \"model\"\nid = \"d\"\neffects = [\"added_mass\", "
+                   "\"air_drag_quadratic\", "
+                   "\"joint_dry_friction\", \"support_motion\", \"rest_curvature\", \"scale\"]\n");
+  const Model complete = provide_model(description, 5, options);
+  options.for_fits = true;
+  const Model fits = provide_model(description, 5, options);
+  CHECK(entries(folder.path() / "cache") == 2);
+  CHECK((fits.table().energy == nullptr));
+  CHECK((fits.table().mass_matrix == nullptr));
+  CHECK(fits.energies() == 0);
+  const Model plain = provide_model({}, 5, options);
+  CHECK(plain.table().context != nullptr);  // nothing was compiled
+  // At the neutral values it is the plain chain, its residual to the last bit.
+  const Eigen::MatrixXd resting_all = Answers(fits, {}).numbers, bare = Answers(plain, {}).numbers;
+  CHECK(resting_all.col(0) == bare.col(0));
+  CHECK((resting_all - bare).norm() < 1e-13 * bare.norm());
+  // Every effect alone, and all together, is what it is in the complete model.
+  std::vector<std::pair<std::string, double>> all;
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, double>>{{"added_mass.normal", 0.1},
+                                                   {"added_mass.tangential", 0.03},
+                                                   {"air_drag_quadratic.normal", 0.2},
+                                                   {"joint_dry_friction.moment", 0.02},
+                                                   {"support_motion.side_amplitude", 0.05},
+                                                   {"rest_curvature.curvature", 0.3}}) {
+    all.emplace_back(name, value);
+    for (const auto& values : {decltype(all){{name, value}}, all}) {
+      CAPTURE(name);
+      const Eigen::MatrixXd expected = Answers(complete, values).numbers;
+      CHECK((expected - Answers(plain, {}).numbers).norm() > 1e-4);
+      CHECK((Answers(fits, values).numbers - expected).norm() < 1e-12 * expected.norm());
+    }
+  }
+  // A derivative by a resting effect is there as well.
+  const std::vector<std::pair<std::string, double>> resting = {{"air_drag_quadratic.normal", 0.0}};
+  const Eigen::MatrixXd expected = Answers(complete, resting).numbers;
+  CHECK((Answers(fits, resting).numbers - expected).norm() < 1e-12 * expected.norm());
+  CHECK((expected.col(1) - Answers(plain, {}).numbers.col(1)).norm() > 1e-4);
+}
