@@ -127,6 +127,7 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
       {"format = 1\nkind = \"model\"\n",
        "f.toml:2: kind: \"model\" where a file of kind \"case\" is wanted"},
       {"format = 1\nkind = = 2\n", "f.toml:2: not valid TOML: "},
+      {"format = 1\n[ = 2]\n", "f.toml:2: not valid TOML: "},
       {"format = 1\nformat = 1\n", "f.toml:2: not valid TOML: "},
       {deep.c_str(), "f.toml:3: a key of more than 200 parts"},
       {deep_list.c_str(), "f.toml:3: not valid TOML: "},
