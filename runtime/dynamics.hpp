@@ -29,6 +29,7 @@ class Dynamics {
   int states() const { return model_.states(); }
   /// Length of y = (q, v, z).
   int size() const { return 2 * coordinates() + states(); }
+  const double* parameters() const { return parameters_.data(); }
   /// Zeros, as many as the longest array of a point has entries.
   const double* zero() const { return zero_.data(); }
 

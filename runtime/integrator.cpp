@@ -115,8 +115,7 @@ void Integrator::start_sensitivities() {
   N_Vector initial[] = {sensitivities_.get()};
   require(CVodeSensInit1(cvodes_.get(), 1, CV_STAGGERED1, &Integrator::sensitivity_rates, initial),
           "CVodeSensInit1");
-  // CVODES needs weights although the sensitivities are not in the error test. Its default weights
-  // are computed in vectors of the length of y.
+  // Weights by the function given for y: those of CVODES are computed in vectors of the length of y.
   require(CVodeSensEEtolerances(cvodes_.get()), "CVodeSensEEtolerances");
   require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");
   require(CVodeSetNonlinearSolverSensStg1(cvodes_.get(), sensitivity_solver_->handle()),
@@ -184,8 +183,11 @@ int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
   const double* value = elements(y);
   double* out = elements(weight);
   const int n = self.n_, size = self.dynamics_.size();
-  if (N_VGetLength(y) != size) {  // sensitivities
-    N_VConst(1.0, weight);
+  if (N_VGetLength(y) != size) {  // sensitivities; CVODES wants weights for them in any case
+    if (options.sensitivities_in_error_test)
+      self.sensitivity_solver_->error_weights(value, options, out);
+    else
+      N_VConst(1.0, weight);
     return 0;
   }
   for (int i = 0; i < n; ++i)
@@ -257,6 +259,9 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
       break;
     }
     const double sight = step == 0 ? std::min(times.back(), t + kFirstSight) : times.back();
+    // The length of the first step is computed in vectors of the length of y.
+    if (step == 1 && !directions_.empty() && options_.sensitivities_in_error_test)
+      require(CVodeSetSensErrCon(cvodes_.get(), SUNTRUE), "CVodeSetSensErrCon");
     const int flag = this->step(step, sight, t);
     if (flag < 0) {
       explain(flag, reached, result);
@@ -393,6 +398,9 @@ void Integrator::count(SensitiveSimulation& result) const {
   Statistics& statistics = result.statistics;
   CVodeGetNumSteps(cvodes_.get(), &statistics.steps);
   CVodeGetNumErrTestFails(cvodes_.get(), &statistics.error_test_failures);
+  long of_sensitivities = 0;
+  if (sensitivity_solver_) CVodeGetSensNumErrTestFails(cvodes_.get(), &of_sensitivities);
+  statistics.error_test_failures += of_sensitivities;
   statistics.residual_evaluations = step_solver_->residual_evaluations();
   statistics.newton_iterations = step_solver_->iterations();
   statistics.newton_failures = step_solver_->failures();

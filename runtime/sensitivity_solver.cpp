@@ -11,6 +11,18 @@ namespace {
 
 constexpr int kWidth = CATENA_DIRECTIONS;
 
+/// The largest share by which a parameter changes along a direction, or the largest change of a
+/// state.
+double largest_change(const SensitivityDirection& direction, const double* parameters) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < direction.parameters.size(); ++i)
+    if (parameters[i] != 0)
+      largest = std::max(largest, std::abs(direction.parameters[i] / parameters[i]));
+  for (const Eigen::VectorXd* part : {&direction.q, &direction.v, &direction.z})
+    if (part->size() > 0) largest = std::max(largest, part->cwiseAbs().maxCoeff());
+  return largest > 0 ? largest : 1;
+}
+
 }  // namespace
 
 SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
@@ -32,6 +44,8 @@ SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
   zero_.resize(std::max(n, 3 * static_cast<std::size_t>(dynamics.table().signals)));
   change_.resize(n + states);
   parameters_.resize(static_cast<std::size_t>(batches_) * parameters);
+  for (const SensitivityDirection& direction : directions)
+    changes_.push_back(largest_change(direction, dynamics.parameters()));
   for (std::size_t k = 0; k < directions.size(); ++k)
     for (std::size_t i = 0; i < parameters; ++i)
       parameters_[k / kWidth * parameters + i].of[k % kWidth] =
@@ -55,6 +69,25 @@ void SensitivitySolver::start(double* s) const {
     double* out = s + batch_size() * static_cast<int>(k / kWidth) + k % kWidth;
     for (const Eigen::VectorXd* part : {&directions_[k].q, &directions_[k].v, &directions_[k].z})
       for (Eigen::Index i = 0; i < part->size(); ++i, out += kWidth) *out = (*part)[i];
+  }
+}
+
+void SensitivitySolver::error_weights(const double* s, const SimulationOptions& options,
+                                      double* weight) const {
+  std::fill_n(weight, size(), 0.0);
+  // CVODES's norm divides by the whole length, filled up with zeros.
+  const double fill =
+      std::sqrt(static_cast<double>(batches_ * kWidth) / static_cast<double>(directions_.size()));
+  const int elements = dynamics_.size();
+  for (std::size_t k = 0; k < directions_.size(); ++k) {
+    const auto first = batch_size() * static_cast<int>(k / kWidth) + static_cast<int>(k % kWidth);
+    for (int element = 0; element < elements; ++element) {
+      const double absolute = element < dynamics_.coordinates()
+                                  ? options.absolute_tolerance_position
+                                  : options.absolute_tolerance_velocity;
+      const int i = first + kWidth * element;
+      weight[i] = fill / (options.relative_tolerance * std::abs(s[i]) + absolute * changes_[k]);
+    }
   }
 }
 

@@ -32,6 +32,11 @@ class SensitivitySolver {
   /// ds/dt at (t, y), where the accelerations are `a`. Returns 0, or the 1-based coordinate whose
   /// pivot vanished. The matrix has other factors afterwards.
   int rates(double t, const double* y, const double* a, const double* s, double* sdot);
+  /// 1 / (relative tolerance * |s| + absolute tolerance / p) for every number s of such a vector, p
+  /// what the direction's variable has to change by for parameters to change by themselves or
+  /// states by 1. A direction has one such p, whichever is the least. The norm with these weights
+  /// is the root mean square over the directions.
+  void error_weights(const double* s, const SimulationOptions& options, double* weight) const;
   /// Element `element` of (q, v, z) along direction number `direction`, from 0, in such a vector.
   double element(const double* s, std::size_t direction, int element) const;
 
@@ -51,6 +56,7 @@ class SensitivitySolver {
   int batches_;
   int n_, states_;                          // numbers of a batch: of q, of z
   std::vector<DirectionBatch> parameters_;  // of each batch
+  std::vector<double> changes_;             // 1 / p of each direction, see error_weights
   std::vector<DirectionBatch> dq_, da_, zero_, change_;
   long factorisations_ = 0;
   SunNonlinearSolverHandle handle_;

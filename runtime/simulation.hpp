@@ -32,6 +32,9 @@ struct SimulationOptions {
   long max_steps = 1'000'000;
   LinearSolver linear_solver = LinearSolver::kAutomatic;
   Method method = Method::kBdf;
+  /// With sensitivities: they are in the error test too, each with the relative tolerance of its
+  /// state. Steps are then shorter.
+  bool sensitivities_in_error_test = false;
   bool energy = true;  ///< compute Trajectory::energy and Simulation::energy_imbalance
   /// Called after each step with the time reached (s); false stops with kInterrupted.
   std::function<bool(double t)> keep_going;

@@ -134,6 +134,38 @@ TEST_CASE("sensitivities leave the motion as it is, but for Newton's tolerance")
   CHECK(with.statistics.steps < 1.2 * static_cast<double>(alone.statistics.steps));
 }
 
+TEST_CASE("in the error test, sensitivities are as good as smaller steps make them") {
+  const Model model = Model::built_in(12);
+  const auto p = cable_parameters(model, 47.448, 0.5);
+  const State start = catena::catenary(model, p, {1.5, 2.5});
+  // five, so that a batch is filled up with zeros
+  std::vector<SensitivityDirection> directions;
+  for (const char* name : {"stiffness_1", "stiffness_5", "damping_1", "mass_3"})
+    directions.push_back(SensitivityDirection::parameter(model, model.parameter_index(name)));
+  directions.push_back(SensitivityDirection::zero(model));
+  directions.back().v[11] = 1.0;
+  const auto run = [&](double tolerance, bool in_error_test) {
+    SimulationOptions options = tight(tolerance);
+    options.sensitivities_in_error_test = in_error_test;
+    const auto result =
+        catena::simulate_with_sensitivities(model, p, start, directions, times(1.0, 20), options);
+    REQUIRE(result.status == catena::Status::kSuccess);
+    return result;
+  };
+  const auto reference = run(1e-11, true), without = run(1e-6, false), with = run(1e-6, true);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    CAPTURE(k);
+    const Eigen::MatrixXd& expected = reference.sensitivity[k].q;
+    const auto error = [&](const catena::SensitiveSimulation& result) {
+      return (result.sensitivity[k].q - expected).norm() / expected.norm();
+    };
+    MESSAGE(error(without) << " without, " << error(with) << " with");
+    CHECK(error(with) < 0.6 * error(without));
+  }
+  CHECK(with.statistics.steps > without.statistics.steps);
+  CHECK(with.statistics.steps < 4 * without.statistics.steps);
+}
+
 TEST_CASE("sensitivities are linear in the direction") {
   const Model model = Model::built_in(3);
   const auto p = cable_parameters(model, 5.0, 0.05);
