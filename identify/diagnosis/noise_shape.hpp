@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace catena {
+
+/// What a program that tracks markers may have done to its tracks: each frame is a weighted mean of
+/// its neighbours.
+struct SmoothingKernel {
+  std::string name;  ///< "moving average"; empty: none
+  Eigen::VectorXd weights;
+  double floor = 0;  ///< power of white noise that was added later, over the largest power
+
+  int frames() const { return static_cast<int>(weights.size()); }
+};
+const std::vector<SmoothingKernel>& smoothing_kernels();
+
+/// The spectrum of noise in one channel, its variance being 1: white noise that went through an
+/// autoregression and was then smoothed.
+struct NoiseShape {
+  int kernel = 0;                    ///< in smoothing_kernels()
+  std::vector<double> partial = {};  ///< partial autocorrelations of the autoregression
+
+  const SmoothingKernel& smoothing() const;
+  bool white() const { return kernel == 0 && partial.empty(); }
+  /// a of x(k) = a1 x(k-1) + a2 x(k-2) + ... + white noise, before the smoothing.
+  Eigen::VectorXd autoregression() const;
+  /// Correlation of two frames that are 0, 1, ... `lags` frames apart.
+  Eigen::VectorXd autocorrelation(int lags) const;
+  /// Variance of a frame once all others are known.
+  double unpredictable() const;
+};
+
+/// Of tapered segments of `length` frames: the power that noise of a shape is expected to have at
+/// frequencies j / length per frame, j = 0 to length / 2, with what the taper lets leak. White noise
+/// of variance 1 has the power 1.
+class ExpectedPower {
+ public:
+  explicit ExpectedPower(int length);
+  Eigen::VectorXd operator()(const NoiseShape& shape) const;
+  const Eigen::VectorXd& taper() const { return taper_; }
+
+ private:
+  Eigen::VectorXd taper_;                  // sum of squares: 1
+  Eigen::MatrixXd leakage_;                // frequencies x finer frequencies
+  std::vector<Eigen::VectorXd> smoothed_;  // per kernel: power at the finer frequencies
+};
+
+/// The shape that explains `power` best, by Whittle's likelihood and the Bayesian information
+/// criterion. `use`: the frequencies that show the noise. What they leave open is decided by the
+/// others, so that what can be noise is taken as noise. `count`: the residuals behind `power`.
+/// `correlated`: whether an autoregression is a choice.
+NoiseShape fit_noise_shape(const ExpectedPower& expected, const Eigen::VectorXd& power,
+                           const std::vector<bool>& use, double count, bool correlated);
+
+}  // namespace catena

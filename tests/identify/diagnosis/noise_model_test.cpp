@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/noise_model.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace {
+
+using catena::NoiseModel;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSigma = 1e-3;
+const double kNan = std::nan("");
+
+MatrixXd white(Index channels, Index frames, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> gauss(0, kSigma);
+  return MatrixXd::NullaryExpr(channels, frames, [&] { return gauss(random); });
+}
+
+/// Of every channel: a moving average, or an autoregression of order 1.
+MatrixXd smoothed(const MatrixXd& noise, Index frames) {
+  MatrixXd out(noise.rows(), noise.cols() - frames + 1);
+  for (Index k = 0; k < out.cols(); ++k) out.col(k) = noise.middleCols(k, frames).rowwise().mean();
+  return out;
+}
+MatrixXd regressed(MatrixXd noise, double a) {
+  for (Index k = 1; k < noise.cols(); ++k)
+    noise.col(k) = a * noise.col(k - 1) + std::sqrt(1 - a * a) * noise.col(k);
+  return noise;
+}
+
+MatrixXd swing(Index channels, Index frames, double size, double hertz) {
+  MatrixXd motion(channels, frames);
+  for (Index c = 0; c < channels; ++c)
+    for (Index k = 0; k < frames; ++k)
+      motion(c, k) = size * std::sin(2 * std::numbers::pi * hertz * static_cast<double>(k) / 60 +
+                                     static_cast<double>(c) / 24);
+  return motion;
+}
+
+/// Recorded at 60 frames per second, side and down in turns, the motion at 1.5 Hz.
+NoiseModel estimated(const MatrixXd& residual, double hertz = 1.5) {
+  const Index frames = residual.cols();
+  catena::NoiseWindow window{
+      residual, swing(residual.rows(), frames, 0.1, hertz), {}, frames, frames};
+  for (Index k = 0; k < frames; ++k) window.time.push_back(static_cast<double>(k) / 60);
+  std::vector<int> direction;
+  for (Index c = 0; c < residual.rows(); ++c) direction.push_back(static_cast<int>(c % 2));
+  return catena::estimate_noise({window}, direction)[0];
+}
+
+bool says(const NoiseModel& noise, const std::string& what) {
+  const auto words = noise.words();
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& each) { return each.find(what) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("the noise level is found under a smooth misfit of ten times its size") {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const MatrixXd noise = white(24, 240, seed);
+    CHECK(estimated(noise).level == doctest::Approx(kSigma).epsilon(0.05));
+    const NoiseModel under = estimated(noise + swing(24, 240, 1e-2, 1.5));
+    CHECK(under.level == doctest::Approx(kSigma).epsilon(0.05));
+    CHECK(under.shape.white());
+    CHECK(under.words().empty());
+  }
+}
+
+TEST_CASE("lost markers do not disturb the noise level") {
+  MatrixXd noise = white(24, 240, 6);
+  for (Index k = 0; k < 240; k += 13)
+    for (Index c = 0; c < 24; c += 5) noise(c, k) = kNan;
+  CHECK(estimated(noise).level == doctest::Approx(kSigma).epsilon(0.06));
+}
+
+TEST_CASE("smoothed tracks are told from white noise, and over how many frames") {
+  const NoiseModel noise = estimated(smoothed(white(24, 246, 7), 5));
+  CHECK(noise.shape.smoothing().frames() == 5);
+  CHECK(says(noise, "smoothed over 5 frames (moving average)"));
+}
+
+TEST_CASE("correlated noise is found and made white, with missing frames too") {
+  for (const double lost : {0.0, 0.1}) {
+    CAPTURE(lost);
+    MatrixXd residual = regressed(white(24, 400, 8), 0.6);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform;
+    for (double& value : residual.reshaped())
+      if (uniform(random) < lost) value = kNan;
+    const NoiseModel noise = estimated(residual);
+    CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.08));
+    CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.12));
+    const MatrixXd z = noise.whitened(residual);
+    double squares = 0, count = 0;
+    for (const double value : z.reshaped())
+      if (!std::isnan(value)) squares += value * value, count += 1;
+    CHECK(squares / count == doctest::Approx(1).epsilon(0.05));
+    for (const Index lag : {1, 2, 3}) {
+      double products = 0, pairs = 0;
+      for (Index c = 0; c < z.rows(); ++c)
+        for (Index k = 0; k + lag < z.cols(); ++k)
+          if (const double p = z(c, k) * z(c, k + lag); !std::isnan(p)) products += p, pairs += 1;
+      CHECK(std::abs(products / pairs) < 0.06);
+    }
+  }
+}
+
+TEST_CASE("every channel has noise of its own") {
+  MatrixXd residual = white(24, 240, 9);
+  residual.row(5) *= 3;
+  const NoiseModel noise = estimated(residual);
+  CHECK(noise.sigma[5] == doctest::Approx(3e-3).epsilon(0.15));
+  CHECK(noise.sigma[6] == doctest::Approx(1e-3).epsilon(0.15));
+  CHECK(says(noise, "the noisiest channel"));
+}
+
+TEST_CASE("a camera that shakes is found, and taken out") {
+  MatrixXd residual = white(24, 240, 10);
+  const MatrixXd shake = white(1, 240, 11);
+  for (Index c = 0; c < 24; c += 2) residual.row(c) += shake;
+  const NoiseModel noise = estimated(residual);
+  CHECK(noise.common[0] == doctest::Approx(kSigma).epsilon(0.2));
+  CHECK(noise.common[1] == 0);
+  CHECK(noise.sigma[0] == doctest::Approx(kSigma).epsilon(0.15));
+  const MatrixXd z = noise.whitened(residual);
+  double between = 0;
+  for (Index a = 0; a < 24; a += 2)
+    for (Index b = 0; b < a; b += 2) between += z.row(a).dot(z.row(b)) / 240.0 / 66;
+  CHECK(std::abs(between) < 0.03);
+}
+
+TEST_CASE("values far off are left out and counted, heavy tails are seen") {
+  MatrixXd residual = white(24, 240, 12);
+  for (const Index k : {30, 90, 95, 200}) residual(7, k) += 0.02;
+  const NoiseModel noise = estimated(residual);
+  CHECK(noise.outliers == 4);
+  CHECK(std::isnan(noise.whitened(residual)(7, 90)));
+  CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.05));
+  CHECK(noise.excess_kurtosis == 0);
+  std::mt19937_64 random(13);
+  std::student_t_distribution<double> student(5);
+  const MatrixXd heavy = MatrixXd::NullaryExpr(24, 240, [&] { return kSigma * student(random); });
+  CHECK(estimated(heavy).degrees_of_freedom() < 15);
+}
+
+TEST_CASE("where the motion has all frequencies the noise cannot be told") {
+  MatrixXd residual = white(24, 240, 14);
+  MatrixXd rough = white(24, 240, 15) * 100;  // what was predicted
+  catena::NoiseWindow window{residual + rough, rough, {}, 240, 240};
+  for (int k = 0; k < 240; ++k) window.time.push_back(k / 60.0);
+  const NoiseModel noise = catena::estimate_noise({window}, std::vector<int>(24, -1))[0];
+  CHECK_FALSE(noise.told);
+  CHECK(says(noise, "cannot be told"));
+}
