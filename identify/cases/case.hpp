@@ -127,6 +127,7 @@ struct ExperimentSpec {
   bool joined = false;       ///< multiple shooting: each window must end where the next one starts
   int every = 1;             ///< only every so many-th frame
   double noise = kNotGiven;  ///< expected standard deviation, m or rad
+  bool keep_outliers = false;     ///< else points far from the motion are not seen (outliers.hpp)
   std::vector<PointSpec> points;  ///< empty: all columns side_i_m, down_i_m or theta_i_rad
   std::optional<InitialSpec> initial;
   std::vector<SignalSpec> signals;

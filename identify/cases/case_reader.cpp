@@ -274,6 +274,7 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
     table.fail("joined", "true; say in window how long the pieces are, in s");
   experiment.every = count(table, "every", 1, 1);
   experiment.noise = optional_positive(table, "noise", kNotGiven);
+  experiment.keep_outliers = table.choice("outliers", kOutlierWords, false) == 1;
   if (!(experiment.from < experiment.to))
     table.fail("to", shortest_number(experiment.to) +
                          "; must be after from = " + shortest_number(experiment.from));

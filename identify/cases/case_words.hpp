@@ -13,6 +13,7 @@ inline const std::vector<std::string> kShapeWords = {"straight", "angles", "smoo
 inline const std::vector<std::string> kDataKindWords = {"markers", "angles"};
 inline const std::vector<std::string> kUseWords = {"fit", "validate"};
 inline const std::vector<std::string> kSourceWords = {"catena", "tracker", "kinovea", "deeplabcut"};
+inline const std::vector<std::string> kOutlierWords = {"leave_out", "keep"};
 inline const std::vector<std::string> kTimeUnits = {"s", "ms", "frames"};
 inline const std::vector<std::string> kLengthUnits = {"m", "cm", "mm", "px"};
 inline const std::vector<std::string> kAngleUnits = {"rad", "deg"};

@@ -173,6 +173,7 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
   out.flag("joined", experiment.joined);
   out.count("every", experiment.every, 1);
   out.number("noise", experiment.noise);
+  if (experiment.keep_outliers) out.text("outliers", "keep");
   out.text("source", word(kSourceWords, experiment.source), "catena");
   out.text("time_column", experiment.time_column);
   out.text("time_unit", experiment.time_unit, "s");

@@ -29,6 +29,9 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   hold_out(the_case, context, state.found.notes);
   context.begin("fitting the baseline");
   state.enter(fit_baseline(for_the_search(the_case), context), {}, "");
+  for (const Experiment& experiment : state.last().model.problem->experiments())
+    for (const std::string& warning : experiment.recording.warnings)
+      state.found.notes.push_back(experiment.spec.name + ": " + warning);
   look_ahead_and_back(state);
   // One after the other two effects may both be missed: neither is worth much alone, or a third
   // imitates both.

@@ -7,6 +7,7 @@
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "identify/problem/initial_state.hpp"
+#include "identify/problem/plausibility.hpp"
 #include "identify/recordings/signal_reader.hpp"
 
 namespace catena {
@@ -21,6 +22,18 @@ double cable_length(const Case& the_case) {
   double length = 0;
   for (const double link : the_case.cable.link_lengths) length += link;
   return length;
+}
+
+/// The recording as its file gives it, checked.
+Recording read_plausible(const Case& the_case, const ExperimentSpec& spec, const Model& model,
+                         const ParameterMap& map) {
+  Recording recording = read_recording(spec, the_case.links, cable_length(the_case));
+  const Eigen::VectorXd lengths = link_lengths(model, map(case_values(the_case, spec.name)));
+  for (std::string& warning :
+       check_plausible(recording, spec, spec.initial.value_or(the_case.initial), the_case.cable,
+                       lengths, model))
+    recording.warnings.push_back(std::move(warning));
+  return recording;
 }
 
 /// Frames first .. last - 1 of a recording.
@@ -106,15 +119,15 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
   std::vector<Experiment> experiments;
   for (std::size_t e = 0; e < the_case.experiments.size(); ++e) {
     const ExperimentSpec& spec = the_case.experiments[e];
-    Recording recording = recordings.empty()
-                              ? read_recording(spec, the_case.links, cable_length(the_case))
-                              : std::move(recordings[e]);
+    Recording recording =
+        recordings.empty() ? read_plausible(the_case, spec, model, map) : std::move(recordings[e]);
     std::vector<Experiment> parts(1);
     if (std::isnan(spec.window)) {
       parts[0].spec = spec;
       parts[0].recording = std::move(recording);
     } else {
       parts = windows_of(spec, recording);
+      if (!parts.empty()) parts[0].recording.warnings = std::move(recording.warnings);
       if (spec.joined) join(parts, static_cast<int>(experiments.size()), spec, the_case);
     }
     for (Experiment& part : parts) {

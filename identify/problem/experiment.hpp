@@ -32,8 +32,9 @@ struct Experiment {
 ///
 /// `recordings`: one per experiment of the case, or none: then the files of the case are read.
 /// `map`: the case's. Signals are read, and coefficients of the start that the case leaves open are
-/// found from the first frames. Throws InputError for data that cannot be used and for a window
-/// that is too short; std::invalid_argument for another number of recordings.
+/// found from the first frames. What is read from files is held against what a cable can do
+/// (plausibility.hpp): its recording has the warnings. Throws InputError for data that cannot be used
+/// and for a window that is too short; std::invalid_argument for another number of recordings.
 std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
                                        const ParameterMap& map, std::vector<Recording> recordings);
 

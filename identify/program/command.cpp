@@ -49,6 +49,13 @@ Model model_of(const Case& the_case, const CommonOptions& options) {
   return provide_model(the_case.description, the_case.links, provider);
 }
 
+void show_warnings(const Problem& problem, const CommonOptions& options) {
+  if (options.quiet) return;
+  for (const Experiment& experiment : problem.experiments())
+    for (const std::string& warning : experiment.recording.warnings)
+      std::cerr << "catena: warning: " << experiment.spec.name << ": " << warning << "\n";
+}
+
 void write_output(const std::filesystem::path& folder, const OutputFiles& files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

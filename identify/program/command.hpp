@@ -36,6 +36,9 @@ int report_interruption(const std::string& outcome);
 /// The model of a case, with a line on standard error where it has to be made first.
 Model model_of(const Case& the_case, const CommonOptions& options);
 
+/// What is odd about the recordings of a problem, on standard error; nothing if quiet.
+void show_warnings(const Problem& problem, const CommonOptions& options);
+
 /// Files under their names, written into a folder one by one, each whole; the folder is made.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;
 void write_output(const std::filesystem::path& folder, const OutputFiles& files);

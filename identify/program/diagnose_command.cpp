@@ -48,6 +48,7 @@ int diagnose_case(const DiagnoseOptions& options) {
   context.stop = &interrupted();
   context.threads = options.threads;
   context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
+  show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
   fs::path folder = fs::absolute(output_folder(options)).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // "found/"
   try {

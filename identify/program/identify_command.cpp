@@ -14,6 +14,7 @@
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_words.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "identify/diagnosis/noise.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
@@ -147,12 +148,39 @@ std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluati
                      defects.value.size() / (2 * n), angle, rate);
 }
 
+/// Where the fit ends far above the noise, more than noise is left: the next step is a diagnosis.
+std::string remark_on_gap(const Problem& problem, const Evaluation& evaluation) {
+  // A right model ends at 1; too few links, or smoothed tracks, at about 1.5.
+  constexpr double kFarAbove = 2;
+  std::string out;
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const Experiment& experiment = problem.experiments()[e];
+    const Eigen::MatrixXd residual =
+        (evaluation.predictions[e].simulated - experiment.recording.measured)
+            .leftCols(experiment.recording.fit_frames);
+    double noise = experiment.spec.noise;
+    if (std::isnan(noise)) noise = noise_level(residual, experiment.recording.time).sigma;
+    const double rms = std::sqrt(
+        residual.array().isNaN().select(0, residual.array().square()).sum() /
+        static_cast<double>(std::max<Eigen::Index>(1, (!residual.array().isNaN()).count())));
+    if (!(rms > kFarAbove * noise)) continue;
+    const bool angles = experiment.spec.kind == DataKind::kAngles;
+    out += fmt::format(
+        "{}: the fit leaves {:.2g} times the noise ({:.3g} {}). Something is missing: a measure of "
+        "the cable, or an effect; catena diagnose {}\n",
+        experiment.spec.name, rms / noise, 1e3 * noise, angles ? "mrad" : "mm",
+        problem.the_case().file.string());
+  }
+  return out;
+}
+
 int identify_case(const IdentifyOptions& options) {
   Case the_case = read_case(options.case_file);
   watch_for_interruption();
   if (!options.links_study.empty()) return study_links(the_case, options);
   const Model model = model_of(the_case, options);
   const Problem problem(std::move(the_case), model);
+  show_warnings(problem, options);
   if (options.check) return check_case(problem, options);
   check_fittable(problem);
 
@@ -179,9 +207,6 @@ int identify_case(const IdentifyOptions& options) {
               << gap_table(problem, &found.before, found.after) << "\n";
     if (found.starts.size() > 1) std::cout << waterfall(problem, found.starts);
     std::cout << profile_table(problem, found.profiles);
-    for (const Experiment& experiment : problem.experiments())
-      for (const std::string& warning : experiment.recording.warnings)
-        std::cout << "warning: " << experiment.spec.name << ": " << warning << "\n";
     if (const char* strategy = strategy_of(problem); strategy != std::string("whole"))
       std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
     std::cout << fmt::format(
@@ -192,7 +217,7 @@ int identify_case(const IdentifyOptions& options) {
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
                      name_of(found.fit.status))
-              << "written to " << folder.string() << "\n";
+              << remark_on_gap(problem, found.after) << "written to " << folder.string() << "\n";
   }
   if (interrupted()) return report_interruption("the best so far was written");
   return kExitSuccess;

@@ -9,6 +9,7 @@
 #include "identify/program/command.hpp"
 #include "identify/program/diagnose_command.hpp"
 #include "identify/program/identify_command.hpp"
+#include "identify/program/new_command.hpp"
 #include "identify/program/report_command.hpp"
 #include "identify/program/simulate_command.hpp"
 
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", std::string(CATENA_VERSION));
   program.require_subcommand(1);
   program.get_formatter()->column_width(26);
+  add_new_command(program, exit_status);
   add_simulate_command(program, exit_status);
   add_identify_command(program, exit_status);
   add_report_command(program, exit_status);

@@ -59,6 +59,7 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
 
 /// Every experiment of the case, compared with what was measured.
 int simulate_experiments(const Problem& problem, const CommonOptions& options) {
+  show_warnings(problem, options);
   const Eigen::VectorXd x = problem.start();
   const Evaluation evaluation = evaluate(problem, x, true, false, keep_going);
   if (interrupted()) return kExitInterrupted;

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
-#include "common/toml_reader.hpp"
+#include "identify/recordings/outliers.hpp"
 #include "identify/recordings/table.hpp"
 #include "identify/recordings/tracker_import.hpp"
 
@@ -164,6 +165,32 @@ void warn_of_motion_out_of_plane(Recording& recording) {
   }
 }
 
+/// Points beside the motion of their marker are not seen; a warning names them.
+void leave_out_outliers(Recording& recording, const ExperimentSpec& experiment, double cable_length,
+                        const Table& table, const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kNamed = 12;  // one by one; more are counted
+  const bool angles = experiment.kind == DataKind::kAngles;
+  const std::vector<Outlier> outliers = find_outliers(recording, angles ? 1 : cable_length);
+  if (outliers.empty()) return;
+  const Eigen::Index per_point = angles ? 1 : 2;
+  std::string named;
+  for (std::size_t i = 0; i < outliers.size(); ++i) {
+    const Outlier& outlier = outliers[i];
+    recording.measured.block(outlier.point * per_point, outlier.frame, per_point, 1)
+        .setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (i >= kNamed) continue;
+    const auto frame = static_cast<std::size_t>(outlier.frame);
+    named += (i ? ", " : "") + recording.points[static_cast<std::size_t>(outlier.point)].name +
+             " at " + number_text(recording.time[frame]) + " s (line " +
+             std::to_string(table.lines[rows[frame]]) + ", off by " +
+             number_text(std::round(1e4 * outlier.size) / 10) + (angles ? " mrad)" : " mm)");
+  }
+  if (outliers.size() > kNamed) named += ", ...";
+  recording.warnings.push_back(
+      std::to_string(outliers.size()) + (outliers.size() == 1 ? " outlier is" : " outliers are") +
+      " left out of " + table.file + ": " + named + "; outliers = \"keep\" uses them");
+}
+
 }  // namespace
 
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
@@ -204,6 +231,8 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
   if (recording.measured.array().isNaN().all())
     throw InputError(experiment.where + ": data: " + table.file +
                      " holds no measurement between from and to");
+  if (!experiment.keep_outliers)
+    leave_out_outliers(recording, experiment, cable_length, table, rows);
   if (experiment.kind == DataKind::kMarkers) warn_of_motion_out_of_plane(recording);
   return recording;
 }

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "common/input_error.hpp"
@@ -20,13 +21,32 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
 }
 
-std::vector<std::string> split(const std::string& line) {
+std::vector<std::string> split(const std::string& line, char separator) {
   std::vector<std::string> fields;
   std::size_t begin = 0;
-  for (std::size_t end; (end = line.find(',', begin)) != std::string::npos; begin = end + 1)
+  for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
     fields.push_back(trimmed(std::string_view(line).substr(begin, end - begin)));
   fields.push_back(trimmed(std::string_view(line).substr(begin)));
   return fields;
+}
+
+/// Of the line of names.
+char separator_of(const std::string& line) {
+  for (const char separator : {';', '\t'})
+    if (line.find(separator) != std::string::npos) return separator;
+  return ',';
+}
+
+/// NaN if the field says that there is no number; nothing if it cannot be read.
+std::optional<double> number_of(std::string field, char separator) {
+  if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (separator != ',') std::replace(field.begin(), field.end(), ',', '.');
+  double value = 0;
+  const char* begin = field.data() + (field[0] == '+');
+  const char* end = field.data() + field.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || std::isinf(value)) return {};
+  return value;
 }
 
 }  // namespace
@@ -48,9 +68,12 @@ Table read_table(const std::filesystem::path& path) {
   Table table;
   table.file = path.string();
   std::string line;
+  char separator = ',';
   for (int number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
     if (trimmed(line).empty()) continue;
-    const std::vector<std::string> fields = split(line);
+    if (table.names.empty()) separator = separator_of(line);
+    const std::vector<std::string> fields = split(line, separator);
     const std::string where = table.file + ":" + std::to_string(number);
     if (table.names.empty()) {
       table.names = fields;
@@ -61,16 +84,11 @@ Table read_table(const std::filesystem::path& path) {
       throw InputError(where + ": " + std::to_string(fields.size()) +
                        " fields; the first line names " + std::to_string(table.names.size()));
     for (std::size_t i = 0; i < fields.size(); ++i) {
-      double value = std::numeric_limits<double>::quiet_NaN();
-      if (!fields[i].empty()) {
-        const char* begin = fields[i].data() + (fields[i][0] == '+');
-        const char* end = fields[i].data() + fields[i].size();
-        const auto [stop, error] = std::from_chars(begin, end, value);
-        if (error != std::errc() || stop != end || !std::isfinite(value))
-          throw InputError(where + ": column \"" + table.names[i] + "\": \"" + fields[i] +
-                           "\" is not a number; leave a field empty where nothing was seen");
-      }
-      table.columns[i].push_back(value);
+      const std::optional<double> value = number_of(fields[i], separator);
+      if (!value)
+        throw InputError(where + ": column \"" + table.names[i] + "\": \"" + fields[i] +
+                         "\" is not a number; leave a field empty where nothing was seen");
+      table.columns[i].push_back(*value);
     }
     table.lines.push_back(number);
   }

@@ -8,7 +8,7 @@
 
 namespace catena {
 
-/// Columns of numbers under their names, from a CSV file. An empty field is NaN.
+/// Columns of numbers under their names, from a CSV file. An empty field is NaN, and so is "NaN".
 struct Table {
   std::string file;
   std::vector<std::string> names;
@@ -21,8 +21,10 @@ struct Table {
   const std::vector<double>& column(std::string_view name) const;
 };
 
-/// Reads a CSV file with one line of names. Throws InputError naming file, line and column for a
-/// field that is not a number (nan and inf are not), and for rows that are too short or too long.
+/// Reads a CSV file with one line of names. The fields are separated by semicolons or tabulators if
+/// the line of names has any; then numbers may have decimal commas. Else they are separated by commas.
+/// Throws InputError naming file, line and column for a field that is not a number (inf is not), and
+/// for rows that are too short or too long.
 Table read_table(const std::filesystem::path& path);
 
 }  // namespace catena

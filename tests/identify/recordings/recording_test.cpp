@@ -94,6 +94,22 @@ TEST_CASE("pixels, upward and mirrored axes, frame numbers, degrees that jump") 
   CHECK(turned.measured(0, 3) == doctest::Approx(350 * std::numbers::pi / 180));
 }
 
+TEST_CASE(
+    "semicolons with decimal commas, tabulators, a byte order mark, NaN for what was not seen") {
+  const testing::TemporaryFolder folder;
+  for (const char* text :
+       {"\xEF\xBB\xBFtime_s;side_1_m;down_1_m\r\n0;0,5;1,75\r\n0,1;NaN;\r\n0,2;-1,5e-1;+2\r\n",
+        "time_s\tside_1_m\tdown_1_m\n0\t0.5\t1.75\n0.1\tnan\t\n0.2\t-0.15\t2\n",
+        "time_s,side_1_m,down_1_m\n0,0.5,1.75\n0.1,NaN,\n0.2,-0.15,2\n"}) {
+    CAPTURE(std::string(text));
+    const Recording recording = read_recording(markers(folder.write("m.csv", text)), 2, 2.0);
+    CHECK(recording.time == std::vector<double>{0, 0.1, 0.2});
+    CHECK(recording.measured(1, 0) == 1.75);
+    CHECK(recording.measured(0, 2) == -0.15);
+    CHECK(recording.measured.array().isNaN().count() == 2);
+  }
+}
+
 TEST_CASE("bad data is named by file, line and column") {
   const testing::TemporaryFolder folder;
   struct Row {
@@ -106,7 +122,8 @@ TEST_CASE("bad data is named by file, line and column") {
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,1,2,3\n", "m.csv:3: 4 fields"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,one,2\n",
        "column \"side_1_m\": \"one\" is not a number"},
-      {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,nan,2\n", "\"nan\" is not a number"},
+      {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,1;5,2\n", "\"1;5\" is not a number"},
+      {"time_s;side_1_m;down_1_m\n0;1;2\n0,1;1,5,2;2\n", "\"1,5,2\" is not a number"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0.1,inf,2\n", "\"inf\" is not a number"},
       {"time_s,side_1_m,down_1_m\n0,1,2\n0,1,2\n",
        "m.csv:3: column \"time_s\": 0 s after 0 s; times must increase"},

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/problem/plausibility.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/input_error.hpp"
+#include "common/number_text.hpp"
+#include "identify/recordings/release.hpp"
+
+namespace catena {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+constexpr double kMostFrames = 0.9;  // of the frames: the few that are worst are outliers
+
+/// The value that a share of the numbers does not exceed; NaN of none.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return kNotGiven;
+  const auto place = values.begin() +
+                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Three significant digits, for messages.
+std::string rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return number_text(value);
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+  return number_text(unit < 1 ? std::round(value / unit) / std::round(1 / unit)
+                              : std::round(value / unit) * unit);
+}
+
+double metres(const std::string& unit) { return unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : 1; }
+
+/// One recording held against one cable.
+class Check {
+ public:
+  Check(const Recording& recording, const ExperimentSpec& spec, const InitialSpec& initial,
+        const CableGeometry& cable, const Eigen::VectorXd& lengths, const Model& model,
+        const PlausibilityLimits& limits)
+      : recording_(recording),
+        spec_(spec),
+        initial_(initial),
+        cable_(cable),
+        limits_(limits),
+        lengths_(lengths),
+        length_(lengths.sum()),
+        period_(2 * std::numbers::pi * std::sqrt(length_ / cable.gravity)) {
+    for (const char* effect : {"support_", "origin_offset", "scale", "marker_offset"})
+      for (int i = 0; i < model.parameters(); ++i)
+        movable_ = movable_ || std::string(model.table().parameter[i].name).starts_with(effect);
+    for (const PointSpec& point : recording.points)
+      arcs_.push_back(point.load    ? length_
+                      : point.joint ? lengths.head(point.joint).sum()
+                                    : point.arc_length);
+  }
+
+  std::vector<std::string> warnings() {
+    check_numbers();
+    if (spec_.kind == DataKind::kMarkers) {
+      if (check_scale()) check_support();
+      check_direction();
+    } else {
+      check_angles();
+    }
+    check_time();
+    if (initial_.at_rest && std::isnan(spec_.window) && std::isnan(spec_.start)) check_start();
+    return std::move(warnings_);
+  }
+
+ private:
+  void warn(const std::string& key, const std::string& text) {
+    warnings_.push_back(key + ": " + text);
+  }
+  /// What no cable can do ends the program, unless an effect of the model explains it.
+  void report(bool impossible, const std::string& key, const std::string& text) {
+    if (impossible && !movable_) throw InputError(spec_.where + ": " + key + ": " + text);
+    warn(key, text);
+  }
+
+  Index points() const { return static_cast<Index>(recording_.points.size()); }
+  Index frames() const { return recording_.measured.cols(); }
+  double arc(Index p) const { return arcs_[static_cast<std::size_t>(p)]; }
+  double time(Index k) const { return recording_.time[static_cast<std::size_t>(k)]; }
+  std::string name(Index p) const { return recording_.points[static_cast<std::size_t>(p)].name; }
+  Vector2d at(Index p, Index k) const { return recording_.measured.block<2, 1>(2 * p, k); }
+
+  /// A function of the frame over all frames in which it is a number.
+  template <class Value>
+  std::vector<double> over_frames(Value value) const {
+    std::vector<double> values;
+    for (Index k = 0; k < frames(); ++k)
+      if (const double v = value(k); !std::isnan(v)) values.push_back(v);
+    return values;
+  }
+
+  void check_numbers() {
+    const bool angles = spec_.kind == DataKind::kAngles;
+    const double most = limits_.most_noise * (angles ? 1 : length_);
+    if (spec_.noise > most)
+      warn("noise", rounded(spec_.noise) + (angles ? " rad" : " m") +
+                        " hides the motion of this cable; give it in " + (angles ? "rad" : "m"));
+    if (std::isfinite(spec_.fit_until) && spec_.fit_until > time(frames() - 1))
+      warn("fit_until", rounded(spec_.fit_until) + " s is after the last frame (" +
+                            rounded(time(frames() - 1)) + " s): nothing is held out");
+    if (cable_.density > limits_.heaviest)
+      warn("density", rounded(cable_.density) + " kg/m; is that in g/m?");
+    if (cable_.load_mass > limits_.heaviest_load * cable_.density * length_)
+      warn("load_mass", rounded(cable_.load_mass) + " kg is " +
+                            rounded(cable_.load_mass / (cable_.density * length_)) +
+                            " times the mass of the cable; is it in g, or density not in kg/m?");
+  }
+
+  /// Chord over arc from marker to marker, or from the support to the only one.
+  double chord_over_arc() const {
+    std::vector<double> ratios;
+    for (Index p = 1; p < points(); ++p) {
+      const double between = std::abs(arc(p) - arc(p - 1));
+      if (between == 0) continue;
+      const double chord = quantile(
+          over_frames([&](Index k) { return (at(p, k) - at(p - 1, k)).norm(); }), kMostFrames);
+      if (!std::isnan(chord)) ratios.push_back(chord / between);
+    }
+    if (ratios.empty()) {
+      const Index last = points() - 1;
+      if (arc(last) > 0)
+        ratios.push_back(
+            quantile(over_frames([&](Index k) { return at(last, k).norm(); }), kMostFrames) /
+            arc(last));
+    }
+    return quantile(ratios, 0.5);
+  }
+
+  /// What makes lengths as long as the cable is.
+  std::string scale_remedy(double ratio) const {
+    const auto fits = [&](double factor) {
+      return factor * ratio > limits_.hardly_shorter && factor * ratio < limits_.hardly_longer;
+    };
+    if (spec_.length_unit == "px")
+      return "metres_per_pixel = " + rounded(spec_.metres_per_pixel / ratio) + " would fit";
+    const double now = metres(spec_.length_unit);
+    for (const char* unit : {"m", "cm", "mm"})
+      if (fits(metres(unit) / now)) return std::string("length_unit = \"") + unit + "\" would fit";
+    return "if the file is in pixels: length_unit = \"px\" and metres_per_pixel = " +
+           rounded(now / ratio);
+  }
+
+  bool check_scale() {
+    const double ratio = chord_over_arc();
+    if (std::isnan(ratio)) return true;
+    if (ratio < limits_.hardly_longer && ratio > limits_.hardly_shorter) return true;
+    const std::string what =
+        points() > 1 ? "neighbouring markers are " + rounded(ratio) +
+                           " times as far apart as the cable between them is long"
+                     : name(0) + " is " + rounded(ratio) +
+                           " times as far from the support as the cable to it is long";
+    report(ratio > limits_.not_longer || ratio < limits_.not_shorter,
+           spec_.length_unit == "px" ? "metres_per_pixel" : "length_unit",
+           what + "; " + scale_remedy(ratio) + "; or change `length` of the cable or the places of "
+                                               "the markers");
+    return false;
+  }
+
+  /// How far a marker is from the support in most frames, beyond its arc length.
+  double beyond(Index p, double arc_length) const {
+    return quantile(over_frames([&](Index k) { return at(p, k).norm(); }), kMostFrames) -
+           arc_length;
+  }
+
+  /// Where the support would be if the cable went on straight above its first two markers; in the
+  /// file's axes and unit.
+  std::string origin_remedy() const {
+    if (points() < 2 || arc(1) <= arc(0)) return "give `origin` where the support is";
+    const double share = arc(0) / (arc(1) - arc(0));
+    const double unit =
+        spec_.length_unit == "px" ? spec_.metres_per_pixel : metres(spec_.length_unit);
+    std::string text;
+    for (Index axis = 0; axis < 2; ++axis) {
+      const double there = quantile(
+          over_frames([&](Index k) { return at(0, k)[axis] + share * (at(0, k) - at(1, k))[axis]; }),
+          0.5);
+      const bool turned = axis == 0 ? spec_.mirrored : spec_.upward;
+      text += (axis ? ", " : "") + rounded(spec_.origin[static_cast<std::size_t>(axis)] +
+                                           (turned ? -there : there) / unit);
+    }
+    return "`origin` would be about [" + text + "]";
+  }
+
+  void check_support() {
+    if (points() == 1) return;  // said by the scale
+    Index worst = -1;
+    double most = 0;
+    bool reversed_fits = true;
+    for (Index p = 0; p < points(); ++p) {
+      const double excess = beyond(p, limits_.hardly_longer * arc(p)) / length_;
+      if (excess > most) most = excess, worst = p;
+      const Index other = points() - 1 - p;
+      reversed_fits = reversed_fits &&
+                      beyond(p, limits_.hardly_longer * arc(other)) < limits_.hardly_beyond * length_;
+    }
+    if (worst < 0 || most < limits_.hardly_beyond) return;
+    const double distance = beyond(worst, 0);
+    report(most > limits_.not_beyond, reversed_fits ? "markers" : "origin",
+           name(worst) + " is " + rounded(distance) +
+               " m from the support, but only " + rounded(arc(worst)) +
+               " m along the cable; " +
+               (reversed_fits ? "the markers seem to be listed from the load upwards"
+                              : origin_remedy()));
+  }
+
+  void check_direction() {
+    if (time(frames() - 1) - time(0) < 0.5 * period_) return;  // one side of a swing
+    const Index last = points() - 1;
+    Vector2d sum = Vector2d::Zero();
+    for (Index k = 0; k < frames(); ++k) {
+      const Vector2d step = last > 0 ? Vector2d(at(last, k) - at(0, k)) : at(0, k);
+      if (!step.hasNaN()) sum += step;
+    }
+    const double angle = std::abs(std::atan2(sum[0], sum[1]));
+    if (!(angle > limits_.hardly_sideways)) return;
+    if (angle > limits_.hardly_upwards)
+      warn("vertical", "on average the cable points upwards; vertical = \"" +
+                           std::string(spec_.upward ? "down" : "up") + "\" would turn it over");
+    else
+      warn("markers", "on average the cable points sideways; are the columns of side and down "
+                      "exchanged, or the picture turned?");
+  }
+
+  void check_angles() {
+    const double fall = std::sqrt(cable_.gravity / lengths_.minCoeff());
+    double rate = 0;
+    for (Index p = 0; p < points(); ++p)
+      rate = std::max(rate, quantile(over_frames([&](Index k) {
+                                       if (k == 0) return kNotGiven;
+                                       const auto& angle = recording_.measured;
+                                       return std::abs(angle(p, k) - angle(p, k - 1)) /
+                                              (time(k) - time(k - 1));
+                                     }),
+                                     kMostFrames));
+    if (rate > limits_.hardly_turning * fall)
+      warn(spec_.angle_unit == "rad" ? "angle_unit" : "wrapped",
+           "links turn at " + rounded(rate) + " rad/s, " + rounded(rate / fall) +
+               " times as fast as they fall; " +
+               (spec_.angle_unit == "rad" ? "angle_unit = \"deg\" if the file is in degrees, "
+                                          : "") +
+               "wrapped = true if the angles jump by a turn");
+  }
+
+  /// The swing: the last marker's side (m) or the last angle (rad).
+  double swing(Index k) const {
+    return recording_.measured(recording_.measured.rows() -
+                                   (spec_.kind == DataKind::kMarkers ? 2 : 1),
+                               k);
+  }
+
+  /// Twice the median time between passages through the middle; NaN: too few of them. A passage
+  /// leads from well on one side of the mean to well on the other.
+  double swing_period() const {
+    const std::vector<double> values = over_frames([&](Index k) { return swing(k); });
+    if (values.empty()) return kNotGiven;
+    double mean = 0, square = 0;
+    for (const double value : values) mean += value / static_cast<double>(values.size());
+    for (const double value : values)
+      square += (value - mean) * (value - mean) / static_cast<double>(values.size());
+    const double well = 0.5 * std::sqrt(square);
+    std::vector<double> between;
+    int side = 0;
+    double last = kNotGiven;
+    for (Index k = 0; k < frames(); ++k) {
+      const double value = swing(k) - mean;
+      const int now = value > well ? 1 : value < -well ? -1 : 0;
+      if (now == 0 || now == side) continue;
+      if (side != 0) {
+        if (!std::isnan(last)) between.push_back(time(k) - last);
+        last = time(k);
+      }
+      side = now;
+    }
+    return between.size() < 2 ? kNotGiven : 2 * quantile(between, 0.5);
+  }
+
+  void check_time() {
+    if (!(cable_.gravity > 0)) return;
+    const std::string key = spec_.time_unit == "frames" ? "frame_rate" : "time_unit";
+    const std::string remedy =
+        spec_.time_unit == "frames"
+            ? "is the frame rate that of the camera?"
+            : "is the first column in s (time_unit \"s\"), ms, or a count of frames (\"frames\" and "
+              "frame_rate)?";
+    const std::string pendulum = "a pendulum as long as the cable takes " + rounded(period_) + " s";
+    const double duration = time(frames() - 1) - time(0);
+    const double per_period = static_cast<double>(frames() - 1) * period_ / duration *
+                              static_cast<double>(spec_.every);
+    const double period = swing_period();
+    if (period > limits_.hardly_slower * period_ || period < limits_.hardly_faster * period_)
+      warn(key, "the cable swings once in " + rounded(period) + " s, and " + pendulum + "; " +
+                    remedy);
+    else if (per_period / spec_.every < limits_.fewest_frames || per_period > limits_.most_frames)
+      warn(key, "there are " + rounded(static_cast<double>(frames() - 1) / duration) +
+                    " frames per second, and " + pendulum + "; " + remedy);
+    else if (duration < limits_.shortest * period_)
+      warn(key, "the recording lasts " + rounded(duration) + " s, and " + pendulum + "; " + remedy);
+  }
+
+  /// The place of a point: side and down, or the angle as an arc of the cable's length.
+  Vector2d place(Index p, Index k) const {
+    if (spec_.kind == DataKind::kMarkers) return at(p, k);
+    return {length_ * recording_.measured(p, k), 0};
+  }
+
+  void check_start() {
+    // A parabola through the first frames of every point: its slope is the speed at the start.
+    Index first = 5;
+    while (first < frames() && time(first) - time(0) < 0.05 * period_) ++first;
+    if (first >= frames() || !(cable_.gravity > 0)) return;
+    double fastest = 0;
+    for (Index p = 0; p < points(); ++p) {
+      Eigen::MatrixXd powers(first, 3), places(first, 2);
+      bool seen = true;
+      for (Index k = 0; k < first; ++k) {
+        const double t = time(k) - time(0);
+        powers.row(k) << 1, t, t * t;
+        places.row(k) = place(p, k).transpose();
+        seen = seen && !place(p, k).hasNaN();
+      }
+      if (!seen) continue;
+      const Eigen::MatrixXd fitted = powers.colPivHouseholderQr().solve(places);
+      fastest = std::max(fastest, fitted.row(1).norm());
+    }
+    const double fall = std::sqrt(cable_.gravity * length_);
+    if (fastest > limits_.hardly_at_rest * fall) {
+      warn("from", "the cable moves at " + rounded(fastest) +
+                       " m/s in the first frames, but the case lets it start at rest; begin `from` "
+                       "the frame of the release, or let it have a velocity in [initial]");
+      return;
+    }
+    if (initial_.shape == Shape::kHanging) return;  // it need not move before something does
+    const double release = release_time(recording_);
+    if (release - time(0) > limits_.held_time * period_)
+      warn("from", "the cable is held until " + rounded(release) +
+                       " s, but the case lets it go in the first frame, at " + rounded(time(0)) +
+                       " s; from = " + rounded(release) + " would begin with the release");
+  }
+
+  const Recording& recording_;
+  const ExperimentSpec& spec_;
+  const InitialSpec& initial_;
+  const CableGeometry& cable_;
+  const PlausibilityLimits& limits_;
+  const Eigen::VectorXd& lengths_;
+  double length_, period_;  // m, s
+  std::vector<double> arcs_;
+  bool movable_ = false;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_plausible(const Recording& recording, const ExperimentSpec& spec,
+                                         const InitialSpec& initial, const CableGeometry& cable,
+                                         const Eigen::VectorXd& lengths, const Model& model,
+                                         const PlausibilityLimits& limits) {
+  return Check(recording, spec, initial, cable, lengths, model, limits).warnings();
+}
+
+}  // namespace catena
