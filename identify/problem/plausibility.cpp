@@ -21,8 +21,8 @@ constexpr double kMostFrames = 0.9;  // of the frames: the few that are worst ar
 /// The value that a share of the numbers does not exceed; NaN of none.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return kNotGiven;
-  const auto place = values.begin() +
-                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }
@@ -154,15 +154,16 @@ class Check {
     const double ratio = chord_over_arc();
     if (std::isnan(ratio)) return true;
     if (ratio < limits_.hardly_longer && ratio > limits_.hardly_shorter) return true;
-    const std::string what =
-        points() > 1 ? "neighbouring markers are " + rounded(ratio) +
-                           " times as far apart as the cable between them is long"
-                     : name(0) + " is " + rounded(ratio) +
-                           " times as far from the support as the cable to it is long";
+    const std::string what = points() > 1
+                                 ? "neighbouring markers are " + rounded(ratio) +
+                                       " times as far apart as the cable between them is long"
+                                 : name(0) + " is " + rounded(ratio) +
+                                       " times as far from the support as the cable to it is long";
     report(ratio > limits_.not_longer || ratio < limits_.not_shorter,
            spec_.length_unit == "px" ? "metres_per_pixel" : "length_unit",
-           what + "; " + scale_remedy(ratio) + "; or change `length` of the cable or the places of "
-                                               "the markers");
+           what + "; " + scale_remedy(ratio) +
+               "; or change `length` of the cable or the places of "
+               "the markers");
     return false;
   }
 
@@ -181,9 +182,10 @@ class Check {
         spec_.length_unit == "px" ? spec_.metres_per_pixel : metres(spec_.length_unit);
     std::string text;
     for (Index axis = 0; axis < 2; ++axis) {
-      const double there = quantile(
-          over_frames([&](Index k) { return at(0, k)[axis] + share * (at(0, k) - at(1, k))[axis]; }),
-          0.5);
+      const double there = quantile(over_frames([&](Index k) {
+                                      return at(0, k)[axis] + share * (at(0, k) - at(1, k))[axis];
+                                    }),
+                                    0.5);
       const bool turned = axis == 0 ? spec_.mirrored : spec_.upward;
       text += (axis ? ", " : "") + rounded(spec_.origin[static_cast<std::size_t>(axis)] +
                                            (turned ? -there : there) / unit);
@@ -200,15 +202,14 @@ class Check {
       const double excess = beyond(p, limits_.hardly_longer * arc(p)) / length_;
       if (excess > most) most = excess, worst = p;
       const Index other = points() - 1 - p;
-      reversed_fits = reversed_fits &&
-                      beyond(p, limits_.hardly_longer * arc(other)) < limits_.hardly_beyond * length_;
+      reversed_fits = reversed_fits && beyond(p, limits_.hardly_longer * arc(other)) <
+                                           limits_.hardly_beyond * length_;
     }
     if (worst < 0 || most < limits_.hardly_beyond) return;
     const double distance = beyond(worst, 0);
     report(most > limits_.not_beyond, reversed_fits ? "markers" : "origin",
-           name(worst) + " is " + rounded(distance) +
-               " m from the support, but only " + rounded(arc(worst)) +
-               " m along the cable; " +
+           name(worst) + " is " + rounded(distance) + " m from the support, but only " +
+               rounded(arc(worst)) + " m along the cable; " +
                (reversed_fits ? "the markers seem to be listed from the load upwards"
                               : origin_remedy()));
   }
@@ -227,8 +228,9 @@ class Check {
       warn("vertical", "on average the cable points upwards; vertical = \"" +
                            std::string(spec_.upward ? "down" : "up") + "\" would turn it over");
     else
-      warn("markers", "on average the cable points sideways; are the columns of side and down "
-                      "exchanged, or the picture turned?");
+      warn("markers",
+           "on average the cable points sideways; are the columns of side and down "
+           "exchanged, or the picture turned?");
   }
 
   void check_angles() {
@@ -253,9 +255,8 @@ class Check {
 
   /// The swing: the last marker's side (m) or the last angle (rad).
   double swing(Index k) const {
-    return recording_.measured(recording_.measured.rows() -
-                                   (spec_.kind == DataKind::kMarkers ? 2 : 1),
-                               k);
+    return recording_.measured(
+        recording_.measured.rows() - (spec_.kind == DataKind::kMarkers ? 2 : 1), k);
   }
 
   /// Twice the median time between passages through the middle; NaN: too few of them. A passage
@@ -287,19 +288,19 @@ class Check {
   void check_time() {
     if (!(cable_.gravity > 0)) return;
     const std::string key = spec_.time_unit == "frames" ? "frame_rate" : "time_unit";
-    const std::string remedy =
-        spec_.time_unit == "frames"
-            ? "is the frame rate that of the camera?"
-            : "is the first column in s (time_unit \"s\"), ms, or a count of frames (\"frames\" and "
-              "frame_rate)?";
+    const std::string remedy = spec_.time_unit == "frames"
+                                   ? "is the frame rate that of the camera?"
+                                   : "is the first column in s (time_unit \"s\"), ms, or a count "
+                                     "of frames (\"frames\" and "
+                                     "frame_rate)?";
     const std::string pendulum = "a pendulum as long as the cable takes " + rounded(period_) + " s";
     const double duration = time(frames() - 1) - time(0);
-    const double per_period = static_cast<double>(frames() - 1) * period_ / duration *
-                              static_cast<double>(spec_.every);
+    const double per_period =
+        static_cast<double>(frames() - 1) * period_ / duration * static_cast<double>(spec_.every);
     const double period = swing_period();
     if (period > limits_.hardly_slower * period_ || period < limits_.hardly_faster * period_)
-      warn(key, "the cable swings once in " + rounded(period) + " s, and " + pendulum + "; " +
-                    remedy);
+      warn(key,
+           "the cable swings once in " + rounded(period) + " s, and " + pendulum + "; " + remedy);
     else if (per_period / spec_.every < limits_.fewest_frames || per_period > limits_.most_frames)
       warn(key, "there are " + rounded(static_cast<double>(frames() - 1) / duration) +
                     " frames per second, and " + pendulum + "; " + remedy);

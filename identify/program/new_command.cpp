@@ -67,9 +67,9 @@ void complete(NewOptions& options) {
   for (const Measure& measure : measures)
     if (!std::isfinite(*measure.value) || *measure.value < 0 ||
         (*measure.value == 0 && measure.value != &options.load_mass))
-      throw InputError(fmt::format("{}: {}; must be {} and finite", measure.option, *measure.value,
-                                   measure.value == &options.load_mass ? "not negative"
-                                                                       : "positive"));
+      throw InputError(
+          fmt::format("{}: {}; must be {} and finite", measure.option, *measure.value,
+                      measure.value == &options.load_mass ? "not negative" : "positive"));
 }
 
 /// Two significant digits.
@@ -123,7 +123,8 @@ std::string commented(const std::string& text, const RecognisedRecording& found)
       {"[cable] load_mass", "kg, at the end"},
       {"[[parameter]] value", "a first guess"},
       {"[initial] shape", "at the start: a polynomial along the cable, found with the rest"},
-      {"[initial.velocity] shape", "it moves in the first frame; at rest if this table is left out"},
+      {"[initial.velocity] shape",
+       "it moves in the first frame; at rest if this table is left out"},
       {"[[experiment]] from", "s"},
       {"[[experiment]] fit_until", "s; later frames only tell how well the fit predicts"},
       {"[[experiment]] markers", "from the support on; arc_length: m along the cable"},
@@ -166,9 +167,10 @@ int make_case(NewOptions options) {
   const double begin = recording.time.front(), end = recording.time.back();
   found.spec.fit_until = std::stod(fmt::format("{:.3g}", begin + 0.7 * (end - begin)));
   const std::string text =
-      fmt::format("# Made by catena new from {}.\n# catena identify {} --check tells what the data "
-                  "can determine; without --check it fits.\n",
-                  options.recording.filename().string(), output.string()) +
+      fmt::format(
+          "# Made by catena new from {}.\n# catena identify {} --check tells what the data "
+          "can determine; without --check it fits.\n",
+          options.recording.filename().string(), output.string()) +
       commented(case_text(case_of(options, found), output.parent_path()), found);
   write_whole_file(output, text);
   write_whole_file(picture,
@@ -187,7 +189,8 @@ int make_case(NewOptions options) {
   if (options.quiet) return kExitSuccess;
   for (const std::string& key : found.estimated)
     if (key != "from")
-      std::cout << key << " is estimated from how the cable hangs; measure it and correct the case\n";
+      std::cout << key
+                << " is estimated from how the cable hangs; measure it and correct the case\n";
   std::cout << "written to " << output.string() << "; compare the picture: " << picture.string()
             << "\n";
   return kExitSuccess;
@@ -202,7 +205,8 @@ void add_new_command(CLI::App& program, int& exit_status) {
       "Example:\n  catena new film.csv --length 1.5 --density 0.12 --load-mass 0.2\n"
       "writes film.toml, a case to be fitted, and film.svg, a picture of what was\n"
       "understood. Measures that are not given are asked for at a terminal.");
-  command->add_option("RECORDING", options.recording, "CSV file, or a tracker's export")->required();
+  command->add_option("RECORDING", options.recording, "CSV file, or a tracker's export")
+      ->required();
   command->add_option("-o,--output", options.output,
                       "case file; default: beside the recording, with .toml");
   command->add_option("--length", options.known.length, "of the cable, m");

@@ -13,12 +13,16 @@ using Eigen::Index;
 
 constexpr double kLongest = 640, kMargin = 70;  // of the drawing, its border
 // The palette of the reports, distinct for readers who do not see all colours.
-constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00"};
+constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73",
+                                    "#cc79a7", "#56b4e9", "#d55e00"};
 
 /// A step of 1, 2 or 5 times a power of ten, some five of which make `range`.
 double tick_step(double range) {
   const double rough = range / 5, unit = std::pow(10, std::floor(std::log10(rough)));
-  return rough > 5 * unit ? 10 * unit : rough > 2 * unit ? 5 * unit : rough > unit ? 2 * unit : unit;
+  return rough > 5 * unit   ? 10 * unit
+         : rough > 2 * unit ? 5 * unit
+         : rough > unit     ? 2 * unit
+                            : unit;
 }
 
 std::string escaped(const std::string& text) {
@@ -55,7 +59,9 @@ std::string axes_of(const Frame& frame) {
   std::string out;
   const double step = tick_step(std::max(frame.right - frame.left, frame.bottom - frame.top));
   const double low = frame.height() - kMargin + 12, near = kMargin - 12;
-  const auto number = [&](double value) { return fmt::format("{:.6g}", std::round(value / step) * step + 0.0); };
+  const auto number = [&](double value) {
+    return fmt::format("{:.6g}", std::round(value / step) * step + 0.0);
+  };
   for (double side = std::ceil(frame.left / step) * step; side <= frame.right + 1e-9; side += step)
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
@@ -90,13 +96,15 @@ std::string recording_picture(const Recording& recording, const std::vector<Outl
       "<style>text {{ fill: #222; stroke: none }}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<text x=\"16\" y=\"24\" font-size=\"15\">{2}</text>\n"
-      "<text x=\"16\" y=\"42\" font-size=\"12\">Black: the first frame, from the support. Coloured: "
+      "<text x=\"16\" y=\"42\" font-size=\"12\">Black: the first frame, from the support. "
+      "Coloured: "
       "the tracks. {3}</text>\n",
       width, frame.height(), escaped(title),
       outliers.empty() ? "No outliers." : fmt::format("Rings: {} outliers.", outliers.size()));
   out += axes_of(frame);
   const auto at = [&](Index p, Index k) {
-    return fmt::format("{:.1f} {:.1f}", frame.x(measured(2 * p, k)), frame.y(measured(2 * p + 1, k)));
+    return fmt::format("{:.1f} {:.1f}", frame.x(measured(2 * p, k)),
+                       frame.y(measured(2 * p + 1, k)));
   };
   const auto seen = [&](Index p, Index k) { return !measured.block<2, 1>(2 * p, k).hasNaN(); };
   for (Index p = 0; p < points; ++p) {
@@ -121,8 +129,8 @@ std::string recording_picture(const Recording& recording, const std::vector<Outl
         "font-size=\"12\">{}</text>\n",
         x, y, x + 7, y + 4, p + 1);
   }
-  out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>\n{}", cable,
-                     dots);
+  out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>\n{}",
+                     cable, dots);
   out += fmt::format("<path d=\"M{0:.1f} {1:.1f}l-9 -14h18z\"/>\n", frame.x(0), frame.y(0));
   for (const Outlier& outlier : outliers)
     out += fmt::format(

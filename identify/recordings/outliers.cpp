@@ -11,15 +11,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kNear = 4;       // frames on either side that a point is compared with
-constexpr Index kFewest = 3;     // of them that must be comparable
-constexpr Index kWidest = 12;    // frames: a cubic over more does not follow the motion
+constexpr Index kNear = 4;               // frames on either side that a point is compared with
+constexpr Index kFewest = 3;             // of them that must be comparable
+constexpr Index kWidest = 12;            // frames: a cubic over more does not follow the motion
 constexpr std::size_t kFewestSeen = 12;  // frames, for the scatter of a marker to mean something
 
 /// How far one point lies from the cubic through its neighbours.
 struct Difference {
-  VectorXd vector;     ///< side and down, or the angle; empty: not comparable
-  double noise = 1;    ///< its standard deviation where that of a coordinate is 1
+  VectorXd vector;   ///< side and down, or the angle; empty: not comparable
+  double noise = 1;  ///< its standard deviation where that of a coordinate is 1
   double size() const { return vector.size() ? vector.norm() / noise : 0; }
 };
 
@@ -101,15 +101,12 @@ class Track {
   }
 
  private:
-  double time(Index place) const {
-    return recording_.time[static_cast<std::size_t>(frame(place))];
-  }
+  double time(Index place) const { return recording_.time[static_cast<std::size_t>(frame(place))]; }
   VectorXd position(Index place) const {
     return recording_.measured.block(first_row_, frame(place), rows_, 1);
   }
   void update(Index place) {
-    differences_[static_cast<std::size_t>(place)] =
-        left_out(place) ? Difference{} : compare(place);
+    differences_[static_cast<std::size_t>(place)] = left_out(place) ? Difference{} : compare(place);
   }
 
   const Recording& recording_;
@@ -189,8 +186,7 @@ std::vector<Outlier> find_outliers(const Recording& recording, double size,
       if (place < 0) break;
       tried[static_cast<std::size_t>(place)] = true;
       Difference found;
-      if (!stands_alone(track, place, limits, found) ||
-          found.vector.norm() < limits.size * size ||
+      if (!stands_alone(track, place, limits, found) || found.vector.norm() < limits.size * size ||
           jumps_with_others(p, track.frame(place), found.vector))
         continue;
       track.leave_out(place, true);

@@ -52,10 +52,10 @@ int axis_in(const std::string& name, std::string& marker) {
   marker.clear();
   for (std::string word : words_of(name)) {
     if (one_of(word, {"m", "cm", "mm", "px", "pixel", "pixels"})) continue;
-    const auto digits = std::find_if(word.begin(), word.end(),
-                                     [](unsigned char c) { return std::isdigit(c); });
+    const auto digits =
+        std::find_if(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c); });
     const std::string letters(word.begin(), digits);
-    const int here = one_of(letters, {"x", "side", "horizontal"}) ? 0
+    const int here = one_of(letters, {"x", "side", "horizontal"})       ? 0
                      : one_of(letters, {"y", "down", "vertical", "up"}) ? 1
                                                                         : -1;
     if (axis < 0 && here >= 0) {
@@ -76,7 +76,8 @@ DataSource source_of(const std::filesystem::path& file) {
   std::getline(in, first);
   std::getline(in, second);
   if (first.starts_with("#Kinovea")) return DataSource::kKinovea;
-  if (second.starts_with("bodyparts") || first.starts_with("scorer")) return DataSource::kDeepLabCut;
+  if (second.starts_with("bodyparts") || first.starts_with("scorer"))
+    return DataSource::kDeepLabCut;
   const std::vector<std::string> words = words_of(second);
   if (words.size() > 2 && words[0] == "t" && words[1] == "x" && words[2] == "y")
     return DataSource::kTracker;
@@ -106,8 +107,9 @@ std::vector<PointSpec> markers_in(const Table& table, std::vector<std::string>& 
       throw InputError(table.file + ": column \"" + point.side_column + point.down_column +
                        "\" has no partner; every marker needs an x and a y, or a side and a down");
   if (points.empty())
-    throw InputError(table.file +
-                     ": no markers; name their columns x1, y1, x2, y2, ... or side_1_m, down_1_m, ...");
+    throw InputError(
+        table.file +
+        ": no markers; name their columns x1, y1, x2, y2, ... or side_1_m, down_1_m, ...");
   return points;
 }
 
@@ -172,10 +174,9 @@ void recognise_places(const KnownOfRecording& known, RecognisedRecording& found)
     throw InputError("--markers: " + std::to_string(known.arc_lengths.size()) +
                      " places; the recording has " + std::to_string(points.size()) + " markers");
   for (std::size_t p = 0; p < points.size(); ++p)
-    points[p].arc_length =
-        known.arc_lengths.empty()
-            ? known.length * static_cast<double>(p + 1) / static_cast<double>(points.size())
-            : known.arc_lengths[p];
+    points[p].arc_length = known.arc_lengths.empty() ? known.length * static_cast<double>(p + 1) /
+                                                           static_cast<double>(points.size())
+                                                     : known.arc_lengths[p];
   found.understood.push_back(
       "markers: " + std::to_string(points.size()) +
       (known.arc_lengths.empty() ? ", evenly spaced along the cable, the last at its end" : ""));
@@ -192,11 +193,11 @@ double metres_per_unit(const Tracks& tracks, const KnownOfRecording& known) {
                        return (tracks.at(p, row) - tracks.at(p - 1, row)).norm();
                      }));
   if (ratios.empty()) {
-    const Vector2d origin = known.origin.empty() ? Vector2d(0, 0)
-                                                 : Vector2d(known.origin[0], known.origin[1]);
-    ratios.push_back(
-        points[0].arc_length /
-        tracks.typical([&](std::size_t row) { return (tracks.at(0, row) - origin).norm(); }));
+    const Vector2d origin =
+        known.origin.empty() ? Vector2d(0, 0) : Vector2d(known.origin[0], known.origin[1]);
+    ratios.push_back(points[0].arc_length / tracks.typical([&](std::size_t row) {
+      return (tracks.at(0, row) - origin).norm();
+    }));
   }
   return median(ratios);
 }
@@ -221,8 +222,9 @@ void recognise_lengths(const Tracks& tracks, const KnownOfRecording& known,
       found.estimated.emplace_back("metres_per_pixel");
     }
   }
-  found.understood.push_back("lengths: in " + unit +
-                             (unit == "px" ? ", " + number_text(spec.metres_per_pixel) + " m each" : ""));
+  found.understood.push_back(
+      "lengths: in " + unit +
+      (unit == "px" ? ", " + number_text(spec.metres_per_pixel) + " m each" : ""));
 }
 
 void recognise_axes(const Tracks& tracks, const KnownOfRecording& known,
@@ -281,8 +283,8 @@ void recognise_start(const KnownOfRecording& known, RecognisedRecording& found) 
   const auto moved = [&](Eigen::Index frame) {
     double largest = 0;
     for (Eigen::Index p = 0; p < measured.rows(); p += 2)
-      largest = std::fmax(
-          largest, (measured.block<2, 1>(p, frame) - measured.block<2, 1>(p, 0)).norm());
+      largest =
+          std::fmax(largest, (measured.block<2, 1>(p, frame) - measured.block<2, 1>(p, 0)).norm());
     return largest;
   };
   double range = 0;

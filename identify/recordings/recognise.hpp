@@ -11,11 +11,12 @@ namespace catena {
 
 /// What a person knows of a recording that its file need not say.
 struct KnownOfRecording {
-  double length = kNotGiven;        ///< m, of the cable
-  std::vector<double> arc_lengths;  ///< m, of the markers; empty: evenly spaced, the last at the end
-  double frame_rate = kNotGiven;    ///< 1/s
+  double length = kNotGiven;  ///< m, of the cable
+  std::vector<double>
+      arc_lengths;                ///< m, of the markers; empty: evenly spaced, the last at the end
+  double frame_rate = kNotGiven;  ///< 1/s
   double metres_per_pixel = kNotGiven;
-  std::vector<double> origin;       ///< of the support, in the axes of the file; empty: unknown
+  std::vector<double> origin;  ///< of the support, in the axes of the file; empty: unknown
 };
 
 /// What a file of markers seems to say.

@@ -36,8 +36,7 @@ double release_time(const Recording& recording) {
     const auto time = [&](Index frame) { return recording.time[static_cast<std::size_t>(frame)]; };
     if (k == 0) return time(0);
     const double before = std::sqrt(std::min(moved[k - 1], least)), after = std::sqrt(moved[k]);
-    return time(k - 1) +
-           (time(k) - time(k - 1)) * (std::sqrt(least) - before) / (after - before);
+    return time(k - 1) + (time(k) - time(k - 1)) * (std::sqrt(least) - before) / (after - before);
   };
   const double release = 2 * first_beyond(kFirstShare) - first_beyond(kLaterShare);
   const auto after = std::lower_bound(recording.time.begin(), recording.time.end(), release);

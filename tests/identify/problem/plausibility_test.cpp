@@ -101,7 +101,8 @@ TEST_CASE("a right case raises no alarm, in any units") {
     spec_of(the_case).upward = true;
   };
   CHECK(film.said() == "");
-  film.mistake = [inner = film.mistake](Case& the_case) {  // calibrated 4 % wrongly, clicked 2 cm off
+  film.mistake = [inner =
+                      film.mistake](Case& the_case) {  // calibrated 4 % wrongly, clicked 2 cm off
     inner(the_case);
     spec_of(the_case).metres_per_pixel *= 1.04;
     spec_of(the_case).origin = {328, 700};
@@ -144,7 +145,8 @@ TEST_CASE("a wrong origin, order or direction is named") {
     std::vector<PointSpec>& points = spec_of(the_case).points;
     std::swap(points[0].side_column, points[2].side_column);
     std::swap(points[0].down_column, points[2].down_column);
-    for (PointSpec& point : points) point.arc_length = kLength * static_cast<double>(&point - points.data() + 1) / 3;
+    for (PointSpec& point : points)
+      point.arc_length = kLength * static_cast<double>(&point - points.data() + 1) / 3;
   };
   expect(film.said(), {"error: ", "markers: ", "listed from the load upwards"});
   film.mistake = [](Case& the_case) { spec_of(the_case).upward = true; };
@@ -154,7 +156,8 @@ TEST_CASE("a wrong origin, order or direction is named") {
   expect(film.said(), {"vertical: ", "vertical = \"up\""});
   film = {};
   film.mistake = [](Case& the_case) {
-    for (PointSpec& point : spec_of(the_case).points) std::swap(point.side_column, point.down_column);
+    for (PointSpec& point : spec_of(the_case).points)
+      std::swap(point.side_column, point.down_column);
   };
   expect(film.said(), {"markers: ", "sideways"});
 }

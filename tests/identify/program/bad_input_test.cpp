@@ -122,7 +122,7 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
       {"not a number", "0.27", "abc", {"data.csv:3", "side_1_m", "abc"}},
       {"a short row", "0.1,0.27,0.42,0.55,0.84", "0.1,0.27,0.42", {"data.csv:3", "3 fields", "5"}},
       {"a long row", "0.84", "0.84,1,2", {"data.csv:3", "7 fields"}},
-      {"NaN", "0.27", "nan", {"data.csv:3", "nan"}},
+      {"infinity", "0.27", "inf", {"data.csv:3", "inf"}},
       {"times not increasing", "0.2,0.24", "0.1,0.24", {"data.csv:4", "time_s", "increase"}},
       {"no time", "0.2,0.24", ",0.24", {"data.csv:4", "time_s"}},
       {"no such columns", "side_1_m", "sideways", {"data.csv", "side_1_m"}},

@@ -93,8 +93,8 @@ TEST_CASE("fast motion, blows, jumps of the camera and noise are no outliers") {
   for (const double frequency : {3.0, 6.25, 9.0, 12.0}) {  // up to the limit of the camera
     CAPTURE(frequency);
     CHECK(outliers_of(filmed(200, moved_by([&](int p, double t) {
-                                return alone(p, 0.1 * std::sin(6.2832 * frequency * t));
-                              })))
+                               return alone(p, 0.1 * std::sin(6.2832 * frequency * t));
+                             })))
               .empty());
   }
   for (double when = 2; when < 2 + 1 / kRate; when += 0.2 / kRate) {
@@ -135,8 +135,9 @@ TEST_CASE("outliers are left out of what is read, with a warning, unless the cas
   std::string text = "time_s,side_1_m,down_1_m\n";
   for (int k = 0; k < 40; ++k) {
     const double angle = 0.5 * std::cos(0.1 * k);
-    text += std::to_string(0.04 * k) + "," + std::to_string(std::sin(angle) + (k == 31 ? 0.072 : 0)) +
-            "," + std::to_string(std::cos(angle)) + "\n";
+    text += std::to_string(0.04 * k) + "," +
+            std::to_string(std::sin(angle) + (k == 31 ? 0.072 : 0)) + "," +
+            std::to_string(std::cos(angle)) + "\n";
   }
   ExperimentSpec spec;
   spec.data = folder.write("m.csv", text);
@@ -145,8 +146,8 @@ TEST_CASE("outliers are left out of what is read, with a warning, unless the cas
   CHECK(std::isnan(recording.measured(1, 31)));
   CHECK(recording.measured.array().isNaN().count() == 2);
   REQUIRE(recording.warnings.size() == 1);
-  for (const char* word : {"1 outlier is left out", "marker 1 at 1.24 s", "line 33", "72 mm",
-                           "outliers = \"keep\""})
+  for (const char* word :
+       {"1 outlier is left out", "marker 1 at 1.24 s", "line 33", "72 mm", "outliers = \"keep\""})
     CHECK_MESSAGE(recording.warnings[0].find(word) != std::string::npos, recording.warnings[0]);
   spec.keep_outliers = true;
   const Recording kept = read_recording(spec, 2, 1.0);

@@ -29,14 +29,13 @@ RecognisedRecording recognised(const Style& style, KnownOfRecording known = {}) 
   const char separator = style.names.find(';') == std::string::npos ? ',' : ';';
   for (int k = 0; k < 150; ++k) {
     std::string row = std::to_string(k / 30.0 * style.time);
-    const double angle =
-        0.7 * std::cos(2.6 * std::max(0.0, k / 30.0 - style.held + style.start));
+    const double angle = 0.7 * std::cos(2.6 * std::max(0.0, k / 30.0 - style.held + style.start));
     for (const double arc : {0.6, 1.5}) {
       row += ";" + std::to_string(style.support[0] + style.length * arc * std::sin(angle));
-      row += ";" + std::to_string(style.support[1] + style.length * style.down * arc * std::cos(angle));
+      row += ";" +
+             std::to_string(style.support[1] + style.length * style.down * arc * std::cos(angle));
     }
-    for (char& c : row)
-      c = c == ';' ? separator : c == '.' && separator == ';' ? ',' : c;
+    for (char& c : row) c = c == ';' ? separator : c == '.' && separator == ';' ? ',' : c;
     text += row + "\n";
   }
   known.length = 1.5;
@@ -101,15 +100,18 @@ TEST_CASE("where down is, where the support is, when the cable is let go") {
 }
 
 TEST_CASE("what is read with the recognised case is the motion") {
-  const RecognisedRecording found = recognised(
-      {.names = "frame;p1x;p1y;p2x;p2y", .time = 30, .length = 400, .support = {320, 700}, .down = -1},
-      [] {
-        KnownOfRecording known;
-        known.frame_rate = 30;
-        known.metres_per_pixel = 1.0 / 400;
-        known.origin = {320, 700};
-        return known;
-      }());
+  const RecognisedRecording found = recognised({.names = "frame;p1x;p1y;p2x;p2y",
+                                                .time = 30,
+                                                .length = 400,
+                                                .support = {320, 700},
+                                                .down = -1},
+                                               [] {
+                                                 KnownOfRecording known;
+                                                 known.frame_rate = 30;
+                                                 known.metres_per_pixel = 1.0 / 400;
+                                                 known.origin = {320, 700};
+                                                 return known;
+                                               }());
   CHECK(found.spec.points[0].side_column == "p1x");
   CHECK(found.spec.points[1].down_column == "p2y");
 }
@@ -118,13 +120,15 @@ TEST_CASE("a file without markers is refused with what is wanted") {
   const auto refused = [](const char* names) {
     return failure([&] { recognised({.names = names}); });
   };
-  CHECK(refused("time_s,a,b,c,d").find("no markers; name their columns x1, y1") != std::string::npos);
+  CHECK(refused("time_s,a,b,c,d").find("no markers; name their columns x1, y1") !=
+        std::string::npos);
   CHECK(refused("time_s,x1,y1,x2,z2").find("\"x2\" has no partner") != std::string::npos);
   KnownOfRecording known;
   const testing::TemporaryFolder folder;
   known.length = 1;
   known.arc_lengths = {0.5};
   CHECK(failure([&] {
-          recognise_recording(folder.write("m.csv", "t,x1,y1,x2,y2\n0,0,1,0,2\n0.1,0,1,0,2\n"), known);
+          recognise_recording(folder.write("m.csv", "t,x1,y1,x2,y2\n0,0,1,0,2\n0.1,0,1,0,2\n"),
+                              known);
         }).find("--markers: 1 places; the recording has 2 markers") != std::string::npos);
 }
