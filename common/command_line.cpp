@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/command_line.hpp"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 
@@ -38,6 +43,15 @@ CLI::Validator positive_number() {
 
 CLI::Validator non_negative_number() {
   return number_that([](double value) { return value >= 0; }, "from 0 on", "NONNEGATIVE");
+}
+
+int status_after_output(const char* program, int status) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return status;
+  std::fprintf(stderr, "%s: standard output could not be written%s%s\n", program, errno ? ": " : "",
+               errno ? std::strerror(errno) : "");
+  return status == 0 ? 1 : status;
 }
 
 }  // namespace catena

@@ -15,4 +15,8 @@ void check_command_name(const CLI::App& program, int argc, const char* const* ar
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 
+/// To be asked last: `status`, or 1 after a message on standard error where something that was
+/// printed could not be written (a full disk).
+int status_after_output(const char* program, int status);
+
 }  // namespace catena

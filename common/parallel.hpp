@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace catena {
 
 /// Calls work(0) .. work(count - 1), each once, on up to `threads` threads, the caller's among
-/// them. No two calls may write the same data. After an exception no further call begins; the first
+/// them; on fewer where the system gives no more. No two calls may write the same data. After an exception no further call begins; the first
 /// one is thrown again when all threads have ended.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
@@ -27,8 +29,12 @@ void in_parallel(std::size_t count, int threads, const Work& work) {
       }
   };
   std::vector<std::thread> helpers;
-  for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
-    helpers.emplace_back(run);
+  helpers.reserve(std::min(count, static_cast<std::size_t>(std::max(threads, 1))));
+  try {
+    for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
+      helpers.emplace_back(run);
+  } catch (const std::system_error&) {  // too many threads or too little memory for one more
+  }
   run();
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <fstream>
+#include <sstream>
 
 namespace catena {
 namespace {
@@ -77,6 +79,13 @@ std::string sha256_hex(std::string_view message) {
       digest += "0123456789abcdef"[(word >> shift) & 0xf];
   }
   return digest;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return sha256_hex(bytes.str());
 }
 
 }  // namespace catena

@@ -4,7 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -33,7 +37,45 @@ std::size_t character_length(std::string_view text, std::size_t at) {
   return length;
 }
 
+/// What was read, by path, while a ReadOnce lives.
+struct Texts {
+  std::mutex mutex;
+  int users = 0;
+  std::map<std::string, std::string> by_path;
+};
+
+Texts& texts() {
+  static Texts texts;
+  return texts;
+}
+
+std::string key_of(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+/// What was read of a file; nothing if it was not read.
+std::optional<std::string> remembered(const std::filesystem::path& path) {
+  const std::scoped_lock lock(texts().mutex);
+  const auto known = texts().by_path.find(key_of(path));
+  return known == texts().by_path.end() ? std::nullopt : std::optional(known->second);
+}
+
 }  // namespace
+
+ReadOnce::ReadOnce() {
+  const std::scoped_lock lock(texts().mutex);
+  ++texts().users;
+}
+
+ReadOnce::~ReadOnce() {
+  const std::scoped_lock lock(texts().mutex);
+  if (--texts().users == 0) texts().by_path.clear();
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return remembered(path) || std::filesystem::is_regular_file(path, error);
+}
 
 void require_utf8(std::string_view text, const std::string& what) {
   for (std::size_t at = 0; at < text.size();) {
@@ -49,6 +91,7 @@ void require_utf8(std::string_view text, const std::string& what) {
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {
+  if (auto known = remembered(path)) return *std::move(known);
   std::error_code error;
   if (!std::filesystem::exists(path, error))
     throw InputError(path.string() + ": there is no such file");
@@ -61,16 +104,19 @@ std::string read_whole_file(const std::filesystem::path& path) {
   std::string text = bytes.str();
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   require_utf8(text, path.string());
+  const std::scoped_lock lock(texts().mutex);
+  if (texts().users > 0) return texts().by_path.try_emplace(key_of(path), text).first->second;
   return text;
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::path temporary = path;
   temporary += ".part" + std::to_string(getpid());
+  errno = 0;
   std::ofstream stream(temporary, std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
-  std::error_code error;
+  std::error_code error(errno, std::generic_category());
   if (stream) std::filesystem::rename(temporary, path, error);
   if (!stream || error) {
     std::error_code ignored;
@@ -79,6 +125,8 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
                      (error ? " (" + error.message() + ")" : "") +
                      "; check that the folder exists, is writable and has room");
   }
+  const std::scoped_lock lock(texts().mutex);
+  texts().by_path.erase(key_of(path));
 }
 
 }  // namespace catena

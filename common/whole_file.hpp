@@ -11,6 +11,20 @@ namespace catena {
 /// it is missing, a folder or cannot be read, and the line where a byte is not UTF-8.
 std::string read_whole_file(const std::filesystem::path& path);
 
+/// Whether read_whole_file has something to read.
+bool is_file(const std::filesystem::path& path);
+
+/// While one of these lives, every file is read once: read_whole_file returns what it returned
+/// first, though the file be edited or deleted. What a run computes with, stores and hashes is then
+/// the same text. Files that write_whole_file writes are read anew. Threads may share it.
+class ReadOnce {
+ public:
+  ReadOnce();
+  ~ReadOnce();
+  ReadOnce(const ReadOnce&) = delete;
+  ReadOnce& operator=(const ReadOnce&) = delete;
+};
+
 /// Throws InputError naming `what` and the line if `text` is not UTF-8 (RFC 3629). Results are
 /// written as JSON, which holds nothing else.
 void require_utf8(std::string_view text, const std::string& what);

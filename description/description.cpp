@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "common/toml_quoted.hpp"
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
 
@@ -18,7 +19,7 @@ const std::string kBuiltInPrefix = "built in: ";
 Effect named_effect(const TomlTable& file, const std::string& name) {
   if (name.ends_with(".toml")) {
     const auto path = std::filesystem::path(file.file()).parent_path() / name;
-    if (!std::filesystem::exists(path)) {
+    if (!is_file(path)) {
       file.fail("effects", "there is no file \"" + path.string() +
                                "\"; effects are given by path relative to this file, or by the id "
                                "of a built-in one");
@@ -94,7 +95,7 @@ std::string conflict_between(const std::vector<Effect>& effects) {
   return conflict;
 }
 
-void write_description(const Description& description, const std::filesystem::path& path) {
+std::string description_text(const Description& description, const std::filesystem::path& folder) {
   std::string text = "format = 1\nkind = \"model\"\nid = \"" + description.id + "\"\n";
   if (!description.links.empty()) {
     text += "links = [";
@@ -108,14 +109,33 @@ void write_description(const Description& description, const std::filesystem::pa
     const Effect& effect = description.effects[i];
     std::string name = effect.id;
     if (!effect.source_file.starts_with(kBuiltInPrefix)) {
-      const auto folder = std::filesystem::absolute(path).parent_path();
-      name =
-          std::filesystem::relative(std::filesystem::absolute(effect.source_file), folder).string();
+      name = std::filesystem::relative(std::filesystem::absolute(effect.source_file),
+                                       std::filesystem::absolute(folder))
+                 .string();
     }
-    text += (i > 0 ? ", \"" : "\"") + name + "\"";
+    text += (i > 0 ? ", " : "") + toml_quoted(name);
   }
-  text += "]\n";
-  write_whole_file(path, text);
+  return text + "]\n";
+}
+
+void write_description(const Description& description, const std::filesystem::path& path) {
+  write_whole_file(path, description_text(description, path.parent_path()));
+}
+
+Description copy_as_read(const Description& description, const std::filesystem::path& folder) {
+  Description copy = description;
+  for (std::size_t i = 0; i < copy.effects.size(); ++i) {
+    std::string& source = copy.effects[i].source_file;
+    if (source.starts_with(kBuiltInPrefix)) continue;
+    const std::filesystem::path file =
+        folder / std::to_string(i) / std::filesystem::path(source).filename();
+    std::filesystem::create_directories(file.parent_path());
+    write_whole_file(file, read_whole_file(source));
+    source = file.string();
+  }
+  copy.source_file = (folder / "model.toml").string();
+  write_description(copy, copy.source_file);
+  return copy;
 }
 
 }  // namespace catena

@@ -35,10 +35,18 @@ Description read_description(const std::filesystem::path& path);
 /// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
 
-/// Writes a description; read_description gives the same canonical text. Effects that were read
-/// from files are named by their path relative to the folder of `path`. The file is written whole
-/// or not at all. Throws InputError that names the path if it cannot be written.
+/// The file of a description that is to be in `folder`; read_description gives the same canonical
+/// text. Effects that were read from files are named by their path relative to the folder.
+std::string description_text(const Description& description, const std::filesystem::path& folder);
+
+/// Writes description_text whole or not at all. Throws InputError that names the path if it cannot
+/// be written.
 void write_description(const Description& description, const std::filesystem::path& path);
+
+/// Writes a description and its effect files, as they were read (ReadOnce), into a folder of their
+/// own: another program then reads what this one did. Returns the description with the paths of the
+/// copies.
+Description copy_as_read(const Description& description, const std::filesystem::path& folder);
 
 /// A text for hashing and comparing, which contains what the equations depend on and nothing else:
 /// no spaces, comments, titles, paths, numbers of links or order of keys, nor the description's own

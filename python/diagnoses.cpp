@@ -10,9 +10,11 @@
 #include <memory>
 
 #include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/least_squares/least_squares.hpp"
+#include "identify/results/output_folder.hpp"
 #include "python/core.hpp"
 
 namespace py = pybind11;
@@ -23,7 +25,7 @@ namespace {
 
 /// A diagnosis with what it was made with: writing it derives the new model.
 struct FinishedDiagnosis {
-  ScratchFolder scratch;
+  WorkFolder scratch = scratch_folder();
   std::unique_ptr<DiagnosisContext> context;
   Diagnosis found;
   DiagnosisFindings findings;
@@ -62,6 +64,7 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   std::exception_ptr raised;
   const auto finished = std::make_shared<FinishedDiagnosis>();
   const auto work = [&] {
+    const ReadOnce inputs;
     const Case the_case = read_case(case_file);
     finished->context = std::make_unique<DiagnosisContext>(
         the_case, effects, finished->scratch.path(), fit_least_squares, ProviderOptions{});
@@ -192,9 +195,10 @@ void add_diagnoses(py::module_& module) {
           "write",
           [](const Shared& d, const std::filesystem::path& folder) {
             py::gil_scoped_release unlock;
-            UnfinishedFolder output(folder);
-            write_diagnosis(d->found, d->findings, *d->context, output.path());
-            output.publish();
+            OutputFolder output(folder, kDiagnosisNames);
+            output.publish([&](const std::filesystem::path& unfinished) {
+              write_diagnosis(d->found, d->findings, *d->context, unfinished, output.path());
+            });
           },
           "folder"_a,
           "Writes what catena diagnose writes: diagnosis.json, the results of the rounds, the case "

@@ -10,7 +10,9 @@
 #include "common/manual.hpp"
 #include "generator/program/commands.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app("Derives the equations of motion of hanging chains", "catena-derive");
   app.require_subcommand(1);
   app.get_formatter()->column_width(26);
@@ -33,4 +35,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return catena::status_after_output("catena-derive", run(argc, argv));
 }

@@ -4,24 +4,13 @@
 #include <cmath>
 
 #include "common/number_text.hpp"
+#include "common/toml_quoted.hpp"
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n')
-      out += "\\n";
-    else
-      out += c;
-  }
-  return out + "\"";
-}
 
 std::string list(const std::vector<double>& values) {
   std::string out = "[";
@@ -38,7 +27,7 @@ class Writer {
     out_ += key + " = " + value + "\n";
   }
   void text(const std::string& key, const std::string& value, const std::string& absent = "") {
-    if (value != absent) line(key, quoted(value));
+    if (value != absent) line(key, toml_quoted(value));
   }
   void number(const std::string& key, double value, double absent = kNotGiven) {
     if (value != absent && !(std::isnan(value) && std::isnan(absent)))
@@ -95,7 +84,8 @@ void write_parameter(Writer& out, const ParameterSpec& parameter) {
   out.flag("per_experiment", parameter.per_experiment);
   std::string values;
   for (const auto& [experiment, value] : parameter.values)
-    values += (values.empty() ? "" : ", ") + quoted(experiment) + " = " + shortest_number(value);
+    values +=
+        (values.empty() ? "" : ", ") + toml_quoted(experiment) + " = " + shortest_number(value);
   if (!values.empty()) out.line("values", "{" + values + "}");
 }
 
@@ -132,11 +122,12 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
 }
 
 std::string point_text(const PointSpec& point, DataKind kind) {
-  std::string out = "  {name = " + quoted(point.name);
+  std::string out = "  {name = " + toml_quoted(point.name);
   if (kind == DataKind::kAngles)
-    return out + ", column = " + quoted(point.angle_column) +
+    return out + ", column = " + toml_quoted(point.angle_column) +
            ", link = " + std::to_string(point.link) + "},\n";
-  out += ", side = " + quoted(point.side_column) + ", down = " + quoted(point.down_column);
+  out +=
+      ", side = " + toml_quoted(point.side_column) + ", down = " + toml_quoted(point.down_column);
   if (point.load)
     out += ", load = true";
   else if (point.joint)

@@ -26,13 +26,13 @@ const Candidate* DiagnosisContext::find(const std::string& id) const {
   return found == library_.end() ? nullptr : &*found;
 }
 
-void DiagnosisContext::write_description_with(const std::vector<std::string>& effects, int links,
-                                              const std::string& id, const fs::path& file) const {
+Description DiagnosisContext::description_with(const std::vector<std::string>& effects, int links,
+                                               const std::string& id) const {
   Description description = original_;
   for (const std::string& effect : effects) description.effects.push_back(find(effect)->effect);
   description.id = id;
   description.links = {links};
-  write_description(description, file);
+  return description;
 }
 
 Model DiagnosisContext::once(const std::string& key, const std::function<Model()>& make) {
@@ -66,7 +66,7 @@ Model DiagnosisContext::made_with(const std::vector<std::string>& effects, int l
     if (effects.size() > 4)
       id = original_.id + "_and_" + std::to_string(effects.size()) + "_effects";
     const fs::path file = folder_ / (sha256_hex(key) + ".toml");
-    write_description_with(effects, links, id, file);
+    write_description(description_with(effects, links, id), file);
     ProviderOptions options = provider;
     options.for_fits = for_fits;
     return provide_model(file, links, options);

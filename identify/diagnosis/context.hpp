@@ -46,9 +46,9 @@ class DiagnosisContext {
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
 
-  /// Writes the description of the case with these effects of the library.
-  void write_description_with(const std::vector<std::string>& effects, int links,
-                              const std::string& id, const std::filesystem::path& file) const;
+  /// The description of the case with these effects of the library.
+  Description description_with(const std::vector<std::string>& effects, int links,
+                               const std::string& id) const;
 
   /// A model for fits with these effects: the case's model if there are none, else one with every
   /// candidate that can share a model. Derived and compiled once for every number of links. At the

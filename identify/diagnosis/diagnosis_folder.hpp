@@ -2,46 +2,27 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "common/work_folder.hpp"
 #include "identify/diagnosis/diagnosis_text.hpp"
 
 namespace catena {
 
-/// A new folder for temporary files, gone with the object. Throws std::runtime_error if it cannot
-/// be made.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+/// What write_diagnosis writes, as OutputFolder takes it.
+inline const std::vector<std::string> kDiagnosisNames = {"diagnosis.json", "diagnosed.toml",
+                                                         "model.toml", "model/", "round_*/"};
 
- private:
-  std::filesystem::path path_;
-};
+/// A temporary folder for a diagnosis to work in.
+WorkFolder scratch_folder();
 
-/// A folder beside `folder` in which a result is put together: what stands in `folder` is replaced
-/// at once when all of it is there, and an interrupted run leaves nothing. Throws InputError if it
-/// cannot be made.
-class UnfinishedFolder {
- public:
-  explicit UnfinishedFolder(const std::filesystem::path& folder);
-  ~UnfinishedFolder();
-  UnfinishedFolder(const UnfinishedFolder&) = delete;
-  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  void publish();
-
- private:
-  std::filesystem::path folder_, path_;
-};
-
-/// Writes a diagnosis into a folder, which is made: model.toml and the emitted code in model/ where
-/// an effect was found, diagnosed.toml, the results of the rounds and, last, diagnosis.json, whose
-/// text is returned. Throws InputError where a file cannot be written, ModelError where the model
-/// cannot be derived.
+/// Writes a diagnosis into `folder`, from where it is moved to `place`: diagnosis.json, the results
+/// of the rounds, diagnosed.toml and, where an effect was found, model.toml and the emitted code in
+/// model/. Paths in the files are relative to `place`. Returns the text of diagnosis.json. Throws
+/// InputError where a file cannot be written, ModelError where the model cannot be derived.
 std::string write_diagnosis(const Diagnosis& found, const DiagnosisFindings& findings,
-                            const DiagnosisContext& context, const std::filesystem::path& folder);
+                            const DiagnosisContext& context, const std::filesystem::path& folder,
+                            const std::filesystem::path& place);
 
 }  // namespace catena

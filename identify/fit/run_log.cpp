@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lines, their cells separated by tabulators:
-//   catena run log 1 KEY
-//   e START ERROR X MESSAGE                                  an evaluation; ERROR may be "failed"
-//   s START STATUS ERROR START_ERROR X EVALUATIONS WORK ITERATIONS FAILURES MESSAGE .   a start
+//   catena run log 2 KEY
+//   e START ERROR X MESSAGE CHECK                            an evaluation; ERROR may be "failed"
+//   s START STATUS ERROR START_ERROR X EVALUATIONS WORK ITERATIONS FAILURES MESSAGE CHECK   a start
 #include "identify/fit/run_log.hpp"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
+#include "common/sha256.hpp"
 
 namespace catena {
 namespace {
 
-constexpr char kHead[] = "catena run log 1 ";
+constexpr char kOurs[] = "catena run log ";
+constexpr char kHead[] = "catena run log 2 ";
+
+constexpr std::size_t kCheckLength = 16;  // digits: 64 bits notice any damage
 
 std::string exact(double value) {
   return std::isfinite(value) ? exact_number_text(value) : "failed";
@@ -62,41 +68,51 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 }  // namespace
 
-RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool resume) {
+RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool resume,
+               std::function<void(const std::string&)> notice)
+    : name_(file.string()), notice_(std::move(notice)) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
-  const bool go_on = resume && std::filesystem::exists(file);
-  if (go_on) std::filesystem::resize_file(file, read(file, key));  // off with a broken last line
-  file_ = std::fopen(file.c_str(), go_on ? "a" : "w");
-  if (!file_) throw InputError(file.string() + ": cannot be written");
-  if (!go_on) append(kHead + key + "\n");
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  const std::string before = text.str();
+  if (!before.starts_with(kOurs) && !std::string_view(kOurs).starts_with(before))
+    throw InputError(name_ + ": is no log of catena; move it away or choose another folder");
+  const std::size_t whole = resume ? read(before, key) : 0;
+  if (whole > 0) std::filesystem::resize_file(file, whole);  // off with a broken last line
+  file_ = std::fopen(file.c_str(), whole > 0 ? "a" : "w");
+  if (file_ && whole == 0) write(kHead + key + "\n");
+  if (!file_ || failed_) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
 }
 
 RunLog::~RunLog() {
   if (file_) std::fclose(file_);
 }
 
-std::size_t RunLog::read(const std::filesystem::path& file, const std::string& key) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  const std::string text = bytes.str();
+std::size_t RunLog::read(const std::string& text, const std::string& key) {
   std::size_t begin = 0;
-  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+  int line_number = 1;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos;
+       begin = end + 1, ++line_number) {
     const std::string line = text.substr(begin, end - begin);
     if (begin == 0) {
       if (line == kHead + key) continue;
-      throw InputError(
-          file.string() +
-          ": belongs to another case, other data or another model; run without --resume "
-          "to begin anew");
+      throw InputError(name_ +
+                       ": belongs to another case, other data, another model or another version "
+                       "of catena; run without --resume to begin anew");
     }
-    const std::vector<std::string> cells = cells_of(line);
+    const std::string content = line.substr(0, line.rfind('\t'));
+    if (line != content + "\t" + next_check(content))
+      throw InputError(name_ + ":" + std::to_string(line_number) +
+                       ": this line was damaged or edited, or one before it was removed; remove it "
+                       "and all that follow to go on from there, or run without --resume to begin "
+                       "anew");
+    const std::vector<std::string> cells = cells_of(content);
     if (cells[0] == "e" && cells.size() == 5) {
       Start& start = starts_[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());
       start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
-    } else if (cells[0] == "s" && cells.size() == 12) {
+    } else if (cells[0] == "s" && cells.size() == 11) {
       FitResult result;
       result.status = static_cast<FitStatus>(std::atoi(cells[2].c_str()));
       result.error = number(cells[3]);
@@ -117,9 +133,24 @@ std::size_t RunLog::read(const std::filesystem::path& file, const std::string& k
   return begin;
 }
 
-void RunLog::append(const std::string& line) {
-  std::fwrite(line.data(), 1, line.size(), file_);
-  std::fflush(file_);
+/// Of all lines so far, too: none can be changed, removed or put elsewhere without notice.
+std::string RunLog::next_check(const std::string& content) {
+  check_ = sha256_hex(check_ + content);
+  check_.resize(kCheckLength);
+  return check_;
+}
+
+void RunLog::append(const std::string& content) {
+  if (failed_) return;
+  write(content + "\t" + next_check(content) + "\n");
+  if (failed_ && notice_)
+    notice_(name_ + ": " + std::strerror(errno) +
+            "; the fit goes on, but --resume will know only what came before");
+}
+
+void RunLog::write(const std::string& line) {
+  failed_ =
+      std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0;
 }
 
 const HistoryEntry* RunLog::recall(int start, const Eigen::VectorXd& x) const {
@@ -139,7 +170,7 @@ void RunLog::record(int start, const HistoryEntry& entry) {
     return;
   }
   append("e\t" + std::to_string(start) + "\t" + exact(entry.error) + "\t" + x + "\t" +
-         one_line(entry.message) + "\n");
+         one_line(entry.message));
 }
 
 std::optional<FitResult> RunLog::finished(int start) const {
@@ -155,7 +186,7 @@ void RunLog::finish(int start, const FitResult& result) {
          "\t" + exact(result.error) + "\t" + exact(result.start_error) + "\t" + exact(result.x) +
          "\t" + std::to_string(result.evaluations) + "\t" + exact_number_text(result.work) + "\t" +
          std::to_string(result.iterations) + "\t" + std::to_string(result.failures) + "\t" +
-         one_line(result.message) + "\t.\n");
+         one_line(result.message));
 }
 
 }  // namespace catena

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -15,7 +16,8 @@ namespace catena {
 
 /// The log of a run of `catena identify`: one line for every finished evaluation and every finished
 /// start, appended and handed to the system at once, so that a run that is killed at any moment can
-/// be taken up again. Numbers are written exactly; a line that was cut off is not believed.
+/// be taken up again. Numbers are written exactly. Every line ends with a check of itself and those
+/// before it; a last line that was cut off is not believed.
 ///
 /// A start that was finished is taken from the log. One that was not is begun again: it asks for
 /// the same points in the same order, and those that were evaluated without derivatives are
@@ -23,9 +25,12 @@ namespace catena {
 class RunLog {
  public:
   /// `key` identifies case, data and model. With `resume` an existing log is read and continued;
-  /// throws InputError if it belongs to another key. Otherwise the log begins anew. Throws
-  /// InputError if it cannot be written.
-  RunLog(const std::filesystem::path& file, const std::string& key, bool resume);
+  /// throws InputError if it belongs to another key, or names the line that was damaged or edited.
+  /// Otherwise the log begins anew. Throws InputError if it cannot be written, or the file is no
+  /// log. Where it cannot be written later (a full disk), `notice` is told once, and the run goes on
+  /// without.
+  RunLog(const std::filesystem::path& file, const std::string& key, bool resume,
+         std::function<void(const std::string&)> notice = {});
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
@@ -47,10 +52,17 @@ class RunLog {
     std::optional<FitResult> result;
   };
 
-  std::size_t read(const std::filesystem::path& file, const std::string& key);
-  void append(const std::string& line);
+  /// Takes over what a log says. Returns the bytes of its whole lines.
+  std::size_t read(const std::string& text, const std::string& key);
+  void append(const std::string& content);
+  void write(const std::string& line);
+  std::string next_check(const std::string& content);
 
+  std::string name_;
+  std::function<void(const std::string&)> notice_;
   std::FILE* file_ = nullptr;
+  bool failed_ = false;
+  std::string check_;  // of the last line
   mutable std::mutex mutex_;
   std::map<int, Start> starts_;
 };

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <grp.h>
 #include <pwd.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -34,18 +32,11 @@ const char* environment(const char* name) {
   return value && *value ? value : nullptr;
 }
 
-std::string checksum_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return sha256_hex(bytes.str());
-}
-
 /// Whether an entry holds what was written when it was made.
 bool is_whole(const fs::path& entry) {
   std::ifstream in(entry / kChecksum);
   std::string written;
-  return in >> written && written == checksum_of(entry / kLibrary);
+  return in >> written && written == sha256_of_file(entry / kLibrary);
 }
 
 /// Puts a file or folder on the disk before it gets its name: a crash leaves no half entry.
@@ -57,15 +48,6 @@ void synchronise(const fs::path& path) {
 }
 
 bool is_work_folder(const fs::path& path) { return path.filename().string().starts_with(kWork); }
-
-/// Locks a folder until the process ends or the result is closed; -1 if another process has it.
-int lock_folder(const fs::path& folder) {
-  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return -1;
-  if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
-  close(file);
-  return -1;
-}
 
 std::uintmax_t bytes_in(const fs::path& folder) {
   std::uintmax_t bytes = 0;
@@ -145,13 +127,7 @@ ModelCache::ModelCache(const fs::path& folder) : folder_(fs::absolute(folder)) {
   std::error_code error;
   if (!fs::exists(folder_, error)) return;
   require_trusted(folder_);
-  for (const auto& left : fs::directory_iterator(folder_, error)) {
-    if (!is_work_folder(left.path())) continue;
-    const int lock = lock_folder(left.path());
-    if (lock < 0) continue;  // its process is still at work
-    fs::remove_all(left.path(), error);
-    close(lock);
-  }
+  remove_abandoned(folder_, kWork);
 }
 
 std::optional<Model> ModelCache::find(const std::string& key) const {
@@ -166,31 +142,25 @@ std::optional<Model> ModelCache::find(const std::string& key) const {
   return Model::load(entry / kLibrary);
 }
 
-ModelCache::WorkFolder::WorkFolder(const ModelCache& cache) {
+WorkFolder ModelCache::work_folder() const {
   std::error_code error;
-  fs::create_directories(cache.folder().parent_path(), error);
-  if (mkdir(cache.folder().c_str(), 0700) != 0 && errno != EEXIST)
-    throw ModelError(cache.folder().string() + ": the cache of models cannot be made: " +
+  fs::create_directories(folder_.parent_path(), error);
+  if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST)
+    throw ModelError(folder_.string() + ": the cache of models cannot be made: " +
                      std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
-  require_trusted(cache.folder());
-  std::string pattern = (cache.folder() / (std::string(kWork) + "XXXXXX")).string();
-  if (!mkdtemp(pattern.data()))
-    throw ModelError(cache.folder().string() + ": the cache of models cannot be written: " +
-                     std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
-  path_ = pattern;
-  lock_ = lock_folder(path_);
-}
-
-ModelCache::WorkFolder::~WorkFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-  if (lock_ >= 0) close(lock_);
+  require_trusted(folder_);
+  try {
+    return WorkFolder(folder_, kWork);
+  } catch (const fs::filesystem_error& failure) {
+    throw ModelError(folder_.string() + ": the cache of models cannot be written: " +
+                     failure.code().message() + "; set CATENA_CACHE to a folder of yours");
+  }
 }
 
 Model ModelCache::keep(const std::string& key, const fs::path& made) const {
   const fs::path entry = folder_ / key;
   Model::load(made / kLibrary);  // what cannot be used never gets into the cache
-  write_whole_file(made / kChecksum, checksum_of(made / kLibrary) + "\n");
+  write_whole_file(made / kChecksum, sha256_of_file(made / kLibrary) + "\n");
   for (const char* file : {kLibrary, kChecksum}) synchronise(made / file);
   synchronise(made);
   std::error_code error;

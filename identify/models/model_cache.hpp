@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "common/work_folder.hpp"
 #include "runtime/model.hpp"
 
 namespace catena {
@@ -45,23 +45,11 @@ class ModelCache {
   /// The model of an entry. Nothing if there is none, or only a damaged one (which is removed).
   std::optional<Model> find(const std::string& key) const;
 
-  /// A fresh folder in the cache to make an entry in. It is removed with this object unless it was
-  /// kept.
-  class WorkFolder {
-   public:
-    /// Makes the cache's folder if there is none (mode 0700). Throws ModelError if that fails.
-    explicit WorkFolder(const ModelCache& cache);
-    ~WorkFolder();
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
+  /// A new folder in the cache to make an entry in. Makes the cache's folder if there is none (mode
+  /// 0700). Throws ModelError if that fails.
+  WorkFolder work_folder() const;
 
-   private:
-    std::filesystem::path path_;
-    int lock_ = -1;  // held while the process lives: others leave the folder alone
-  };
-
-  /// Makes an entry of `made` (a folder in a WorkFolder with model.so) and loads it. Where another
+  /// Makes an entry of `made` (a folder in work_folder() with model.so) and loads it. Where another
   /// process was quicker, its entry stays. Throws ModelError if it cannot be written, InputError if
   /// the library cannot be used. Removes the entries not used for longest while all of them take
   /// more than kMostBytes.

@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -25,6 +25,8 @@ const char* environment(const char* name) {
   const char* value = std::getenv(name);
   return value && *value ? value : nullptr;
 }
+
+constexpr const char* kDeriving = "deriving the model";
 
 bool has_fused_multiply_add() {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -57,42 +59,48 @@ fs::path look_for_derive_program() {
   return find_in_path(name);
 }
 
-/// Runs a step of making a model; what it printed to standard output. Throws ModelError.
+/// Runs a step of making a model. Throws ModelError if it cannot be run.
 ProcessResult run(const std::vector<std::string>& command, const std::string& purpose,
-                  const std::string& hint) {
-  ProcessResult result;
+                  const std::string& hint, const std::atomic<bool>* stop) {
   try {
-    result = run_process(command);
+    return run_process(command, stop);
   } catch (const std::runtime_error& error) {
     throw ModelError(purpose + ": " + error.what() + hint);
   }
-  return result;
 }
 
 [[noreturn]] void fail(const ProcessResult& result, const std::string& program,
                        const std::string& purpose, const std::string& hint) {
-  throw ModelError(purpose + ": " + program + " ended with status " +
-                   std::to_string(result.exit_status) + hint + "\n" + result.errors);
+  const int signal = result.exit_status - 128;
+  throw ModelError(purpose + ": " + program +
+                   (signal > 0 ? " was ended by signal " + std::to_string(signal)
+                               : " ended with status " + std::to_string(result.exit_status)) +
+                   hint + "\n" + (result.errors.empty() ? "It printed no error." : result.errors));
 }
 
-/// Runs catena-derive; what it wrote to standard output. Throws InputError where it finds the
-/// description at fault.
-std::string run_derivation(const std::vector<std::string>& command, const std::string& purpose) {
-  const ProcessResult result = run(command, purpose, "");
-  if (result.exit_status == 2) throw InputError(result.errors);
+/// Runs catena-derive on the description as it was read; what it wrote to standard output. Throws
+/// InputError where it finds the description at fault.
+std::string run_derivation(const fs::path& derive, const Description& description, int links,
+                           const std::vector<std::string>& options, const std::string& purpose,
+                           const std::atomic<bool>* stop = nullptr) {
+  const WorkFolder copies(fs::temp_directory_path(), "catena-derive-");
+  std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
+  command.insert(command.end(), options.begin(), options.end());
+  std::map<std::string, std::string> originals;
+  if (!description.effects.empty()) {
+    const Description copy = copy_as_read(description, copies.path());
+    command.insert(command.end(), {"--description", copy.source_file});
+    originals[copy.source_file] = description.source_file;
+    for (std::size_t i = 0; i < copy.effects.size(); ++i)
+      originals[copy.effects[i].source_file] = description.effects[i].source_file;
+  }
+  ProcessResult result = run(command, purpose, "", stop);
+  for (const auto& [copy, original] : originals)
+    for (std::size_t at; (at = result.errors.find(copy)) != std::string::npos;)
+      result.errors.replace(at, copy.size(), original);
+  if (result.exit_status == 2 && !result.errors.empty()) throw InputError(result.errors);
   if (result.exit_status != 0) fail(result, command.front(), purpose, "");
   return result.output;
-}
-
-std::vector<std::string> derivation(const fs::path& derive, const fs::path& description, int links,
-                                    bool for_fits = false) {
-  std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
-  if (!description.empty()) {
-    command.push_back("--description");
-    command.push_back(fs::absolute(description).string());
-  }
-  if (for_fits) command.push_back("--for-fits");
-  return command;
 }
 
 fs::path source_in(const fs::path& folder) {
@@ -101,12 +109,8 @@ fs::path source_in(const fs::path& folder) {
   throw ModelError(folder.string() + ": catena-derive wrote no source file");
 }
 
-/// Identifies the generator: models of another one are not taken from the cache.
-std::string identity_of(const fs::path& program) {
-  std::ifstream in(program, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return sha256_hex(bytes.str());
+Description description_in(const fs::path& file) {
+  return file.empty() ? plain_chain() : read_description(file);
 }
 
 }  // namespace
@@ -118,19 +122,22 @@ fs::path find_derive_program() {
       "derives models that are not built in");
 }
 
+void derive_model(const Description& description, int links, const fs::path& folder) {
+  run_derivation(find_derive_program(), description, links, {"--output", folder.string()},
+                 kDeriving);
+}
+
 std::string derived_equations(const fs::path& description, int links) {
   try {
-    std::vector<std::string> command = derivation(find_derive_program(), description, links);
-    command.push_back("--equations");
-    return run_derivation(command, "deriving the equations");
+    return run_derivation(find_derive_program(), description_in(description), links,
+                          {"--equations"}, "deriving the equations");
   } catch (const ModelError&) {
     return {};
   }
 }
 
 Model provide_model(const fs::path& description_file, int links, const ProviderOptions& options) {
-  const Description description =
-      description_file.empty() ? plain_chain() : read_description(description_file);
+  const Description description = description_in(description_file);
   if (description.effects.empty() && Model::has_built_in(links)) return Model::built_in(links);
 
   const bool any_links =
@@ -155,7 +162,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   // For this processor alone takes the compiler half the time.
   if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
-                        identity_of(derive) + "\n" + "interface " +
+                        // models of another generator are not taken from the cache
+                        sha256_of_file(derive) + "\n" + "interface " +
                         std::to_string(CATENA_MODEL_ABI) + ", " +
                         std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;
@@ -177,13 +185,13 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
                    std::to_string(links) + " links (kept in " + cache.folder().string() + ")" +
                    (foreign.empty() ? "" : "; it runs code made from " + foreign));
   }
-  const ModelCache::WorkFolder work(cache);
+  const WorkFolder work = cache.work_folder();
   const fs::path sources = work.path() / "model";
-  std::vector<std::string> command = derivation(derive, description_file, links, options.for_fits);
-  command.insert(command.end(), {"--output", sources.string()});
-  run_derivation(command, "deriving the model");
+  std::vector<std::string> emission = {"--output", sources.string()};
+  if (options.for_fits) emission.emplace_back("--for-fits");
+  run_derivation(derive, description, links, emission, kDeriving, options.stop);
 
-  command = {compiler};
+  std::vector<std::string> command = {compiler};
   command.insert(command.end(), flags.begin(), flags.end());
   for (const std::string& argument : {"-I" + sources.string(), source_in(sources).string(),
                                       std::string("-o"), (sources / "model.so").string()})
@@ -191,7 +199,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   const std::string purpose = "compiling the model";
   const std::string hint =
       "; a C++ compiler is needed for models that are not built in (set CXX to name one)";
-  const ProcessResult compiled = run(command, purpose, hint);
+  const ProcessResult compiled = run(command, purpose, hint, options.stop);
   if (compiled.exit_status != 0) fail(compiled, compiler, purpose, hint);
   return cache.keep(key, sources);
 }

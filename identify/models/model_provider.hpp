@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
 
+#include "description/description.hpp"
 #include "identify/models/model_cache.hpp"
 #include "runtime/model.hpp"
 
@@ -17,6 +19,7 @@ struct ProviderOptions {
   /// Only what fits call (docs/model-table.md): compiled sooner. A plain chain is not compiled.
   bool for_fits = false;
   std::function<void(const std::string&)> notice;  ///< one line before something takes its time
+  const std::atomic<bool>* stop = nullptr;         ///< once it is true, deriving and compiling end
 };
 
 /// The model of the file `description` (empty: the plain chain) with `links` links.
@@ -35,6 +38,10 @@ Model provide_model(const std::filesystem::path& description, int links,
 /// The equations of the model with `links` links, at most 3, as `catena-derive derive --equations`
 /// prints them (JSON). Empty if there is no catena-derive.
 std::string derived_equations(const std::filesystem::path& description, int links);
+
+/// Writes the emitted code of a model into `folder`, which is made. Throws InputError and ModelError
+/// as provide_model.
+void derive_model(const Description& description, int links, const std::filesystem::path& folder);
 
 /// The path of catena-derive: beside this program, in ../libexec/catena or in PATH. Throws
 /// ModelError if there is none.

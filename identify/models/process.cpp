@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +17,8 @@ extern char** environ;
 
 namespace catena {
 namespace {
+
+constexpr int kPatience = 100;  // ms between looks at `stop`
 
 std::vector<char*> argument_array(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
@@ -54,35 +57,57 @@ struct Pipe {
   }
 };
 
+/// Ends a process group, kindly first: compilers remove their temporary files.
+int end_group(pid_t leader) {
+  int status = 0;
+  kill(-leader, SIGTERM);
+  for (int tenths = 0; tenths < 10; ++tenths) {
+    if (waitpid(leader, &status, WNOHANG) == leader) return status;
+    poll(nullptr, 0, kPatience);
+  }
+  kill(-leader, SIGKILL);
+  waitpid(leader, &status, 0);
+  return status;
+}
+
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& command) {
+ProcessResult run_process(const std::vector<std::string>& command, const std::atomic<bool>* stop) {
   Pipe output(command.front()), errors(command.front());
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.ends[1], STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  // A group of its own can be ended with all that it started.
+  if (stop) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
-  const int error = posix_spawnp(&child, command.front().c_str(), &actions, nullptr,
+  const int error = posix_spawnp(&child, command.front().c_str(), &actions, &attributes,
                                  argument_array(command).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) fail(command.front(), error);
   output.close_end(1);
   errors.close_end(1);
   ProcessResult result;
+  const auto ended = [&result](int status) {
+    result.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+  };
   // Both are read as they come: a full pipe would stop the program.
   while (output.ends[0] >= 0 || errors.ends[0] >= 0) {
     std::array<pollfd, 2> open{pollfd{output.ends[0], POLLIN, 0},
                                pollfd{errors.ends[0], POLLIN, 0}};
-    if (poll(open.data(), open.size(), -1) < 0 && errno != EINTR) break;
+    if (poll(open.data(), open.size(), stop ? kPatience : -1) < 0 && errno != EINTR) break;
+    if (stop && stop->load()) return ended(end_group(child));
     if (open[0].revents != 0) output.read_into(result.output);
     if (open[1].revents != 0) errors.read_into(result.errors);
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  result.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
+  return ended(status);
 }
 
 void become_process(const std::vector<std::string>& command) {

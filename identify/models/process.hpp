@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,8 +15,10 @@ struct ProcessResult {
 };
 
 /// Runs a program with arguments (no shell) and waits for it. Throws std::runtime_error naming the
-/// program if it cannot be started.
-ProcessResult run_process(const std::vector<std::string>& command);
+/// program if it cannot be started. Once `stop` is true, the program and those that it started are
+/// ended within about a second.
+ProcessResult run_process(const std::vector<std::string>& command,
+                          const std::atomic<bool>* stop = nullptr);
 
 /// Replaces this process by the program. Returns only by std::runtime_error.
 [[noreturn]] void become_process(const std::vector<std::string>& command);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/command.hpp"
 
+#include <array>
 #include <cctype>
 #include <csignal>
 #include <iostream>
+#include <map>
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
@@ -16,6 +18,21 @@ std::atomic<bool> g_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 void on_interruption(int) { g_interrupted = true; }
+
+constexpr std::array<const char*, 4> kMotionFiles = {"positions", "angles", "forces", "energy"};
+/// The name of a file has at most 255 bytes, of which write_whole_file needs some for a time.
+constexpr std::size_t kLongestSuffix = 220;
+
+/// ".csv" or, where there are several experiments, "_NAME.csv" with a name fit for files.
+std::string suffix_of(const Problem& problem, int experiment) {
+  if (problem.experiments().size() <= 1) return ".csv";
+  std::string name = problem.experiments()[static_cast<std::size_t>(experiment)].spec.name;
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && !std::isalnum(byte) && c != '.' && c != '-') c = '_';
+  }
+  return "_" + name + ".csv";
+}
 
 }  // namespace
 
@@ -44,6 +61,7 @@ int report_interruption(const std::string& outcome) {
 
 Model model_of(const Case& the_case, const CommonOptions& options) {
   ProviderOptions provider;
+  provider.stop = &interrupted();
   if (!options.quiet)
     provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
   return provide_model(the_case.description, the_case.links, provider);
@@ -56,32 +74,45 @@ void show_warnings(const Problem& problem, const CommonOptions& options) {
       std::cerr << "catena: warning: " << experiment.spec.name << ": " << warning << "\n";
 }
 
-void write_output(const std::filesystem::path& folder, const OutputFiles& files) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError("--output " + folder.string() + ": cannot be made: " + error.message());
-  for (const auto& [name, text] : files) write_whole_file(folder / name, text);
-}
-
 std::filesystem::path output_folder(const CommonOptions& options) {
   if (!options.output.empty()) return options.output;
   return options.case_file.stem().string() + "_result";
 }
 
+void write_output(OutputFolder& output, const OutputFiles& files) {
+  output.publish([&](const std::filesystem::path& folder) {
+    for (const auto& [name, text] : files) write_whole_file(folder / name, text);
+  });
+}
+
+std::vector<std::string> motion_file_names(const Problem& problem) {
+  std::map<std::string, const ExperimentSpec*> of_suffix;
+  if (problem.experiments().empty()) of_suffix[".csv"] = nullptr;
+  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
+    const ExperimentSpec& spec = problem.experiments()[e].spec;
+    const auto [other, is_new] =
+        of_suffix.try_emplace(suffix_of(problem, static_cast<int>(e)), &spec);
+    const std::string rule = spec.where + ": name: \"" + spec.name + "\": ";
+    if (!is_new)
+      throw InputError(rule + "its files would have the names of those of \"" +
+                       other->second->name + "\"; rename one");
+    if (other->first.size() > kLongestSuffix)
+      throw InputError(rule + "too long for the name of a file; at most " +
+                       std::to_string(kLongestSuffix - 5) + " bytes are possible");
+  }
+  std::vector<std::string> names;
+  for (const auto& [suffix, spec] : of_suffix)
+    for (const char* kind : kMotionFiles) names.push_back(kind + suffix);
+  return names;
+}
+
 void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
                       OutputFiles& files) {
-  std::string suffix = ".csv";
-  if (problem.experiments().size() > 1) {
-    std::string name = problem.experiments()[static_cast<std::size_t>(experiment)].spec.name;
-    for (char& c : name)
-      if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-    suffix = "_" + name + ".csv";
-  }
-  files.emplace_back("positions" + suffix, positions_csv(motion));
-  files.emplace_back("angles" + suffix, angles_csv(problem.model(), motion));
-  files.emplace_back("forces" + suffix, forces_csv(motion));
-  files.emplace_back("energy" + suffix, energy_csv(problem.model(), motion));
+  const std::string suffix = suffix_of(problem, experiment);
+  const std::string texts[] = {positions_csv(motion), angles_csv(problem.model(), motion),
+                               forces_csv(motion), energy_csv(problem.model(), motion)};
+  for (std::size_t i = 0; i < kMotionFiles.size(); ++i)
+    files.emplace_back(kMotionFiles[i] + suffix, texts[i]);
 }
 
 }  // namespace catena

@@ -11,6 +11,7 @@
 #include "identify/models/model_provider.hpp"
 #include "identify/problem/motion.hpp"
 #include "identify/problem/problem.hpp"
+#include "identify/results/output_folder.hpp"
 
 namespace catena {
 
@@ -39,13 +40,15 @@ Model model_of(const Case& the_case, const CommonOptions& options);
 /// What is odd about the recordings of a problem, on standard error; nothing if quiet.
 void show_warnings(const Problem& problem, const CommonOptions& options);
 
-/// Files under their names, written into a folder one by one, each whole; the folder is made.
-using OutputFiles = std::vector<std::pair<std::string, std::string>>;
-void write_output(const std::filesystem::path& folder, const OutputFiles& files);
 std::filesystem::path output_folder(const CommonOptions& options);
 
-/// positions.csv, angles.csv, forces.csv and energy.csv of a motion; where there are several
+/// Files of a result under their names.
+using OutputFiles = std::vector<std::pair<std::string, std::string>>;
+void write_output(OutputFolder& output, const OutputFiles& files);
+
+/// positions.csv, angles.csv, forces.csv and energy.csv of the motions; where there are several
 /// experiments, positions_run_1.csv and so on, by the name of the experiment.
+std::vector<std::string> motion_file_names(const Problem& problem);
 void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
                       OutputFiles& files);
 

@@ -11,6 +11,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
+#include "identify/results/output_folder.hpp"
 
 namespace catena {
 namespace {
@@ -36,9 +37,10 @@ std::string line_of(const DiagnosisProgress& progress) {
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
   const Case the_case = read_case(options.case_file);
-  const ScratchFolder scratch;
+  const WorkFolder scratch = scratch_folder();
   ProgressLine progress(!options.quiet);
   ProviderOptions provider;
+  provider.stop = &interrupted();
   if (!options.quiet)
     provider.notice = [&progress](const std::string& line) {
       progress.clear();
@@ -49,29 +51,32 @@ int diagnose_case(const DiagnoseOptions& options) {
   context.threads = options.threads;
   context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
   show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
-  fs::path folder = fs::absolute(output_folder(options)).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();  // "found/"
+  OutputFolder output(output_folder(options), kDiagnosisNames);
+  Diagnosis found;
+  DiagnosisFindings findings;
   try {
-    UnfinishedFolder output(folder);
-    const Diagnosis found = diagnose(the_case, context, options.diagnosis);
-    const DiagnosisFindings findings = find_out(found);
-    const std::string json = write_diagnosis(found, findings, context, output.path());
+    found = diagnose(the_case, context, options.diagnosis);
+    findings = find_out(found);
     context.stop_if_asked();
-    output.publish();
-    progress.clear();
-    if (options.json)
-      std::cout << json;
-    else if (!options.quiet)
-      std::cout << diagnosis_table(found, findings) << "written to " << folder.string() << "\n";
   } catch (const std::exception&) {
     progress.clear();
-    // The interruption is the cause: Ctrl-C ends a program that is deriving a model, too.
+    // The interruption is the cause: it ends a program that is deriving a model, too.
     if (!context.stopped()) throw;
     const std::string best = context.best();
     return report_interruption(best.empty() ? "no model was fitted yet"
                                             : "nothing was written; best so far: " + best);
   }
-  return kExitSuccess;
+  progress.clear();
+  std::string json;
+  output.publish([&](const fs::path& folder) {
+    json = write_diagnosis(found, findings, context, folder, output.path());
+  });
+  if (options.json)
+    std::cout << json;
+  else if (!options.quiet)
+    std::cout << diagnosis_table(found, findings) << "written to " << output.path().string()
+              << "\n";
+  return context.stopped() ? report_interruption("the best so far was written") : kExitSuccess;
 }
 
 }  // namespace

@@ -49,13 +49,13 @@ OutputFiles files_of(const Problem& problem, const Identification& found,
   files.emplace_back("residuals.csv", residuals_csv(problem, found.after));
   files.emplace_back("history.csv", history_csv(problem, found.fit));
   files.emplace_back("fitted.toml", case_text(problem.with(found.fit.x), folder));
-  files.emplace_back("result.json", result);  // last: where it is, the rest is
+  files.emplace_back("result.json", result);
   return files;
 }
 
 /// Everything that decides a run: the case, its numbers, the data, the model.
 std::string run_key(const Problem& problem) {
-  std::string all = case_text(problem.the_case(), std::filesystem::current_path());
+  std::string all = case_text(problem.the_case(), problem.the_case().file.parent_path());
   all += problem.model().table().description_hash;
   const auto add = [&](const double* values, std::size_t count) {
     all.append(reinterpret_cast<const char*>(values), count * sizeof(double));
@@ -96,6 +96,7 @@ int check_case(const Problem& problem, const IdentifyOptions& options) {
 }
 
 int study_links(const Case& the_case, const IdentifyOptions& options) {
+  OutputFolder output(output_folder(options), {"links_study.json"});
   std::vector<LinksResult> results;
   {
     ProgressLine line(!options.quiet);
@@ -104,7 +105,7 @@ int study_links(const Case& the_case, const IdentifyOptions& options) {
         fit_options_of(options, line), fit_least_squares);
   }
   const std::string text = links_study_result_text(the_case, results);
-  write_output(output_folder(options), {{"links_study.json", text}});
+  write_output(output, {{"links_study.json", text}});
   if (options.json) std::cout << text;
   if (!options.quiet && !options.json)
     std::cout << links_table(results)
@@ -184,11 +185,17 @@ int identify_case(const IdentifyOptions& options) {
   if (options.check) return check_case(problem, options);
   check_fittable(problem);
 
-  const std::filesystem::path folder = output_folder(options);
+  std::vector<std::string> names = motion_file_names(problem);
+  names.insert(names.end(), {"residuals.csv", "history.csv", "fitted.toml", "result.json"});
+  OutputFolder output(output_folder(options), names);
   Identification found;
   {
     ProgressLine line(!options.quiet);
-    RunLog log(folder / "run.log", run_key(problem), options.resume);
+    RunLog log(output.path() / "run.log", run_key(problem), options.resume,
+               [&line](const std::string& text) {
+                 line.clear();
+                 std::cerr << "catena: " << text << "\n";
+               });
     found.starts = fit_from_many(problem, fit_options_of(options, line), fit_least_squares,
                                  options.threads, &log);
   }
@@ -200,7 +207,7 @@ int identify_case(const IdentifyOptions& options) {
   }
   complete(problem, options, found);
   const std::string result = identification_result_text(problem, found);
-  write_output(folder, files_of(problem, found, folder, result));
+  write_output(output, files_of(problem, found, output.path(), result));
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json) {
     std::cout << parameter_table(problem, found.fit, found.uncertainty) << "\n"
@@ -217,7 +224,7 @@ int identify_case(const IdentifyOptions& options) {
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
                      name_of(found.fit.status))
-              << remark_on_gap(problem, found.after) << "written to " << folder.string() << "\n";
+              << remark_on_gap(problem, found.after) << "written to " << output_folder(options).string() << "\n";
   }
   if (interrupted()) return report_interruption("the best so far was written");
   return kExitSuccess;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
 #include <iostream>
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/manual.hpp"
+#include "common/whole_file.hpp"
 #include "identify/models/process.hpp"
 #include "identify/program/cache_command.hpp"
 #include "identify/program/command.hpp"
@@ -42,6 +44,7 @@ void hand_over(int argc, char** argv) {
 
 int run(int argc, char** argv) {
   hand_over(argc, argv);
+  const ReadOnce inputs;
   int exit_status = kExitSuccess;
   CLI::App program("Models of a hanging cable: derived, simulated, identified, diagnosed.",
                    "catena");
@@ -73,8 +76,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace catena;
   int status = kExitFailed;
+  signal(SIGXFSZ, SIG_IGN);  // beyond a limit, writing fails as on a full disk
   try {
-    return run(argc, argv);
+    status = run(argc, argv);
   } catch (const InputError& error) {
     status = kExitUsage;
     std::cerr << "catena: " << error.what() << "\n";
@@ -88,5 +92,5 @@ int main(int argc, char** argv) {
     if (interrupted()) return report_interruption("no simulation was finished");
     std::cerr << "catena: " << error.what() << "\n";
   }
-  return status;
+  return status_after_output("catena", status);
 }

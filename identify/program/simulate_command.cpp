@@ -39,16 +39,20 @@ bool succeeded(const Simulation& simulation, const std::string& name) {
 int simulate_alone(const Problem& problem, const CommonOptions& options) {
   const Case& the_case = problem.the_case();
   const Eigen::VectorXd x = problem.start();
+  std::vector<std::string> names = motion_file_names(problem);
+  names.emplace_back("result.json");
+  OutputFolder output(output_folder(options), names);
   const Motion motion = simulate_motion(
       problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
       output_times(the_case.simulation), the_case.simulation,
       read_signals(the_case.signals, problem.model(), the_case.file.string()), keep_going);
-  if (!succeeded(motion.simulation, "simulation")) return kExitInterrupted;
+  if (!succeeded(motion.simulation, "simulation"))
+    return report_interruption("nothing was written");
   OutputFiles files;
   const std::string result = simulation_result_text(problem, motion);
   files.emplace_back("result.json", result);
   add_motion_files(problem, -1, motion, files);
-  write_output(output_folder(options), files);
+  write_output(output, files);
   std::cerr << energy_warning(motion.simulation);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json)
@@ -61,8 +65,11 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
 int simulate_experiments(const Problem& problem, const CommonOptions& options) {
   show_warnings(problem, options);
   const Eigen::VectorXd x = problem.start();
+  std::vector<std::string> names = motion_file_names(problem);
+  names.insert(names.end(), {"result.json", "residuals.csv"});
+  OutputFolder output(output_folder(options), names);
   const Evaluation evaluation = evaluate(problem, x, true, false, keep_going);
-  if (interrupted()) return kExitInterrupted;
+  if (interrupted()) return report_interruption("nothing was written");
   if (!evaluation.ok) throw std::runtime_error(evaluation.message);
   OutputFiles files;
   std::vector<Motion> motions;
@@ -70,14 +77,14 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
     motions.push_back(motion_of(problem, x, e, keep_going));
     if (!succeeded(motions.back().simulation,
                    problem.experiments()[static_cast<std::size_t>(e)].spec.name))
-      return kExitInterrupted;
+      return report_interruption("nothing was written");
     std::cerr << energy_warning(motions.back().simulation);
     add_motion_files(problem, e, motions.back(), files);
   }
   const std::string result = comparison_result_text(problem, x, evaluation, motions);
   files.emplace_back("result.json", result);
   files.emplace_back("residuals.csv", residuals_csv(problem, evaluation));
-  write_output(output_folder(options), files);
+  write_output(output, files);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json)
     std::cout << gap_table(problem, nullptr, evaluation) << "written to "
@@ -86,6 +93,7 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
 }
 
 int simulate_case(const CommonOptions& options) {
+  watch_for_interruption();
   Case the_case = read_case(options.case_file);
   if (the_case.experiments.empty() && std::isnan(the_case.simulation.duration))
     throw InputError(

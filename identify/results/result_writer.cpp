@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "common/sha256.hpp"
+#include "common/whole_file.hpp"
 #include "description/description.hpp"
 #include "description/formula.hpp"
 #include "identify/cases/case_words.hpp"
@@ -28,13 +27,6 @@ results::Rows rows_of(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-std::string contents_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 /// Everything about the case and its model.
 results::Result result_for(const Problem& problem, const char* command) {
   const Case& the_case = problem.the_case();
@@ -52,7 +44,7 @@ results::Result result_for(const Problem& problem, const char* command) {
   const std::string derived = derived_equations(the_case.description, problem.model().links());
   if (!derived.empty()) model.derived = results::read_derived(derived);
   if (!the_case.description.empty()) {
-    model.description = contents_of(the_case.description);
+    model.description = read_whole_file(the_case.description);
     for (const Effect& effect : read_description(the_case.description).effects)
       model.effects.push_back({effect.id, effect.title, "", formula_entries(effect)});
   }

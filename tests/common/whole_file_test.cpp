@@ -44,3 +44,21 @@ TEST_CASE("a file is read whole") {
   const auto latin = folder.write("latin.csv", "time_s,m\xE4rker\n");
   CHECK(failure([&] { read_whole_file(latin); }).find("latin.csv:1: ") != std::string::npos);
 }
+
+TEST_CASE("within a run a file is read once, unless the run writes it") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("case.toml", "first");
+  {
+    const ReadOnce inputs;
+    CHECK(read_whole_file(file) == "first");
+    folder.write("case.toml", "edited");
+    CHECK(read_whole_file(folder.path() / "." / "case.toml") == "first");
+    std::filesystem::remove(file);
+    CHECK(is_file(file));
+    CHECK(read_whole_file(file) == "first");
+    write_whole_file(file, "written");
+    CHECK(read_whole_file(file) == "written");
+  }
+  folder.write("case.toml", "last");
+  CHECK(read_whole_file(file) == "last");
+}

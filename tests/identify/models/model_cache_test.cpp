@@ -124,7 +124,7 @@ TEST_CASE("without HOME the cache is not in the temporary folder") {
 TEST_CASE("what an interrupted process left is removed, what is in use is not") {
   Filled filled;
   const ModelCache cache(filled.options.cache_directory);
-  const ModelCache::WorkFolder busy(cache);
+  const WorkFolder busy = cache.work_folder();
   const fs::path left = cache.folder() / "work-000000";
   fs::create_directories(left / "model");
   const ModelCache again(cache.folder());

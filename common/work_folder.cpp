@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/work_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+namespace catena {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path make_folder(const fs::path& parent, const std::string& prefix) {
+  std::string pattern = (parent / (prefix + "XXXXXX")).string();
+  if (!mkdtemp(pattern.data()))
+    throw fs::filesystem_error("no folder can be made in it", parent,
+                               std::error_code(errno, std::generic_category()));
+  return pattern;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder) {
+  file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file_ < 0) return;
+  held_ = flock(file_, LOCK_EX | LOCK_NB) == 0;
+  taken_ = !held_ && errno == EWOULDBLOCK;
+}
+
+FolderLock::~FolderLock() {
+  if (file_ >= 0) close(file_);
+}
+
+WorkFolder::WorkFolder(const fs::path& parent, const std::string& prefix) {
+  remove_abandoned(parent, prefix);
+  do {  // another process may take it for abandoned before it is locked
+    path_ = make_folder(parent, prefix);
+    lock_.emplace(path_);
+  } while (lock_->taken() || !fs::exists(path_));
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (!kept_) fs::remove_all(path_, ignored);
+}
+
+void remove_abandoned(const fs::path& parent, const std::string& prefix) {
+  std::error_code error;
+  for (const auto& left : fs::directory_iterator(parent, error)) {
+    if (!left.path().filename().string().starts_with(prefix)) continue;
+    if (const FolderLock lock(left.path()); lock.held()) fs::remove_all(left.path(), error);
+  }
+}
+
+}  // namespace catena

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/fit/run_log.hpp"
+
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+HistoryEntry entry(double value) {
+  return {value * value, Eigen::VectorXd::Constant(2, value), "said"};
+}
+
+/// A log of three evaluations.
+std::string three_evaluations(const std::filesystem::path& file) {
+  {
+    RunLog log(file, "key", false);
+    for (const double value : {1.0, 2.0, 3.0}) log.record(0, entry(value));
+  }
+  return text_of(file);
+}
+
+std::string refusal(const std::filesystem::path& file, const std::string& key = "key") {
+  return failure([&] { RunLog(file, key, true); });
+}
+
+}  // namespace
+
+TEST_CASE("a log of something else, and a file that is no log, are refused") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "run.log";
+  three_evaluations(file);
+  CHECK(refusal(file, "other").find("belongs to another case") != std::string::npos);
+  CHECK_NOTHROW(RunLog(file, "other", false));
+  folder.write("run.log", "my own notes\n");
+  CHECK(failure([&] { RunLog(file, "key", false); }).find("is no log") != std::string::npos);
+  CHECK(text_of(file) == "my own notes\n");
+}
+
+TEST_CASE("any line that was damaged, edited or removed is noticed") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "run.log";
+  const std::string whole = three_evaluations(file);
+  CHECK(refusal(file).empty());
+  REQUIRE(std::count(whole.begin(), whole.end(), '\n') == 4);
+  for (std::size_t at = whole.find('\n') + 1; at < whole.size(); ++at) {  // each character
+    std::string damaged = whole;
+    damaged[at] = damaged[at] == '7' ? '8' : '7';
+    folder.write("run.log", damaged);
+    // The end of a line that is gone joins two lines; at the end of the file, it is cut off.
+    CHECK(refusal(file).empty() == (at + 1 == whole.size()));
+  }
+  const std::size_t second = whole.find('\n', whole.find('\n') + 1) + 1;
+  const std::size_t third = whole.find('\n', second) + 1;
+  folder.write("run.log", whole.substr(0, second) + whole.substr(third));
+  CHECK(refusal(file).find("run.log:3: ") != std::string::npos);
+}
+
+TEST_CASE("a log cut off anywhere is continued") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "run.log";
+  const std::string whole = three_evaluations(file);
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    folder.write("run.log", whole.substr(0, length));
+    {
+      RunLog log(file, "key", true);
+      for (const double value : {1.0, 2.0, 3.0}) log.record(0, entry(value));
+    }
+    CHECK(text_of(file) == whole);
+  }
+}
+
+TEST_CASE("a log that cannot be written any more says so once, and keeps what it has") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "run.log";
+  const std::string whole = three_evaluations(file);
+  std::vector<std::string> said;
+  {
+    RunLog log(file, "key", true, [&](const std::string& text) { said.push_back(text); });
+    signal(SIGXFSZ, SIG_IGN);
+    rlimit before = {};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const rlimit full = {whole.size() + 10, before.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &full) == 0);
+    for (const double value : {1.0, 2.0, 3.0, 4.0, 5.0}) log.record(0, entry(value));
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &before) == 0);
+  }
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].find("File too large") != std::string::npos);
+  const RunLog log(file, "key", true);
+  CHECK(log.recall(0, entry(3).x) != nullptr);
+  CHECK(log.recall(0, entry(4).x) == nullptr);
+}
