@@ -44,7 +44,8 @@ class Writer {
   }
   void texts(const std::string& key, const std::vector<std::string>& values) {
     std::string items;
-    for (const std::string& value : values) items += (items.empty() ? "" : ", ") + quoted(value);
+    for (const std::string& value : values)
+      items += (items.empty() ? "" : ", ") + toml_quoted(value);
     if (!values.empty()) line(key, "[" + items + "]");
   }
   std::string take() { return std::move(out_); }

@@ -129,9 +129,8 @@ TEST_CASE("a result that cannot be written into the folder is written elsewhere"
   OutputFolder output(folder.path() / "out", kNames);
   fs::remove_all(folder.path() / "out");  // meanwhile
   try {
-    output.publish([&](const fs::path& unfinished) {
-      write_whole_file(unfinished / "result.json", "found");
-    });
+    output.publish(
+        [&](const fs::path& unfinished) { write_whole_file(unfinished / "result.json", "found"); });
   } catch (const std::runtime_error& error) {
     said = error.what();
   }
