@@ -50,8 +50,8 @@ int diagnose_case(const DiagnoseOptions& options) {
   context.stop = &interrupted();
   context.threads = options.threads;
   context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
-  show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
   OutputFolder output(output_folder(options), kDiagnosisNames);
+  show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
   Diagnosis found;
   DiagnosisFindings findings;
   try {

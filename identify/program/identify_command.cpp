@@ -224,7 +224,8 @@ int identify_case(const IdentifyOptions& options) {
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
                      name_of(found.fit.status))
-              << remark_on_gap(problem, found.after) << "written to " << output_folder(options).string() << "\n";
+              << remark_on_gap(problem, found.after) << "written to "
+              << output_folder(options).string() << "\n";
   }
   if (interrupted()) return report_interruption("the best so far was written");
   return kExitSuccess;
