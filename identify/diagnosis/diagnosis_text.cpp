@@ -110,8 +110,6 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
   if (!d.effects.empty())
     row("the new model, compiled and refitted", d.final_fit, d.final_held_out);
   text += fmt::format("{:44} {:>12.4g}\n", "noise", 1e3 * d.final_fit.noise);
-  if (d.noise.size() == 1 && d.noise.front().autocorrelated)
-    text += "  the residuals are smoother than white noise: this noise level says little\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
 
   if (!d.shares.empty()) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "identify/diagnosis/noise_model.hpp"
 #include "identify/problem/evaluation.hpp"
 
 namespace catena {
@@ -121,6 +123,38 @@ std::vector<NoiseLevel> noise_levels(const FittedModel& model) {
     levels.push_back(level);
   }
   return levels;
+}
+
+std::vector<std::string> noise_in_words(const FittedModel& model) {
+  const std::vector<Experiment>& experiments = model.problem->experiments();
+  std::map<int, std::vector<NoiseWindow>> windows;  // of each recording
+  std::map<int, std::size_t> first;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    NoiseWindow window;
+    window.residual.resize(model.predicted[e].rows(), model.predicted[e].cols());
+    window.residual << model.fit_residual[e], model.held_out_residual[e];
+    window.predicted = model.predicted[e];
+    window.time = experiments[e].recording.time;
+    window.fitted = model.fit_residual[e].cols();
+    // A window that is held out whole tells the noise, too: its start is fitted.
+    window.shows_noise = window.fitted > 0 ? window.fitted : window.residual.cols();
+    windows[experiments[e].source].push_back(std::move(window));
+    first.emplace(experiments[e].source, e);
+  }
+  std::vector<std::string> words;
+  for (const auto& [source, parts] : windows) {
+    const Experiment& experiment = experiments[first.at(source)];
+    std::vector<int> direction;
+    for (const Channel& channel : experiment.recording.channels)
+      direction.push_back(channel.component == Component::kSide   ? 0
+                          : channel.component == Component::kDown ? 1
+                                                                  : -1);
+    const std::string& name =
+        model.problem->the_case().experiments[static_cast<std::size_t>(source)].name;
+    for (const std::string& each : estimate_noise(parts, direction).front().words())
+      words.push_back(name + ": " + each);
+  }
+  return words;
 }
 
 namespace {

@@ -39,6 +39,10 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
 /// nothing is fitted); not below `smallest`. A noise the case states counts where it is larger.
 std::vector<NoiseLevel> noise_levels(const FittedModel& model);
 
+/// What is unusual of the noise of each recording, as the residuals show it where the motion has no
+/// power: "run: the tracks look smoothed over 5 frames (...)".
+std::vector<std::string> noise_in_words(const FittedModel& model);
+
 GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas);
 GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas);
 

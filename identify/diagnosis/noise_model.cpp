@@ -597,9 +597,8 @@ std::vector<std::string> NoiseModel::words() const {
   std::vector<std::string> words;
   if (!told)
     words.emplace_back(
-        "the motion fills the frequencies that were recorded: its noise cannot be told from what "
-        "the "
-        "model misses, and is taken as white");
+        "the motion fills the frequencies that were recorded; noise cannot be told from what the "
+        "model misses");
   const SmoothingKernel& smoothing = shape.smoothing();
   if (smoothing.frames() > 1)
     words.push_back(fmt::format("the tracks look smoothed over {} frames ({})", smoothing.frames(),
@@ -618,8 +617,7 @@ std::vector<std::string> NoiseModel::words() const {
     words.push_back(fmt::format("heavy tails, like Student's t with {:.2g} degrees of freedom",
                                 degrees_of_freedom()));
   if (outliers > 0)
-    words.push_back(fmt::format("{} value{} far off {} left out", outliers,
-                                outliers == 1 ? "" : "s", outliers == 1 ? "is" : "are"));
+    words.push_back(fmt::format("{} value{} far off", outliers, outliers == 1 ? " is" : "s are"));
   return words;
 }
 

@@ -179,6 +179,8 @@ void conclude(DiagnosisState& state, const Case& asked) {
   found.final_held_out = held_out_gap(found.final, found.sigmas);
   found.parameters = final_parameters(found);
   found.shares = shares_of(state);
+  for (const std::string& words : noise_in_words(found.final))
+    found.notes.push_back("noise of " + words);
 
   const bool is_closed =
       closed(found.stages, !found.effects.empty(), found.final_fit, found.final_held_out);
