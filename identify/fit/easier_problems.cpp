@@ -9,9 +9,16 @@ namespace {
 using Eigen::Index;
 
 constexpr double kRoughTolerance = 1e-4;  // of simulations
+constexpr double kFinerTolerance = 0.1;   // of the problem's own
 constexpr double kRoughlyThere = 1e-2;    // of the optimiser
 constexpr Index kRoughFrames = 100;       // are kept of an experiment that has more,
 constexpr Index kValuesPerUnknown = 100;  // and at least so many numbers of all
+
+void scale_tolerances(SimulationSpec& simulation, double factor) {
+  simulation.relative_tolerance *= factor;
+  simulation.absolute_tolerance_position *= factor;
+  simulation.absolute_tolerance_velocity *= factor;
+}
 
 /// Keeps every `every`-th of the frames to be fitted.
 void thin_out(Recording& recording, Index every) {
@@ -58,6 +65,12 @@ Problem without_loss(const Problem& problem) {
   return Problem(std::move(the_case), problem.model(), problem.experiments());
 }
 
+Problem finer(const Problem& problem) {
+  Case the_case = problem.the_case();
+  scale_tolerances(the_case.simulation, kFinerTolerance);
+  return Problem(std::move(the_case), problem.model(), problem.experiments());
+}
+
 bool finer_than_rough(const Problem& problem) {
   return problem.the_case().simulation.relative_tolerance <= kRoughTolerance / 10 &&
          problem.the_case().optimiser.tolerance < kRoughlyThere;
@@ -66,11 +79,8 @@ bool finer_than_rough(const Problem& problem) {
 Problem rough(const Problem& problem) {
   Case the_case = problem.the_case();
   the_case.optimiser.tolerance = std::max(kRoughlyThere, the_case.optimiser.tolerance);
-  SimulationSpec& simulation = the_case.simulation;
-  const double coarser = std::max(1.0, kRoughTolerance / simulation.relative_tolerance);
-  simulation.relative_tolerance *= coarser;
-  simulation.absolute_tolerance_position *= coarser;
-  simulation.absolute_tolerance_velocity *= coarser;
+  scale_tolerances(the_case.simulation,
+                   std::max(1.0, kRoughTolerance / the_case.simulation.relative_tolerance));
 
   std::vector<Experiment> experiments = problem.experiments();
   Index values = 0;

@@ -25,6 +25,10 @@ Problem without_loss(const Problem& problem);
 /// (absolute ones in proportion), every so many frames only, the optimiser's tolerance 1e-2.
 Problem rough(const Problem& problem);
 
+/// Simulated with a tenth of the tolerances, so that its error lacks most of the noise that the
+/// problem's own has: a simulation's error changes with its steps, and they with the unknowns.
+Problem finer(const Problem& problem);
+
 /// Whether rough() costs much less.
 bool finer_than_rough(const Problem& problem);
 

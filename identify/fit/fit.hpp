@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct FitResult {
   Eigen::VectorXd x;  ///< the best
   double error = 0;   ///< its error, in the case's measure
   double start_error = 0;
+  /// Of the error, by the tolerances of the simulation: a step that promised less ended the fit.
+  /// NaN where no step came near that.
+  double error_noise = std::numeric_limits<double>::quiet_NaN();
   int evaluations = 0;  ///< simulations of all experiments
   double work = 0;      ///< in simulations' worth of time: with sensitivities they cost more
   int iterations = 0;

@@ -117,6 +117,17 @@ Misfit FitJournal::evaluate_roughly(const Problem& rough, const Eigen::VectorXd&
   return misfit;
 }
 
+double FitJournal::measure_noise(const Problem& finer, const Eigen::VectorXd& x, double error) {
+  std::string message;
+  const Misfit misfit = misfit_at(finer, x, false, message);
+  if (was_stopped(misfit.error)) return 0;
+  count_evaluation(x, false);
+  if (!misfit.ok) return 0;
+  const double noise = std::abs(misfit.error - error);
+  result_.error_noise = std::fmax(result_.error_noise, noise);  // NaN before the first
+  return noise;
+}
+
 FitResult FitJournal::result(FitStatus status, const std::string& message) {
   if (!std::isfinite(result_.error) && std::isfinite(roughly_best_.error)) {
     result_.error = roughly_best_.error;

@@ -24,6 +24,10 @@ class FitJournal {
   /// evaluation, but are the result only where there is no other.
   Misfit evaluate_roughly(const Problem& rough, const Eigen::VectorXd& x, bool jacobian);
 
+  /// How much the error at x changes if simulated as `finer` (finer() of easier_problems.hpp): its
+  /// noise. The largest so far goes to the result. Counts as an evaluation. 0 if it fails.
+  double measure_noise(const Problem& finer, const Eigen::VectorXd& x, double error);
+
   /// `reserved`: so many evaluations are to be left.
   bool must_stop(int reserved = 0);
   FitStatus why_stopped() const { return why_; }

@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@ namespace catena {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A constant added to every distance, in units of the error at the start (see DistanceCost).
@@ -62,26 +64,35 @@ constexpr double kGreatPromise = 1e-2, kKept = 1e-3;
 constexpr int kFailedSteps = 3;
 constexpr double kTooLittle = 10;
 
+// Where a step promises no more than this share of the cost, the noise of the error is measured.
+constexpr double kNear = 1e-3;
+
 /// Stops where the caller wants it, and where a step changed the cost, or could have lowered it, by
-/// no more than `tolerance` of it; `offset` is no cost. With `kinks`, also where steps keep
-/// failing.
+/// no more than `tolerance` of it; `offset` is no cost. Also where the best step promises no more
+/// than `enough` of the cost, and with `kinks` where steps keep failing.
 class Watch : public ceres::IterationCallback {
  public:
   /// `reserved`: evaluations to be left. `promised`: by a first step that is too short, of which
-  /// Ceres does not tell.
+  /// Ceres does not tell. `promise` and `enough` change with each point whose derivatives Ceres has.
   Watch(FitJournal& journal, int reserved, double tolerance, double offset, bool kinks,
-        double promised)
+        double promised, const double& promise, const double& enough)
       : journal_(journal),
         reserved_(reserved),
         tolerance_(tolerance),
         offset_(offset),
         kinks_(kinks),
-        promised_(promised) {}
+        promised_(promised),
+        promise_(promise),
+        enough_(enough) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     journal_.count_iteration();
     if (journal_.must_stop(reserved_)) return ceres::SOLVER_ABORT;
     const double cost = step.cost - offset_;
+    if (promise_ <= enough_) {
+      if (step.iteration == 0) promised_ = promise_;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
     if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
     if (step.iteration == 1) promised_ = expected / cost;
@@ -104,6 +115,7 @@ class Watch : public ceres::IterationCallback {
   bool kinks_;
   int failed_steps_ = 0;          // in a row
   double promised_, gained_ = 0;  // shares of the cost
+  const double &promise_, &enough_;
 };
 
 /// The loss of a case, as Ceres wants it.
@@ -141,6 +153,32 @@ DistanceCost::Box box_of(const Problem& problem) {
   return box;
 }
 
+/// The share of the cost, residuals over their noise by the case's loss and constraints by their
+/// weight, that the best step of Gauss and Newton promises.
+double promise_of(const Residuals& residuals, const VectorXd& noise,
+                  const SoftConstraints& constraints, const ErrorSpec& error) {
+  VectorXd weight(noise.size());
+  double cost = constraints.value.cwiseProduct(constraints.weight).squaredNorm();
+  for (Index i = 0; i < noise.size(); ++i) {
+    const LossValue loss = loss_of(error, std::pow(residuals.value[i] / noise[i], 2));
+    weight[i] = loss.slope / (noise[i] * noise[i]);
+    cost += loss.value;
+  }
+  const VectorXd constraint_weight = constraints.weight.cwiseAbs2();
+  const MatrixXd &rows = residuals.jacobian, &constraint_rows = constraints.jacobian;
+  VectorXd gradient = rows.transpose() * weight.cwiseProduct(residuals.value);
+  MatrixXd curvature = rows.transpose() * weight.asDiagonal() * rows;
+  if (constraints.value.size() > 0) {
+    gradient += constraint_rows.transpose() * constraint_weight.cwiseProduct(constraints.value);
+    curvature += constraint_rows.transpose() * constraint_weight.asDiagonal() * constraint_rows;
+  }
+  const VectorXd scale = curvature.diagonal().unaryExpr(
+      [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
+  const VectorXd scaled = scale.cwiseProduct(gradient);
+  const MatrixXd alike = scale.asDiagonal() * curvature * scale.asDiagonal();
+  return scaled.dot(alike.completeOrthogonalDecomposition().solve(scaled)) / cost;
+}
+
 bool of_squares(const Problem& problem) {
   const Measure measure = problem.the_case().error.measure;
   return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
@@ -163,6 +201,15 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
   const DistanceCost::Box box = box_of(problem);
   double all_offsets = 0;
+  double promise = 0, enough = tolerance;  // shares of the cost, here
+  const auto arrive = [&](double promised) {
+    promise = promised;
+    const bool near = promise > tolerance && promise <= kNear && enough == tolerance;
+    if (!near || journal.must_stop(reserved + 1)) return;
+    const double noise =
+        journal.measure_noise(finer(problem), from_scaled(problem, y), simulated.error());
+    enough = std::max(enough, (squares ? 2 : 1) * noise / simulated.error());
+  };
   if (squares) {
     const VectorXd noise = noise_of(problem, first);
     for (Index i = 0; i < noise.size(); ++i)
@@ -172,6 +219,10 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
       solver.AddResidualBlock(
           new Block(simulated, constraints.value, constraints.jacobian, i, constraints.weight[i]),
           nullptr, y.data());
+    simulated.tell([&, noise] {
+      arrive(promise_of(first, noise, constraints, error));
+      return true;
+    });
   } else {
     // In units of the start's error, as if each were over its noise.
     const double scale = static_cast<double>(first.value.size()) / simulated.error();
@@ -188,8 +239,9 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
         new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), tolerance, box);
     solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
     all_offsets = distances->all_offsets();
-    simulated.tell([distances, &y] {
+    simulated.tell([&, distances] {
       distances->step_to(y);
+      arrive(distances->gain());
       return distances->gain() > kLastStep;
     });
   }
@@ -200,7 +252,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
 
   const double least_step = 1e-2 * spec.tolerance;  // of |y|
   const double lost = least_step * y.norm() * simulated.steepness();
-  Watch watch(journal, reserved, tolerance, all_offsets, !squares, lost);
+  Watch watch(journal, reserved, tolerance, all_offsets, !squares, lost, promise, enough);
   ceres::Solver::Options settings;
   settings.linear_solver_type = ceres::DENSE_QR;
   settings.max_num_iterations = spec.max_evaluations;

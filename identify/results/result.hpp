@@ -124,7 +124,7 @@ struct Optimiser {
   int failures = 0;
   std::vector<FailedPoint> failed;
   long seed = 0;
-  double start_error = kAbsent, error = kAbsent;
+  double start_error = kAbsent, error = kAbsent, error_noise = kAbsent;
   History history;
 };
 

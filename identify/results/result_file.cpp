@@ -144,7 +144,7 @@ void fields(auto& archive, Is<History> auto& history) {
 
 CATENA_FIELDS(FailedPoint, parameters, message)
 CATENA_FIELDS(Optimiser, method, strategy, status, message, evaluations, simulations_worth,
-              failures, failed, seed, start_error, error, history)
+              failures, failed, seed, start_error, error, error_noise, history)
 CATENA_FIELDS(Start, error, status, start, start_error, evaluations, parameters)
 CATENA_FIELDS(ChannelNoise, name, noise, interval)
 CATENA_FIELDS(WeakDirection, deviation, direction)

@@ -273,6 +273,7 @@ results::Optimiser optimiser_of(const Problem& problem, const FitResult& fit) {
   result.seed = spec.seed;
   result.start_error = fit.start_error;
   result.error = fit.error;
+  result.error_noise = fit.error_noise;
   result.history.parameters.resize(problem.unknowns().size());
   for (std::size_t k = 0; k < fit.history.size(); ++k) {
     result.history.step.push_back(static_cast<double>(k + 1));

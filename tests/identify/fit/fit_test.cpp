@@ -142,6 +142,72 @@ TEST_CASE("rough simulations lead to a fit of the problem itself") {
   }
 }
 
+TEST_CASE("a fit ends where the noise of its simulations hides what is left to gain") {
+  Case the_case = testing::sections(R"(
+[model]
+links = 12
+[cable]
+length = 3.39
+density = 0.1424
+load_mass = 1.47
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 45.0
+free = true
+lower = 1.0
+upper = 1000.0
+[[parameter]]
+name = "c"
+sets = "damping"
+value = 0.08
+free = true
+lower = 1e-7
+upper = 1.0
+[initial]
+shape = "catenary"
+held = { side = 1.5, down = 2.5 }
+)");
+  testing::add_experiment(the_case, "run");
+  the_case.optimiser.method = FitMethod::kLeastSquares;
+  Case truth = the_case;  // which no values of the case can match
+  truth.parameters[0].value = 50;
+  truth.parameters[1].value = 0.1;
+  truth.cable.load_mass *= 1.01;
+  const Model model = Model::built_in(12);
+  const Recording recording =
+      testing::with_truth(truth, model, testing::empty_markers({0.8, 1.7, 2.5, 3.39}, 120, 0.005));
+  const auto fitted = [&](double tolerance, Measure measure) {
+    the_case.simulation.relative_tolerance = tolerance;
+    the_case.simulation.absolute_tolerance_position = 1e-2 * tolerance;
+    the_case.simulation.absolute_tolerance_velocity = 1e-1 * tolerance;
+    the_case.error.measure = measure;
+    const Problem problem(the_case, model, {recording});
+    return std::pair{problem, fit(problem, {}, fit_least_squares)};
+  };
+  for (const Measure measure : {Measure::kLeastSquares, Measure::kMeanDistance}) {
+    CAPTURE(static_cast<int>(measure));
+    const auto& [precise, there] = fitted(1e-10, measure);
+    const auto& [noisy, result] = fitted(1e-6, measure);
+    MESSAGE(there.evaluations << " evaluations without noise, " << result.evaluations << " with "
+                              << result.error_noise << " of " << result.error);
+    REQUIRE(result.status == FitStatus::kConverged);
+    CHECK(result.error_noise > 0);
+    CHECK(result.error < there.error + 2 * result.error_noise);
+    CHECK(result.evaluations <= there.evaluations + 2);  // the measurement is one of them
+    // Nor do standard errors and verdicts depend on how exact the sensitivities are.
+    const Uncertainty uncertainty = uncertainty_of(precise, there.x),
+                      roughly = uncertainty_of(noisy, there.x);
+    for (Eigen::Index j = 0; j < there.x.size(); ++j) {
+      const Estimate &expected = uncertainty.estimates[static_cast<std::size_t>(j)],
+                     &actual = roughly.estimates[static_cast<std::size_t>(j)];
+      CHECK(std::abs(result.x[j] - there.x[j]) < 0.2 * expected.standard_error);
+      CHECK(actual.standard_error == doctest::Approx(expected.standard_error).epsilon(0.01));
+      CHECK(actual.verdict == expected.verdict);
+    }
+  }
+}
+
 TEST_CASE("rough simulations are of fewer frames, spread over all") {
   const Model model = Model::built_in(2);
   Case the_case = testing::sections(testing::kTwoLinks);
