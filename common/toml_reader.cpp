@@ -83,11 +83,15 @@ std::vector<std::pair<std::string, const toml::node*>> in_file_order(const toml:
   return ordered;
 }
 
-/// The line of the first dotted key with more parts than kDeepestNesting; 0 if there is none. toml++
-/// limits nested values, not dotted keys, and takes the tables apart by recursion.
-int line_of_too_deep_key(std::string_view text) {
+/// Throws InputError for what toml++ must not see. It limits nested values, not dotted keys, and takes
+/// the tables apart by recursion. Of some characters beyond ASCII, which are valid in strings and
+/// comments only, it says that it cannot reach them.
+void check_keys(std::string_view text, const std::string& file) {
+  const auto refuse = [&](int line, const std::string& rule) {
+    throw InputError(file + ":" + std::to_string(line) + ": " + rule);
+  };
   int line = 1, dots = 0;
-  for (std::size_t k = 0; k < text.size(); ++k) {
+  for (std::size_t k = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; k < text.size(); ++k) {
     const char c = text[k];
     if (c == '"' || c == '\'') {  // strings, and quoted parts of a key, are passed over
       const std::string_view three = text.substr(k, 3);
@@ -104,7 +108,12 @@ int line_of_too_deep_key(std::string_view text) {
     } else if (c == '#') {
       k = std::min(text.find('\n', k), text.size()) - 1;
     } else if (c == '.') {
-      if (++dots >= kDeepestNesting) return line;
+      if (++dots >= kDeepestNesting)
+        refuse(line, "a key of more than " + std::to_string(kDeepestNesting) +
+                         " parts; nothing that catena reads has one");
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      refuse(line,
+             "a letter beyond ASCII outside of quotes; put a key or a text that has one in quotes");
     } else if (c == '\n') {
       ++line;
       dots = 0;
@@ -112,7 +121,6 @@ int line_of_too_deep_key(std::string_view text) {
       dots = 0;
     }
   }
-  return 0;
 }
 
 }  // namespace
@@ -136,9 +144,7 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
   auto document = std::make_shared<Document>();
   document->file = std::string(name);
   document->source = std::string(text);
-  if (const int line = line_of_too_deep_key(text); line > 0)
-    throw InputError(document->file + ":" + std::to_string(line) + ": a key of more than " +
-                     std::to_string(kDeepestNesting) + " parts; nothing that catena reads has one");
+  check_keys(text, document->file);
   try {
     document->root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
