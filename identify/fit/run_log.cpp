@@ -112,7 +112,7 @@ std::size_t RunLog::read(const std::string& text, const std::string& key) {
       Start& start = starts_[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());
       start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
-    } else if (cells[0] == "s" && cells.size() == 11) {
+    } else if (cells[0] == "s" && cells.size() == 12) {
       FitResult result;
       result.status = static_cast<FitStatus>(std::atoi(cells[2].c_str()));
       result.error = number(cells[3]);
@@ -122,7 +122,8 @@ std::size_t RunLog::read(const std::string& text, const std::string& key) {
       result.work = number(cells[7]);
       result.iterations = std::atoi(cells[8].c_str());
       result.failures = std::atoi(cells[9].c_str());
-      result.message = cells[10];
+      result.error_noise = number(cells[10]);
+      result.message = cells[11];
       Start& start = starts_[std::atoi(cells[1].c_str())];
       result.history = start.entries;
       for (const HistoryEntry& entry : start.entries)
@@ -186,7 +187,7 @@ void RunLog::finish(int start, const FitResult& result) {
          "\t" + exact(result.error) + "\t" + exact(result.start_error) + "\t" + exact(result.x) +
          "\t" + std::to_string(result.evaluations) + "\t" + exact_number_text(result.work) + "\t" +
          std::to_string(result.iterations) + "\t" + std::to_string(result.failures) + "\t" +
-         one_line(result.message));
+         exact_number_text(result.error_noise) + "\t" + one_line(result.message));
 }
 
 }  // namespace catena

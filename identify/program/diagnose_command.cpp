@@ -88,8 +88,8 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
   command->footer(
       "Example:\n  catena diagnose cable.toml --output found\n"
       "prints the verdict first: none, named, ambiguous, partly or unexplained (exit\n"
-      "status 0 for all five), and writes found/diagnosis.json, diagnosed.toml (the case with\n"
-      "the effect), model.toml and the emitted code in found/model.");
+      "status 0 for all five), and writes found/diagnosis.json, diagnosed.toml (the\n"
+      "case with the effect), model.toml and the emitted code in found/model.");
   add_common_options(*command, options);
   command
       ->add_option("--effect", options.effects,

@@ -195,7 +195,20 @@ TEST_CASE("sensor effects report what they say, and the truth at their neutral v
   struct Reported {
     ex side, down, angle, time;
   };
+  const auto lens = [&](const std::string& name) { return p("camera_lens_" + name); };
+  const ex seen_larger = (1 + lens("radial") * (side * side + down * down)) /
+                         (1 + lens("side_perspective") * side + lens("down_perspective") * down);
+  const auto encoder = [&](const std::string& name) { return p("encoder_error_" + name); };
   const std::map<std::string, Reported> expected = {
+      {"camera_lens", {side * seen_larger, down * seen_larger * (1 + lens("aspect")), angle, time}},
+      // a sine and a cosine of twice the angle by those of the angle
+      {"encoder_error",
+       {side, down,
+        angle + encoder("offset") + encoder("sine") * GiNaC::sin(angle) +
+            encoder("cosine") * GiNaC::cos(angle) +
+            2 * encoder("second_sine") * GiNaC::sin(angle) * GiNaC::cos(angle) +
+            encoder("second_cosine") * (2 * GiNaC::pow(GiNaC::cos(angle), 2) - 1),
+        time}},
       {"clock_offset", {side, down, angle, time + p("clock_offset_offset")}},
       {"scale", {side * p("scale_factor"), down * p("scale_factor"), angle, time}},
       // a point at distance r and angle phi from down is seen at phi + tilt
