@@ -214,7 +214,7 @@ void add_new_command(CLI::App& program, int& exit_status) {
   command->add_option("--load-mass", options.load_mass, "kg, at the end");
   command
       ->add_option("--markers", options.known.arc_lengths,
-                   "m along the cable: 0.4,0.9,1.5; else evenly spaced to the end")
+                   "m along the cable: 0.4,0.9,1.5; else evenly spaced")
       ->delimiter(',')
       ->check(positive_number());
   command->add_option("--origin", options.known.origin, "the support in the file's axes: 640,52")

@@ -23,8 +23,12 @@ export function saveSvg(name, drawing) {
 
 export async function savePng(name, drawing) {
   const image = new Image();
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText(drawing))}`;
-  await image.decode();
+  // Image.decode() now and then refuses a drawing that it took a moment before.
+  await new Promise((loaded, failed) => {
+    image.onload = loaded;
+    image.onerror = failed;
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText(drawing))}`;
+  });
   const canvas = element('canvas', {width: kPixelRatio * image.width, height: kPixelRatio * image.height});
   canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
   canvas.toBlob((blob) => download(`${name}.png`, URL.createObjectURL(blob)));

@@ -219,7 +219,10 @@ await attempt('a chart is saved as SVG, PNG and CSV, the player as SVG and PNG',
   await seeAll(page);
   await page.getByLabel('Theme').selectOption('dark');
   const save = async (scope, name) => {
-    const [download] = await Promise.all([page.waitForEvent('download'), scope.getByRole('button', {name}).click()]);
+    const begun = page.waitForEvent('download').catch((error) => {
+      throw new Error(`${name}: ${page.complaints.join('; ')}: ${error.message}`);
+    });
+    const [download] = await Promise.all([begun, scope.getByRole('button', {name}).click()]);
     const path = join(folder, download.suggestedFilename());
     await download.saveAs(path);
     return readFileSync(path);
