@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/fitted_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -152,7 +154,7 @@ std::vector<std::string> noise_in_words(const FittedModel& model) {
     const std::string& name =
         model.problem->the_case().experiments[static_cast<std::size_t>(source)].name;
     for (const std::string& each : estimate_noise(parts, direction).front().words())
-      words.push_back(name + ": " + each);
+      words.push_back(fmt::format("{}: {}", name, each));
   }
   return words;
 }
