@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/command_line.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -24,11 +25,48 @@ CLI::Validator number_that(bool (*is_right)(double), const std::string& rule,
       description);
 }
 
+/// "--output", "--quiet", ...
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
 }  // namespace
 
-void check_command_name(const CLI::App& program, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+int status_of(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return program.exit(error);
+  const CLI::App* command = &program;
+  std::string name = program.get_name(), text = error.what();
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += " " + command->get_name();
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::vector<std::string> words = command->remaining();
+    const auto option = std::find_if(words.begin(), words.end(),
+                                     [](const std::string& word) { return word[0] == '-'; });
+    if (option != words.end())
+      text = *option + " is not an option" + suggestion(*option, options_of(*command));
+    else if (!words.empty())
+      text = words.front() + " is one argument too many";
+  } else if (command == &program) {
+    text = "a command is wanted";
+  }
+  std::cerr << name << ": " << text << "\n" << name << " --help tells more\n";
+  return 2;
+}
+
+void check_first_argument(const CLI::App& program, int argc, const char* const* argv) {
+  if (argc < 2) return;
   const std::string word = argv[1];
+  if (word.starts_with("--")) {
+    const std::vector<std::string> options = options_of(program);
+    if (std::find(options.begin(), options.end(), word) == options.end())
+      throw InputError(word + " is not an option" + suggestion(word, options));
+  }
+  if (word.starts_with("-")) return;
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == word) return;

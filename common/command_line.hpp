@@ -5,10 +5,14 @@
 
 namespace catena {
 
-/// Checks that the first argument, unless it is an option, names a command of `program`.
-/// Throws InputError that names the nearest command. Call it before program.parse, which would only
-/// say that a command is required.
-void check_command_name(const CLI::App& program, int argc, const char* const* argv);
+/// Checks that the first argument names a command or an option of `program`. Throws InputError that
+/// names the nearest one. Call it before program.parse, which would only say that a command is
+/// required.
+void check_first_argument(const CLI::App& program, int argc, const char* const* argv);
+
+/// Prints the help that was asked for, or what is wrong with the command line: with the command, the
+/// option and the nearest one that exists. Returns the exit status, 0 or 2.
+int status_of(const CLI::App& program, const CLI::ParseError& error);
 
 /// Checks for options whose value is a number above zero, or not below zero. The message names the
 /// option, the value and the rule.

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -123,6 +124,30 @@ void check_keys(std::string_view text, const std::string& file) {
   }
 }
 
+/// What is most likely wrong in a line that is not TOML: "; ...", or nothing.
+std::string toml_remedy(std::string_view text, int line) {
+  for (int before = 1; before < line; ++before) {
+    const auto end = text.find('\n');
+    if (end == std::string_view::npos) return "";
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  if (text.size() > 200) return "";  // std::regex takes the stack for every letter
+  const std::string there(text);
+  std::smatch found;
+  // Values: a number with a decimal comma, a word without quotes. A [table] that is there twice.
+  if (std::regex_match(there, found, std::regex(R"(\s*[\w.-]+\s*=\s*(-?\d+),(\d+)\s*(#.*)?)")))
+    return "; a decimal point is wanted: " + found[1].str() + "." + found[2].str();
+  if (std::regex_match(there, found,
+                       std::regex(R"(\s*[\w.-]+\s*=\s*([A-Za-z_][\w./-]*)\s*(#.*)?)")))
+    return "; a text is written in quotes: \"" + found[1].str() + "\"";
+  if (std::regex_match(there, found, std::regex(R"(\s*\[([\w.]+)\]\s*(#.*)?)")))
+    return "; where a table comes several times, each begins with [[" + found[1].str() + "]]";
+  if (line == 1 && there.find_first_of("=[#") == std::string::npos)
+    return "; if this is a recording, catena new makes a case from it";
+  return "";
+}
+
 }  // namespace
 
 TomlTable::TomlTable(std::shared_ptr<Document> document, const void* table, std::string path)
@@ -148,8 +173,9 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
   try {
     document->root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw InputError(document->file + ":" + std::to_string(line_of(error.source())) +
-                     ": not valid TOML: " + std::string(error.description()));
+    const int line = line_of(error.source());
+    throw InputError(document->file + ":" + std::to_string(line) + ": not valid TOML: " +
+                     std::string(error.description()) + toml_remedy(text, line));
   }
   TomlTable table(document, &document->root, "");
   if (!table.has("format")) table.fail("format = 1 is missing; write it as the first line");
@@ -345,15 +371,31 @@ void TomlTable::fail(const std::string& problem) const {
 }
 
 void TomlTable::fail_missing(std::string_view key, std::string_view what) const {
-  std::string message = "\"" + std::string(key) + "\" is missing; give " + std::string(what);
+  fail("\"" + std::string(key) + "\" is missing; give " + std::string(what) + key_like(key));
+}
+
+/// Of a key that was not asked for and may be misspelt: " (there is "densty" on line 7)", or nothing.
+std::string TomlTable::key_like(std::string_view key) const {
   std::vector<std::string> others;
   for (const auto& [name, node] : as_table(table_)) {
     if (!document_->asked[table_].contains(name.str())) others.emplace_back(name.str());
   }
-  if (const std::string near = nearest_name(key, others); !near.empty()) {
-    message += " (there is \"" + near + "\" on line " + std::to_string(line(near)) + ")";
+  const std::string near = nearest_name(key, others);
+  if (near.empty()) return "";
+  return " (there is \"" + near + "\" on line " + std::to_string(line(near)) + ")";
+}
+
+void TomlTable::fail_choice(const std::vector<std::string>& keys) const {
+  std::string wanted, given;
+  for (const std::string& key : keys) {
+    wanted += (wanted.empty() ? "either " : " or ") + key;
+    if (has(key)) given += (given.empty() ? "" : " and ") + key;
   }
-  fail(message);
+  if (!given.empty()) fail("give " + wanted + ", not " + given);
+  std::string like;
+  for (const std::string& key : keys)
+    if (like.empty()) like = key_like(key);
+  fail("give " + wanted + like);
 }
 
 void TomlTable::fail_type(std::string_view key, std::string_view wanted) const {

@@ -66,6 +66,9 @@ class TomlTable {
   /// The same at the table itself.
   [[noreturn]] void fail(const std::string& problem) const;
 
+  /// The same where exactly one of several keys is wanted, and none or several are there.
+  [[noreturn]] void fail_choice(const std::vector<std::string>& keys) const;
+
   /// Fails on the first key, in this table or below, that was never asked for, and names the
   /// nearest known one. Call it on the outermost table when everything is read.
   void finish() const;
@@ -79,6 +82,7 @@ class TomlTable {
  private:
   struct Document;
   TomlTable(std::shared_ptr<Document> document, const void* table, std::string path);
+  std::string key_like(std::string_view key) const;
   [[noreturn]] void fail_missing(std::string_view key, std::string_view what) const;
   [[noreturn]] void fail_type(std::string_view key, std::string_view wanted) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "description/unit.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <numeric>
@@ -143,6 +144,13 @@ class UnitParser {
     if (const auto hint = refused_units().find(name); hint != refused_units().end()) {
       fail("\"" + name + "\" is not a coherent SI unit; give the value in " + hint->second);
     }
+    const auto is_known = [&](const std::string& part) {
+      return std::find(names.begin(), names.end(), part) != names.end();
+    };
+    for (std::size_t end = 1; end < name.size(); ++end)
+      if (is_known(name.substr(0, end)) && is_known(name.substr(end)))
+        fail("\"" + name + "\" is not a known unit; did you mean \"" + name.substr(0, end) + " " +
+             name.substr(end) + "\"?");
     fail("\"" + name + "\" is not a known unit" + suggestion(name, names));
   }
 

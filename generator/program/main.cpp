@@ -23,10 +23,10 @@ int run(int argc, char** argv) {
   catena::add_verify_command(app, status);
   catena::add_manual_command(app);
   try {
-    catena::check_command_name(app, argc, argv);
+    catena::check_first_argument(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return catena::status_of(app, error);
   } catch (const catena::InputError& error) {
     std::fprintf(stderr, "catena-derive: %s\n", error.what());
     return 2;

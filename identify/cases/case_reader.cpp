@@ -69,9 +69,9 @@ CableGeometry read_cable(const TomlTable& table, int links) {
   cable.load_mass = not_negative(table, "load_mass", 0);
   cable.gravity = not_negative(table, "gravity", cable.gravity);
   if (std::isnan(cable.length) == cable.link_lengths.empty())
-    table.fail("length", "give either length or link_lengths");
+    table.fail_choice({"length", "link_lengths"});
   if (std::isnan(cable.density) == cable.link_masses.empty())
-    table.fail("density", "give either density or link_masses");
+    table.fail_choice({"density", "link_masses"});
   return cable;
 }
 

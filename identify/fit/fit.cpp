@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/input_error.hpp"
+#include "common/number_text.hpp"
 #include "identify/fit/easier_problems.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit_journal.hpp"
@@ -172,11 +173,18 @@ void check_fittable(const Problem& problem) {
   if (problem.unknowns().empty())
     throw InputError(problem.the_case().file.string() +
                      ": nothing to identify; mark a [[parameter]] with free = true");
-  bool data = false;
-  for (const Experiment& experiment : problem.experiments()) data |= experiment.fitted();
-  if (!data)
-    throw InputError(problem.the_case().file.string() +
-                     ": free parameters without data; add an [[experiment]] with use = \"fit\"");
+  const Experiment* unfitted = nullptr;  // meant to be fitted, but none of its frames is
+  for (const Experiment& experiment : problem.experiments()) {
+    if (experiment.fitted()) return;
+    if (experiment.spec.use == Use::kFit) unfitted = &experiment;
+  }
+  if (unfitted)
+    throw InputError(
+        unfitted->spec.where + ": fit_until: " + shortest_number(unfitted->spec.fit_until) +
+        " s is before the first frame, at " + number_text(unfitted->recording.time.front()) +
+        " s: no frame is fitted; give a later one, or the right time_unit");
+  throw InputError(problem.the_case().file.string() +
+                   ": free parameters without data; add an [[experiment]] with use = \"fit\"");
 }
 
 FitResult fit(const Problem& problem, const FitOptions& options,

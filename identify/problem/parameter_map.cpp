@@ -62,6 +62,27 @@ bool parse_range(const std::string& text, std::string& stem, int& first, int& la
   return number(line + 1, dots, first) && number(dots + 2, text.size(), last);
 }
 
+/// What a name that the model does not have may mean.
+std::string remedy(const Model& model, const std::string& word) {
+  const auto digits = word.find_last_not_of("0123456789") + 1;
+  const std::string number = word.substr(digits);
+  const std::string stem = word.substr(0, word.ends_with("_" + number) ? digits - 1 : digits);
+  if (!number.empty() && find(model, stem + "_1") >= 0) {
+    const std::string member = stem + "_" + number;
+    if (find(model, member) >= 0) return "; did you mean \"" + member + "\"?";
+    return "; there are " + stem + "_1 to " + stem + "_" + std::to_string(model.links());
+  }
+  for (int i = 0; i < model.table().parameters; ++i)  // without the name of its effect
+    if (const std::string name = model.table().parameter[i].name; name.ends_with("." + word))
+      return "; did you mean \"" + name + "\"?";
+  std::vector<std::string> names = known_names(model);
+  if (number.empty()) return suggestion(word, names);
+  for (int i = 0; i < model.table().parameters; ++i)
+    names.insert(names.begin() + i, model.table().parameter[i].name);  // before the families
+  const std::string near = nearest_name(word, names);
+  return near.empty() ? suggestion(word, known_names(model)) : "; did you mean \"" + near + "\"?";
+}
+
 /// EI and damping per length act on joints: the family they set, and their own unit.
 struct PerLength {
   const char* name;
@@ -98,7 +119,7 @@ Target find_target(const ParameterSpec& parameter, const Model& model) {
                           target.first, target.last);
   if (target.indices.empty())
     fail(parameter, "sets = \"" + parameter.sets + "\": the model has no such parameter" +
-                        suggestion(parameter.sets, known_names(model)));
+                        remedy(model, parameter.sets));
   return target;
 }
 

@@ -61,7 +61,7 @@ class Check {
   }
 
   std::vector<std::string> warnings() {
-    check_numbers();
+    check_case();
     if (spec_.kind == DataKind::kMarkers) {
       if (check_scale()) check_support();
       check_direction();
@@ -99,7 +99,7 @@ class Check {
     return values;
   }
 
-  void check_numbers() {
+  void check_case() {
     const bool angles = spec_.kind == DataKind::kAngles;
     const double most = limits_.most_noise * (angles ? 1 : length_);
     if (spec_.noise > most)
@@ -108,12 +108,8 @@ class Check {
     if (std::isfinite(spec_.fit_until) && spec_.fit_until > time(frames() - 1))
       warn("fit_until", rounded(spec_.fit_until) + " s is after the last frame (" +
                             rounded(time(frames() - 1)) + " s): nothing is held out");
-    if (cable_.density > limits_.heaviest)
-      warn("density", rounded(cable_.density) + " kg/m; is that in g/m?");
-    if (cable_.load_mass > limits_.heaviest_load * cable_.density * length_)
-      warn("load_mass", rounded(cable_.load_mass) + " kg is " +
-                            rounded(cable_.load_mass / (cable_.density * length_)) +
-                            " times the mass of the cable; is it in g, or density not in kg/m?");
+    for (std::string& warning : check_numbers(cable_, initial_, length_, limits_))
+      warnings_.push_back(std::move(warning));
   }
 
   /// Chord over arc from marker to marker, or from the support to the only one.
@@ -361,6 +357,25 @@ class Check {
 };
 
 }  // namespace
+
+std::vector<std::string> check_numbers(const CableGeometry& cable, const InitialSpec& initial,
+                                       double length, const PlausibilityLimits& limits) {
+  std::vector<std::string> warnings;
+  if (cable.density > limits.heaviest)
+    warnings.push_back("density: " + rounded(cable.density) + " kg/m; is that in g/m?");
+  if (cable.load_mass > limits.heaviest_load * cable.density * length)
+    warnings.push_back("load_mass: " + rounded(cable.load_mass) + " kg is " +
+                       rounded(cable.load_mass / (cable.density * length)) +
+                       " times the mass of the cable; is it in g, or density not in kg/m?");
+  double largest = 0;
+  for (const double angle : initial.coefficients) largest = std::max(largest, std::abs(angle));
+  if (largest > limits.most_angle)
+    warnings.push_back("initial: an angle of " + rounded(largest) + " rad is " +
+                       rounded(largest / (2 * std::numbers::pi)) +
+                       " turns; angles are in rad, and " + rounded(largest) + " degrees are " +
+                       rounded(largest * std::numbers::pi / 180));
+  return warnings;
+}
 
 std::vector<std::string> check_plausible(const Recording& recording, const ExperimentSpec& spec,
                                          const InitialSpec& initial, const CableGeometry& cable,

@@ -43,7 +43,14 @@ struct PlausibilityLimits {
   double most_noise = 0.1;
   /// kg/m: a steel rod of 11 cm. Load over mass of the cable.
   double heaviest = 80, heaviest_load = 1000;
+  /// rad: an angle at the start. A cable that is not wound up has at most half a turn.
+  double most_angle = 6.3;
 };
+
+/// Of the numbers of a case, without any recording: densities and masses in g, angles in degrees.
+/// `length`: of the cable, m. Returns warnings as check_plausible, which repeats them.
+std::vector<std::string> check_numbers(const CableGeometry& cable, const InitialSpec& initial,
+                                       double length, const PlausibilityLimits& limits = {});
 
 /// Compares the recording of an experiment, in SI units and the model's axes, with what a cable can
 /// do. Returns warnings "key: what is seen; what to change", each of which names the key of the case

@@ -37,7 +37,8 @@ int report_interruption(const std::string& outcome);
 /// The model of a case, with a line on standard error where it has to be made first.
 Model model_of(const Case& the_case, const CommonOptions& options);
 
-/// What is odd about the recordings of a problem, on standard error; nothing if quiet.
+/// What is odd about the recordings of a problem, or without any about its case, on standard error;
+/// nothing if quiet.
 void show_warnings(const Problem& problem, const CommonOptions& options);
 
 std::filesystem::path output_folder(const CommonOptions& options);

@@ -61,11 +61,11 @@ int run(int argc, char** argv) {
     program.add_subcommand(command.name, command.summary);
   add_manual_command(program);
   program.footer("catena COMMAND --help tells more. Example:\n  catena identify cable.toml");
-  check_command_name(program, argc, argv);
+  check_first_argument(program, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kExitSuccess : kExitUsage;
+    return status_of(program, error);
   }
   return exit_status;
 }

@@ -63,7 +63,6 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
 
 /// Every experiment of the case, compared with what was measured.
 int simulate_experiments(const Problem& problem, const CommonOptions& options) {
-  show_warnings(problem, options);
   const Eigen::VectorXd x = problem.start();
   std::vector<std::string> names = motion_file_names(problem);
   names.insert(names.end(), {"result.json", "residuals.csv"});
@@ -101,6 +100,7 @@ int simulate_case(const CommonOptions& options) {
         ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
   const Model model = model_of(the_case, options);
   const Problem problem(std::move(the_case), model);
+  show_warnings(problem, options);
   return problem.experiments().empty() ? simulate_alone(problem, options)
                                        : simulate_experiments(problem, options);
 }

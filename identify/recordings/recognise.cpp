@@ -36,8 +36,9 @@ bool one_of(const std::string& word, std::initializer_list<const char*> list) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-/// The unit in a name; empty: none.
-std::string unit_in(const std::string& name) {
+}  // namespace
+
+std::string unit_in_name(const std::string& name) {
   for (const std::string& word : words_of(name)) {
     if (one_of(word, {"m", "cm", "mm", "s", "ms"})) return word;
     if (one_of(word, {"px", "pixel", "pixels"})) return "px";
@@ -45,6 +46,8 @@ std::string unit_in(const std::string& name) {
   }
   return "";
 }
+
+namespace {
 
 /// Which axis a name tells (0: x or side, 1: y or down, -1: none), and the rest of the name.
 int axis_in(const std::string& name, std::string& marker) {
@@ -151,7 +154,7 @@ void recognise_time(const Table& table, const KnownOfRecording& known, Recognise
   if (!(step > 0))
     throw InputError(table.file + ": column \"" + table.names.front() +
                      "\": the first column is to be the time, which increases");
-  std::string unit = unit_in(table.names.front());
+  std::string unit = unit_in_name(table.names.front());
   if (found.spec.source == DataSource::kDeepLabCut) unit = "frames";
   if (!one_of(unit, {"s", "ms", "frames"}))
     // Whole numbers one apart count frames; no film has a second from frame to frame.
@@ -206,7 +209,7 @@ void recognise_lengths(const Tracks& tracks, const KnownOfRecording& known,
                        RecognisedRecording& found) {
   ExperimentSpec& spec = found.spec;
   const double measured = metres_per_unit(tracks, known);
-  std::string unit = unit_in(spec.points.front().side_column);
+  std::string unit = unit_in_name(spec.points.front().side_column);
   if (!std::isnan(known.metres_per_pixel)) unit = "px";
   if (!one_of(unit, {"m", "cm", "mm", "px"})) {
     unit = "px";  // unless a unit makes the markers as far apart as the cable between them is long

@@ -28,6 +28,9 @@ struct RecognisedRecording {
   bool at_rest = true;  ///< at the first frame that is used
 };
 
+/// The unit in the name of a column: "m", "cm", "mm", "px", "s", "ms", "frames"; empty: none.
+std::string unit_in_name(const std::string& name);
+
 /// Reads the columns, units, axes and the start of a recording of markers off its file: an export of
 /// Tracker, Kinovea or DeepLabCut, or a CSV file with a line of names in which every marker has one
 /// column with x or side in its name and one with y or down.

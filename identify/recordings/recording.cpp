@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "identify/recordings/outliers.hpp"
+#include "identify/recordings/recognise.hpp"
 #include "identify/recordings/table.hpp"
 #include "identify/recordings/tracker_import.hpp"
 
@@ -17,10 +19,24 @@ namespace {
 
 constexpr double kTimeSlack = 1e-9;  // s: times are written with finitely many digits
 
+const std::string& time_column(const ExperimentSpec& experiment, const Table& table) {
+  return experiment.time_column.empty() ? table.names.front() : experiment.time_column;
+}
+
+/// Where the name of the column of times speaks of another unit than the case.
+void warn_of_time_unit(const ExperimentSpec& experiment, const Table& table, Recording& recording) {
+  const std::string& name = time_column(experiment, table);
+  const std::string unit = unit_in_name(name);
+  if (unit != "s" && unit != "ms" && unit != "frames") return;
+  if (unit == experiment.time_unit) return;
+  recording.warnings.push_back("time_unit: the column is called \"" + name +
+                               "\", but its times are read as " + experiment.time_unit +
+                               "; time_unit = \"" + unit + "\" would agree with it");
+}
+
 /// Where the times of the file are, in s.
 std::vector<double> read_times(const ExperimentSpec& experiment, const Table& table) {
-  const std::string& name =
-      experiment.time_column.empty() ? table.names.front() : experiment.time_column;
+  const std::string& name = time_column(experiment, table);
   std::vector<double> time = table.column(name);
   const double unit = experiment.time_unit == "ms"       ? 1e-3
                       : experiment.time_unit == "frames" ? 1 / experiment.frame_rate
@@ -35,6 +51,17 @@ std::vector<double> read_times(const ExperimentSpec& experiment, const Table& ta
                        shortest_number(time[i - 1]) + " s; times must increase");
   }
   return time;
+}
+
+/// "a, b and c", or the first ones and "... (30 columns)".
+std::string first_names(std::vector<std::string> names) {
+  constexpr std::size_t kNamed = 9;
+  const std::size_t count = names.size();
+  if (count <= kNamed) return listed(names);
+  names.resize(kNamed);
+  std::string text;
+  for (const std::string& name : names) text += name + ", ";
+  return text + "... (" + std::to_string(count) + " columns)";
 }
 
 std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Table& table,
@@ -66,11 +93,13 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
     }
     points.push_back(point);
   }
-  if (points.empty())
+  if (points.empty()) {
+    const bool angles = experiment.kind == DataKind::kAngles;
     throw InputError(experiment.where + ": data: " + table.file + " has no columns " +
-                     (experiment.kind == DataKind::kAngles ? "theta_1_rad" : "side_1_m, down_1_m") +
-                     "; name the columns under " +
-                     (experiment.kind == DataKind::kAngles ? "angles" : "markers"));
+                     (angles ? "theta_1_rad" : "side_1_m, down_1_m") + "; name its columns under " +
+                     (angles ? "angles" : "markers, or let catena new make the case") +
+                     "; it has " + first_names(table.names));
+  }
   if (experiment.kind == DataKind::kMarkers)
     for (std::size_t i = 0; i < points.size(); ++i)
       points[i].arc_length =
@@ -86,10 +115,18 @@ std::vector<std::size_t> choose_rows(const ExperimentSpec& experiment,
     if (time[i] >= experiment.from - kTimeSlack && time[i] <= experiment.to + kTimeSlack &&
         seen++ % static_cast<std::size_t>(experiment.every) == 0)
       rows.push_back(i);
-  if (rows.size() < 2)
-    throw InputError(experiment.where + ": data: " + file + " has " + std::to_string(rows.size()) +
-                     " frames from " + shortest_number(experiment.from) + " s to " +
-                     shortest_number(experiment.to) + " s; at least two are needed");
+  if (rows.size() < 2) {
+    std::string text = experiment.where + ": data: " + file + " has " +
+                       std::to_string(rows.size()) + (rows.size() == 1 ? " frame" : " frames");
+    if (std::isfinite(experiment.from))
+      text += " from " + shortest_number(experiment.from) + " s on";
+    if (std::isfinite(experiment.to)) text += " until " + shortest_number(experiment.to) + " s";
+    text += "; at least two are needed";
+    if (!time.empty())
+      text += "; its times are " + shortest_number(time.front()) + " s to " +
+              shortest_number(time.back()) + " s";
+    throw InputError(text);
+  }
   return rows;
 }
 
@@ -201,6 +238,7 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
                          ? default_points(experiment, table, links, cable_length)
                          : experiment.points;
   const std::vector<double> time = read_times(experiment, table);
+  warn_of_time_unit(experiment, table, recording);
   const std::vector<std::size_t> rows = choose_rows(experiment, time, table.file);
   for (const std::size_t row : rows) {
     recording.time.push_back(time[row]);

@@ -60,6 +60,8 @@ const std::vector<double>& Table::column(std::string_view name) const {
   if (found == names.end())
     throw InputError(file + ": there is no column \"" + std::string(name) + "\"" +
                      suggestion(name, names));
+  if (std::find(found + 1, names.end(), name) != names.end())
+    throw InputError(file + ": two columns are called \"" + std::string(name) + "\"; rename one");
   return columns[static_cast<std::size_t>(found - names.begin())];
 }
 
@@ -76,6 +78,12 @@ Table read_table(const std::filesystem::path& path) {
     const std::vector<std::string> fields = split(line, separator);
     const std::string where = table.file + ":" + std::to_string(number);
     if (table.names.empty()) {
+      const auto is_number = [&](const std::string& field) {
+        return !field.empty() && number_of(field, separator).has_value();
+      };
+      if (std::all_of(fields.begin(), fields.end(), is_number))
+        throw InputError(where + ": numbers, where the names of the columns are wanted, such as " +
+                         "time_s,side_1_m,down_1_m; write that line above them");
       table.names = fields;
       table.columns.resize(fields.size());
       continue;

@@ -188,8 +188,10 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   MatrixXd jacobian = weights.asDiagonal() * residuals.jacobian * range.asDiagonal();
   const Index count = residuals.value.size(), unknowns = x.size();
   if (count <= unknowns)
-    throw std::runtime_error("fewer measured values (" + std::to_string(count) +
-                             ") than unknowns (" + std::to_string(unknowns) + ")");
+    throw std::runtime_error(std::to_string(count) + " fitted values cannot determine " +
+                             std::to_string(unknowns) +
+                             " unknowns; fewer unknowns or more frames are needed (from, to, "
+                             "fit_until, every and time_unit say which are fitted)");
   const VectorXd r = pseudo_residuals(problem, residuals.value.cwiseProduct(weights));
   const SoftConstraints constraints = constraints_of(problem, evaluation);
 

@@ -65,6 +65,7 @@ TEST_CASE("what is no SI unit is refused with the unit to use") {
       {"g", "1 g = 0.001 kg"},
       {"rpm", "rad/s"},
       {"newton", "not a known unit"},
+      {"Nm^2", "did you mean \"N m\"?"},
       {"kgg", "did you mean \"kg\"?"},
       {"", "a unit is wanted at its character 1"},
       {"N/", "a unit is wanted at its character 3"},

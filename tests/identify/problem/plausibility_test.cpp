@@ -200,6 +200,8 @@ TEST_CASE("noise, fit_until and masses in another unit are named") {
   expect(film.said(), {"noise: 1 m hides the motion"});
   film.mistake = [](Case& the_case) { spec_of(the_case).fit_until = 4000; };
   expect(film.said(), {"fit_until: 4000 s is after the last frame (6 s)"});
+  film.mistake = [](Case& the_case) { the_case.initial.coefficients = {40}; };
+  expect(film.said(), {"initial: an angle of 40 rad is 6.37 turns", "40 degrees are 0.698"});
   film.mistake = [](Case& the_case) { the_case.cable.density = 142; };
   expect(film.said(), {"density: 142 kg/m"});
   film.mistake = [](Case& the_case) { the_case.cable.load_mass = 1381; };

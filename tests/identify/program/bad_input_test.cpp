@@ -46,6 +46,21 @@ TEST_CASE("mistakes in a case to be simulated") {
       {"wrong format", "format = 1", "format = 7", {"case.toml:1", "format", "7"}},
       {"wrong type", "length = 1.0", "length = \"one\"", {"case.toml:8", "cable.length", "one"}},
       {"no TOML", "[cable]", "[cable", {"case.toml:7"}},
+      {"a decimal comma", "length = 1.0", "length = 1,0", {"case.toml:8", "wanted: 1.0"}},
+      {"no quotes", "\"straight\"", "straight", {"case.toml:25", "in quotes: \"straight\""}},
+      {"one bracket", "[cable]", "[model]", {"case.toml:7", "begins with [[model]]"}},
+      {"misspelt density",
+       "density",
+       "densty",
+       {"case.toml:7", "density or link_masses", "\"densty\" on line 9"}},
+      {"two densities",
+       "density = 0.3",
+       "density = 0.3\nlink_masses = [0.1, 0.1]",
+       {"case.toml:7", "not density and link_masses"}},
+      {"units without a space",
+       "unit = \"N m/rad\"",
+       "unit = \"Nm/rad\"",
+       {"case.toml:12", "did you mean \"N m\"?"}},
       {"wrong unit", "unit = \"N m/rad\"", "unit = \"N/m\"", {"case.toml:12", "N/m", "N m/rad"}},
       {"no unit", "unit = \"N m/rad\"", "unit = \"parsec\"", {"case.toml:12", "parsec"}},
       {"length not positive", "length = 1.0", "length = 0.0", {"case.toml:8", "0", "positive"}},
@@ -63,6 +78,14 @@ TEST_CASE("mistakes in a case to be simulated") {
        "sets = \"stiffness\"",
        "sets = \"stifness\"",
        {"stifness", "stiffness"}},
+      {"a number without its underline",
+       "sets = \"stiffness\"",
+       "sets = \"stiffness2\"",
+       {"stiffness2", "did you mean \"stiffness_2\"?"}},
+      {"a joint that there is not",
+       "sets = \"stiffness\"",
+       "sets = \"stiffness_3\"",
+       {"stiffness_3", "there are stiffness_1 to stiffness_2"}},
       {"parameter not set",
        "sets = \"damping\"",
        "sets = \"damping_2\"",
@@ -115,7 +138,11 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
       {"window without frames",
        "kind = \"markers\"",
        "kind = \"markers\"\nfrom = 7.0",
-       {"0 frames"}},
+       {"0 frames from 7 s on", "its times are 0 s to 0.2 s"}},
+      {"no frame to fit",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nfit_until = -1.0",
+       {"case.toml:34", "fit_until", "-1 s is before the first frame"}},
       {"angles asked of markers", "kind = \"markers\"", "kind = \"angles\"", {"theta_1_rad"}},
   };
   const Row data[] = {
@@ -125,8 +152,16 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
       {"infinity", "0.27", "inf", {"data.csv:3", "inf"}},
       {"times not increasing", "0.2,0.24", "0.1,0.24", {"data.csv:4", "time_s", "increase"}},
       {"no time", "0.2,0.24", ",0.24", {"data.csv:4", "time_s"}},
-      {"no such columns", "side_1_m", "sideways", {"data.csv", "side_1_m"}},
-      {"one frame", "0.1,0.27,0.42,0.55,0.84\n0.2,0.24,0.44,0.50,0.87\n", "", {"1 frames", "two"}},
+      {"no such columns",
+       "side_1_m",
+       "sideways",
+       {"data.csv", "side_1_m", "it has time_s, sideways, down_1_m, ", "catena new"}},
+      {"no names",
+       "time_s,side_1_m,down_1_m,side_2_m,down_2_m\n",
+       "",
+       {"data.csv:1", "names of the columns"}},
+      {"two columns of a name", "side_2_m", "side_1_m", {"data.csv", "two columns", "side_1_m"}},
+      {"one frame", "0.1,0.27,0.42,0.55,0.84\n0.2,0.24,0.44,0.50,0.87\n", "", {"1 frame;", "two"}},
   };
   const testing::TemporaryFolder folder;
   const std::string whole =
@@ -157,6 +192,13 @@ TEST_CASE("mistakes on the command line") {
   const CommandRow rows[] = {
       {{"symulate"}, {"symulate is not a command; did you mean \"simulate\"?"}},
       {{"foo"}, {"foo is not a command; known are cache, certify, check,", "simulate"}},
+      {{"--verson"}, {"--verson is not an option; did you mean \"--version\"?"}},
+      {{}, {"catena: a command is wanted"}},
+      {{"identify"}, {"catena identify: CASE is required"}},
+      {{"simulate", "case.toml", "--outptu", "a"},
+       {"catena simulate: --outptu is not an option; did you mean \"--output\"?"}},
+      {{"simulate", "case.toml", "other.toml"}, {"other.toml is one argument too many"}},
+      {{"check", "text.txt", "--link", "2"}, {"did you mean \"--links\"?"}},
       {{"identify", "case.toml", "--threads", "0"}, {"--threads: 0 is not a number above 0"}},
       {{"identify", "case.toml", "--time-limit", "x"}, {"--time-limit: x is not a number above 0"}},
       {{"identify", "case.toml", "--bootstrap", "-1"},
@@ -169,4 +211,19 @@ TEST_CASE("mistakes on the command line") {
       CHECK_MESSAGE(run.output.find(part) != std::string::npos, run.output, " lacks ", part);
     CHECK_MESSAGE(run.output.size() < 200, run.output);
   }
+}
+
+TEST_CASE("a recording that is given as a case") {
+  const testing::TemporaryFolder folder;
+  check_refused(folder, "identify", folder.write("data.csv", kData), {"data.csv:1", "catena new"});
+}
+
+TEST_CASE("angles in degrees, in a case without a recording") {
+  const testing::TemporaryFolder folder;
+  const auto run =
+      run_catena({"simulate",
+                  folder.write("case.toml", replaced(testing::kSwing, "angle = 0.6", "angle = 40")),
+                  "--output", folder.path() / "out"});
+  CHECK_MESSAGE(run.output.find("initial: an angle of 40 rad is 6.37 turns") != std::string::npos,
+                run.output);
 }

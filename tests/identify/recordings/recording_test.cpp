@@ -58,6 +58,18 @@ TEST_CASE("default markers are spread evenly, gaps are not seen, windows are kep
   CHECK(read_recording(spec, 2, 2.0).fit_frames == 0);
 }
 
+TEST_CASE("a column of times whose name speaks of another unit") {
+  const testing::TemporaryFolder folder;
+  ExperimentSpec spec =
+      markers(folder.write("m.csv", "time_ms,side_1_m,down_1_m\n0,0.1,0.9\n100,0.2,0.8\n"));
+  REQUIRE(read_recording(spec, 2, 2.0).warnings.size() == 1);
+  CHECK(read_recording(spec, 2, 2.0).warnings[0] ==
+        "time_unit: the column is called \"time_ms\", but its times are read as s; time_unit = "
+        "\"ms\" would agree with it");
+  spec.time_unit = "ms";
+  CHECK(read_recording(spec, 2, 2.0).warnings.empty());
+}
+
 TEST_CASE("pixels, upward and mirrored axes, frame numbers, degrees that jump") {
   const testing::TemporaryFolder folder;
   ExperimentSpec spec = markers(folder.write("m.csv", "frame,x,y\n30,420,10\n60,220,-190\n"));
