@@ -103,7 +103,7 @@ Shared diagnose_case(const std::filesystem::path& case_file,
 }
 
 struct Gaps {
-  double fit, held_out, floor;
+  double fit, held_out, noise_level;
 };
 
 Gaps gaps_of(const GapTest& fit, const GapTest& held_out) {
@@ -137,14 +137,14 @@ void add_diagnoses(py::module_& module) {
   py::class_<Gaps>(module, "DiagnosisGap", "How far a model is from the data, m or rad.")
       .def_readonly("fit", &Gaps::fit, "Root mean square over what was fitted.")
       .def_readonly("held_out", &Gaps::held_out, "Over what was held out; NaN if nothing was.")
-      .def_readonly("floor", &Gaps::floor, "What noise alone would leave.");
+      .def_readonly("noise_level", &Gaps::noise_level, "What noise alone would leave.");
   py::class_<FinalParameter>(module, "FoundParameter", "A parameter of the final model.")
       .def_readonly("name", &FinalParameter::name)
       .def_readonly("unit", &FinalParameter::unit)
       .def_readonly("effect", &FinalParameter::effect, "Empty for the case's own.")
       .def_readonly("value", &FinalParameter::value)
       .def_readonly("standard_error", &FinalParameter::standard_error,
-                    "Allows for coloured residuals; infinite where the data do not tell.");
+                    "Allows for autocorrelated residuals; infinite where the data do not tell.");
   py::class_<Alternatives>(module, "OtherEffect", "An effect that was refitted and has no name.")
       .def_readonly("id", &Alternatives::id)
       .def_readonly("instead_of", &Alternatives::instead_of, "Empty: as the last one added.")

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "identify/diagnosis/explanation.hpp"
+#include "identify/diagnosis/gap_test.hpp"
 #include "identify/diagnosis/links.hpp"
-#include "identify/diagnosis/noise.hpp"
 #include "identify/diagnosis/shares.hpp"
 
 namespace catena {
@@ -50,8 +50,7 @@ struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
   std::string sentence;                   ///< what the verdict says, one or two sentences
   std::vector<std::string> notes;         ///< warnings
-  std::vector<NoiseLevel> noise;          ///< per experiment, as estimated
-  std::vector<double> sigmas;             ///< per experiment, the noise that was used, m or rad
+  std::vector<double> sigmas;             ///< per experiment, the noise level, m or rad
   std::vector<Stage> stages;              ///< baseline first
   std::vector<std::string> effects;       ///< of the final model
   std::vector<std::string> certain;       ///< those of them that stand whatever is left

@@ -184,9 +184,8 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.notes = d.notes;
   result.noise = d.final_fit.noise;
   result.unit = unit;
-  for (std::size_t e = 0; e < d.noise.size(); ++e)
-    result.experiment_noise.push_back(
-        {experiments[e].spec.name, d.sigmas[e], d.noise[e].autocorrelated});
+  for (std::size_t e = 0; e < d.sigmas.size(); ++e)
+    result.experiment_noise.push_back({experiments[e].spec.name, d.sigmas[e]});
   result.links = {d.stages.front().links, d.stages.back().links};
   result.where = findings.places.words;
   result.points.name = findings.places.points;

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "identify/diagnosis/noise_model.hpp"
+#include "identify/noise/estimate_noise.hpp"
+#include "identify/noise/noise_level.hpp"
 #include "identify/problem/evaluation.hpp"
 
 namespace catena {
@@ -111,18 +112,16 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
   return model;
 }
 
-std::vector<NoiseLevel> noise_levels(const FittedModel& model) {
-  std::vector<NoiseLevel> levels;
+std::vector<double> noise_levels(const FittedModel& model) {
+  std::vector<double> levels;
   for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
     const Experiment& experiment = model.problem->experiments()[e];
     const bool fitted = model.fit_residual[e].cols() > 0;
     const MatrixXd& residual = fitted ? model.fit_residual[e] : model.held_out_residual[e];
     std::vector<double> time = experiment.recording.time;
     if (fitted) time.resize(static_cast<std::size_t>(residual.cols()));
-    NoiseLevel level = noise_level(residual, time);
-    if (experiment.spec.noise > 0 && !(level.sigma >= experiment.spec.noise))
-      level.sigma = experiment.spec.noise;
-    levels.push_back(level);
+    const double level = noise_level(residual, time), stated = experiment.spec.noise;
+    levels.push_back(stated > 0 && !(level >= stated) ? stated : level);
   }
   return levels;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/diagnosis/noise.hpp"
+#include "identify/diagnosis/gap_test.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/problem/problem.hpp"
 
@@ -37,7 +37,7 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
 
 /// The noise of every experiment from the residuals of the fitted part (of the held-out part where
 /// nothing is fitted); not below `smallest`. A noise the case states counts where it is larger.
-std::vector<NoiseLevel> noise_levels(const FittedModel& model);
+std::vector<double> noise_levels(const FittedModel& model);
 
 /// What is unusual of the noise of each recording, as the residuals show it where the motion has no
 /// power: "run: the tracks look smoothed over 5 frames (...)".

@@ -14,9 +14,9 @@ namespace catena {
 namespace {
 
 /// The noise once this model is the best.
-std::vector<double> lowest(std::vector<double> sigmas, const std::vector<NoiseLevel>& levels) {
+std::vector<double> lowest(std::vector<double> sigmas, const std::vector<double>& levels) {
   for (std::size_t e = 0; e < levels.size(); ++e)
-    if (levels[e].sigma < sigmas[e]) sigmas[e] = levels[e].sigma;
+    if (levels[e] < sigmas[e]) sigmas[e] = levels[e];
   return sigmas;
 }
 
@@ -30,19 +30,16 @@ std::string described(const Stage& stage) {
 
 void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
                            const std::string& added, const std::string& removed) {
-  const std::vector<NoiseLevel> levels = noise_levels(model);
+  const std::vector<double> levels = noise_levels(model);
   if (found.sigmas.empty()) {
-    found.noise = levels;
-    for (const NoiseLevel& level : levels) {
-      if (!(level.sigma > 0))
+    for (const double level : levels) {
+      if (!(level > 0))
         throw InputError(
             "too few neighbouring frames to estimate the noise: give `noise` in the "
             "experiment");
-      found.sigmas.push_back(level.sigma);
+      found.sigmas.push_back(level);
     }
   }
-  for (std::size_t e = 0; e < levels.size(); ++e)
-    if (levels[e].sigma < found.sigmas[e]) found.noise[e] = levels[e];
   found.sigmas = lowest(found.sigmas, levels);
   Stage next;
   next.effects = std::move(effects);

@@ -11,7 +11,7 @@ namespace catena {
 /// varied since. The rates of docs/power.md are evidence for all of them together. A change of any
 /// one needs a new power study (scripts/power_study).
 struct DiagnosisThresholds {
-  // Is there a gap? (noise.cpp)
+  // Is there a gap? (gap_test.cpp)
 
   /// Standard deviations. Two tests on each of two parts of a recording: by chance, 4.5 are passed
   /// less than once in 10^5 tests. Evidence: no false alarm on 500 quiet recordings (docs/power.md).
@@ -21,9 +21,6 @@ struct DiagnosisThresholds {
   double gap_misfit = 0.4;
   /// RMS over noise. The noise is estimated from the same residuals, to some per cent. Chosen.
   double gap_size = 1.15;
-  /// Ratio of noise estimates, from differences of orders 2 to 6 over order 2. White noise gives 1;
-  /// tracks smoothed over three frames give less than this. Evidence: parts_test.cpp.
-  double white_noise_orders = 0.67;
 
   // What is left when an explanation was added (verdict.cpp)
 

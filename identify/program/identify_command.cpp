@@ -14,11 +14,11 @@
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_words.hpp"
 #include "identify/cases/case_writer.hpp"
-#include "identify/diagnosis/noise.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
 #include "identify/least_squares/least_squares.hpp"
+#include "identify/noise/noise_level.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
@@ -160,7 +160,7 @@ std::string remark_on_gap(const Problem& problem, const Evaluation& evaluation) 
         (evaluation.predictions[e].simulated - experiment.recording.measured)
             .leftCols(experiment.recording.fit_frames);
     double noise = experiment.spec.noise;
-    if (std::isnan(noise)) noise = noise_level(residual, experiment.recording.time).sigma;
+    if (std::isnan(noise)) noise = noise_level(residual, experiment.recording.time);
     const double rms = std::sqrt(
         residual.array().isNaN().select(0, residual.array().square()).sum() /
         static_cast<double>(std::max<Eigen::Index>(1, (!residual.array().isNaN()).count())));

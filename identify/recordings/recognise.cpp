@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/input_error.hpp"
+#include "common/median.hpp"
 #include "common/number_text.hpp"
 #include "common/whole_file.hpp"
 #include "identify/recordings/release.hpp"
@@ -114,13 +115,6 @@ std::vector<PointSpec> markers_in(const Table& table, std::vector<std::string>& 
         table.file +
         ": no markers; name their columns x1, y1, x2, y2, ... or side_1_m, down_1_m, ...");
   return points;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kNotGiven;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The markers of a table in its own unit and axes.

@@ -295,8 +295,7 @@ struct MissingForce {
 
 struct ExperimentNoise {
   std::string experiment;
-  double noise = kAbsent;
-  bool autocorrelated = false;
+  double noise_level = kAbsent;
 };
 
 struct LinksUsed {

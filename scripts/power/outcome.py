@@ -79,8 +79,8 @@ def judged(trial, found):
     return {"verdict": found["verdict"], "effects": "+".join(sorted(named)),
             "members": "+".join(sorted(set(found["members"]))), "right": "yes" if right else "no",
             "farthest_member": f"{farthest:.3g}", "links_used": found["links"]["used"],
-            "fit_ratio": f"{gap['fit'] / gap['floor']:.4g}",
-            "held_out_ratio": "" if held is None else f"{held / gap['floor']:.4g}"}
+            "fit_ratio": f"{gap['fit'] / gap['noise_level']:.4g}",
+            "held_out_ratio": "" if held is None else f"{held / gap['noise_level']:.4g}"}
 
 
 def key(row):

@@ -57,7 +57,7 @@ TEST_CASE("a file that cannot be read says where and why") {
   const std::vector<Row> rows = {
       {[](json& r) { r["kind"] = "case"; },
        "result.kind is \"case\"; it must be \"result\" or \"diagnosis\""},
-      {[](json& r) { r["format"] = 2; }, "result.format is 2; this program reads format 1"},
+      {[](json& r) { r["format"] = 3; }, "result.format is 3; this program reads formats 1 and 2"},
       {[](json& r) { r = 3; }, "it must be a result or a diagnosis"},
       {[](json& r) { r["title"] = 7; }, "result.title is 7; it must be text"},
       {[](json& r) { r["experiments"][0]["trajectory"]["side"][1].push_back(1.0); },

@@ -12,8 +12,8 @@
 #include <numbers>
 #include <random>
 
-#include "identify/diagnosis/noise.hpp"
-#include "identify/diagnosis/noise_model.hpp"
+#include "identify/diagnosis/gap_test.hpp"
+#include "identify/noise/estimate_noise.hpp"
 
 namespace {
 

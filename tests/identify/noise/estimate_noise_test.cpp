@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "identify/diagnosis/noise_model.hpp"
+#include "identify/noise/estimate_noise.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,18 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "identify/diagnosis/noise_shape.hpp"
+#include "identify/noise/noise_shape.hpp"
+#include "identify/noise/prediction_filter.hpp"
 
 namespace catena {
-
-/// The residuals of one window of a recording, fitted and held out, and what was predicted there.
-struct NoiseWindow {
-  Eigen::MatrixXd residual;      ///< channels x frames, m or rad; NaN: not seen
-  Eigen::MatrixXd predicted;     ///< channels x frames
-  std::vector<double> time;      ///< s
-  Eigen::Index fitted = 0;       ///< so many frames were fitted, the others are held out
-  Eigen::Index shows_noise = 0;  ///< the first so many frames tell the noise
-};
 
 /// The noise of one recording, as its residuals show it where the motion has no power.
 ///
@@ -48,25 +40,11 @@ struct NoiseModel {
   std::vector<int> direction;  ///< per channel: 0 and 1 may shake, negative ones do not
   std::vector<int> frame;      ///< number of every column, in steps of the frame rate
   Eigen::MatrixXi pattern;     ///< channels x columns: in `filters`; -1: not seen
-  /// Prediction of a frame from those seen before: coefficients at lags 1, 2, ..., and the standard
-  /// deviation of its error over that of the noise.
-  struct Filter {
-    Eigen::VectorXd coefficients;
-    double deviation = 1;
-  };
-  std::vector<Filter> filters;
+  std::vector<PredictionFilter> filters;
 };
 
-/// White noise of one size in every channel of a window in which all is seen.
-NoiseModel white_noise(double sigma, Eigen::Index channels, Eigen::Index frames);
-
-/// Of every experiment.
-using NoiseModels = std::vector<NoiseModel>;
-
-/// One for each window of a recording; they share everything but the whitening. `direction`: of each
-/// channel, 0 and 1; the channels of one may shake together. A negative one shakes alone. Noise below
-/// `stated` (m or rad) is made as large as that.
-NoiseModels estimate_noise(const std::vector<NoiseWindow>& windows,
-                           const std::vector<int>& direction, double stated = 0);
+/// x of one frame and direction, its own noise of variance 1, without the common mode with loadings
+/// a: (1 + a a^T)^(-1/2) x.
+void take_out_common(Eigen::VectorXd& x, const Eigen::VectorXd& a);
 
 }  // namespace catena

@@ -9,22 +9,6 @@ namespace catena {
 /// Statistics of residuals in time. Residuals come as channels x frames; NaN where nothing was
 /// measured. Everything in the unit of the residuals (m or rad).
 
-/// The noise of one recording, from its residuals themselves.
-///
-/// Differences of order d of neighbouring frames wipe out what is smooth (the motion and what the
-/// model misses of it) and keep white noise, whose variance they multiply by the binomial (2d over
-/// d). The smallest estimate of orders 2 to 6 is taken: a higher order wipes out more, a lower one
-/// is surer. The median over blocks of frames keeps short events from counting as noise.
-struct NoiseLevel {
-  double sigma = 0;  ///< standard deviation of white noise; NaN: too few neighbouring frames
-  double sigma_of_second = 0;  ///< the same from second differences
-  /// Noise that is not white (smoothed tracks) leaves less and less in higher differences: then
-  /// sigma says little of it. True if the residuals are not dominated by misfit and orders 2 and 6
-  /// differ by more than a third.
-  bool autocorrelated = false;
-};
-NoiseLevel noise_level(const Eigen::MatrixXd& residual, const std::vector<double>& time);
-
 /// Whether residuals are larger or smoother than noise. A gap is there if it is significant and worth
 /// the name (DiagnosisThresholds).
 struct GapTest {

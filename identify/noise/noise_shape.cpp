@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "identify/diagnosis/noise_shape.hpp"
+#include "identify/noise/noise_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
