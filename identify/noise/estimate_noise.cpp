@@ -161,7 +161,7 @@ double tails_of(const std::vector<MatrixXd>& whitened) {
 }  // namespace
 
 std::vector<NoiseModel> estimate_noise(const std::vector<NoiseWindow>& windows,
-                           const std::vector<int>& direction, double stated) {
+                                       const std::vector<int>& direction, double stated) {
   NoiseModel noise;
   noise.direction = direction;
   std::vector<std::vector<int>> frames;

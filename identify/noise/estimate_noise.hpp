@@ -21,6 +21,6 @@ struct NoiseWindow {
 /// channel, 0 and 1; the channels of one may shake together. A negative one shakes alone. Noise below
 /// `stated` (m or rad) is made as large as that.
 std::vector<NoiseModel> estimate_noise(const std::vector<NoiseWindow>& windows,
-                           const std::vector<int>& direction, double stated = 0);
+                                       const std::vector<int>& direction, double stated = 0);
 
 }  // namespace catena

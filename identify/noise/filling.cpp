@@ -29,8 +29,7 @@ VectorXd Filler::operator()(const VectorXd& values) {
     }
     unsigned seen = 0;
     for (int i = 0; i <= 2 * kReach; ++i)
-      if (const Index at = k + i - kReach;
-          at >= 0 && at < values.size() && !std::isnan(values[at]))
+      if (const Index at = k + i - kReach; at >= 0 && at < values.size() && !std::isnan(values[at]))
         seen |= 1u << i;
     if (const VectorXd& weights = weights_for(seen); weights.size() > 0) {
       full[k] = 0;
@@ -56,8 +55,7 @@ const VectorXd& Filler::weights_for(unsigned seen) {
   std::vector<int> at;
   for (int i = 0; i <= 2 * kReach; ++i)
     if (seen >> i & 1u) at.push_back(i);
-  if (!added || at.size() < 8 || at.front() >= kReach || at.back() <= kReach)
-    return place->second;
+  if (!added || at.size() < 8 || at.front() >= kReach || at.back() <= kReach) return place->second;
   const auto n = static_cast<Index>(at.size());
   MatrixXd matrix = MatrixXd::Zero(n + 4, n + 4);
   VectorXd right = VectorXd::Zero(n + 4);

@@ -51,7 +51,7 @@ std::vector<bool> free_of_motion(const VectorXd& power, const VectorXd& motion) 
 /// misfit: what is below such a frequency is no noise to learn from. False where no direction has
 /// enough channels to compare.
 bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
- const std::vector<int>& direction, std::vector<bool>& use) {
+                        const std::vector<int>& direction, std::vector<bool>& use) {
   bool compared = false;
   Index first = 0;
   for (const int d : {-1, 0, 1}) {
@@ -70,8 +70,8 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
         products[static_cast<std::size_t>(j)] += y * y.adjoint();
       }
     // Independent values in five neighbouring frequencies.
-    const double count = 5 * segments.seen / static_cast<double>(sigma.size()) /
-                         (2 * static_cast<double>(bins - 1));
+    const double count =
+        5 * segments.seen / static_cast<double>(sigma.size()) / (2 * static_cast<double>(bins - 1));
     // From below: there is misfit beside the motion, and between the lobes of a smoothing what leaks.
     for (Index j = 2; j + 2 < bins; ++j) {
       if (!use[static_cast<std::size_t>(j)]) continue;

@@ -21,8 +21,9 @@ constexpr int kLags = 30;  // a smoothed track needs more than an autoregression
 PredictionFilters::PredictionFilters(const NoiseShape& shape)
     : lags_(shape.white() ? 0 : kLags), correlation_(shape.autocorrelation(kLags)) {}
 
-Eigen::MatrixXi PredictionFilters::patterns(const MatrixXd& grid, const std::vector<int>& frame, Index fitted,
-                         std::vector<PredictionFilter>& filters) const {
+Eigen::MatrixXi PredictionFilters::patterns(const MatrixXd& grid, const std::vector<int>& frame,
+                                            Index fitted,
+                                            std::vector<PredictionFilter>& filters) const {
   std::map<unsigned, int> numbers;
   Eigen::MatrixXi pattern =
       Eigen::MatrixXi::Constant(grid.rows(), static_cast<Index>(frame.size()), -1);

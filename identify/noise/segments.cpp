@@ -31,7 +31,7 @@ MatrixXcd transformed(MatrixXd values, const MatrixXcd& waves) {
 }  // namespace
 
 Segments::Segments(const std::vector<MatrixXd>& residuals, const std::vector<MatrixXd>& predictions,
-         const NoiseShape& shape, const VectorXd& taper) {
+                   const NoiseShape& shape, const VectorXd& taper) {
   const auto length = static_cast<int>(taper.size());
   Filler filled(shape);
   double all = 0;
@@ -48,8 +48,8 @@ Segments::Segments(const std::vector<MatrixXd>& residuals, const std::vector<Mat
     for (Index c = 0; c < full.rows(); ++c) {
       full.row(c) = filled(residuals[w].row(c));
       motion.row(c) = filled(predictions[w].row(c));
-      seen += static_cast<double>(
-          (residuals[w].row(c).array() == residuals[w].row(c).array()).count());
+      seen +=
+          static_cast<double>((residuals[w].row(c).array() == residuals[w].row(c).array()).count());
     }
     all += static_cast<double>(full.size());
     for (Index s = 0; s <= steps; ++s) {
