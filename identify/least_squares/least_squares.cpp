@@ -89,6 +89,7 @@ class Watch : public ceres::IterationCallback {
     journal_.count_iteration();
     if (journal_.must_stop(reserved_)) return ceres::SOLVER_ABORT;
     const double cost = step.cost - offset_;
+    if (step.iteration > 0 && step.step_is_successful) gained_ += step.cost_change / cost;
     if (promise_ <= enough_) {
       if (step.iteration == 0) promised_ = promise_;
       return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
@@ -96,7 +97,6 @@ class Watch : public ceres::IterationCallback {
     if (step.iteration == 0 || !step.step_is_valid) return ceres::SOLVER_CONTINUE;
     const double expected = step.cost_change / step.relative_decrease;  // by the linearised model
     if (step.iteration == 1) promised_ = expected / cost;
-    if (step.step_is_successful) gained_ += step.cost_change / cost;
     const bool good = step.step_is_successful && step.cost_change > kTooLittle * tolerance_ * cost;
     failed_steps_ = good ? 0 : failed_steps_ + 1;
     if (kinks_ && failed_steps_ == kFailedSteps) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;

@@ -208,6 +208,22 @@ held = { side = 1.5, down = 2.5 }
   }
 }
 
+TEST_CASE("a fit that is at its end after one step has left its start") {
+  // So near the truth the sensitivities hold, and after one step nothing is left to gain.
+  const Problem exact = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, 1e-6, 3);
+  Case coarse = exact.the_case();
+  coarse.optimiser.tolerance = 1e-4;
+  const Problem problem(coarse, exact.model(), {exact.experiments()[0].recording});
+  Eigen::VectorXd near(2);
+  near << 0.1 * (1 + 1e-5), 0.005 * (1 + 1e-5);
+  FitOptions options;
+  options.start = near;
+  const FitResult result = fit(problem, options, fit_least_squares);
+  CHECK(result.status == FitStatus::kConverged);
+  CHECK(result.message == "");
+  CHECK(result.x[0] == doctest::Approx(0.1).epsilon(1e-6));
+}
+
 TEST_CASE("rough simulations are of fewer frames, spread over all") {
   const Model model = Model::built_in(2);
   Case the_case = testing::sections(testing::kTwoLinks);
