@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generator/emission/sweeps.hpp"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace catena {
+namespace {
+
+class Schedule {
+ public:
+  Schedule(Families& families, Layout layout) : families_(families), layout_(layout) {}
+
+  std::vector<Sweep> schedule() {
+    for (;;) {
+      bool open = false, alone = false;
+      for (size_t k = 0; k < families_.all.size(); ++k) {
+        if (families_.all[k].sweep >= 0) continue;
+        open = true;
+        if (families_.all[k].items.count(kNoIndex) && ready(families_.all[k])) {
+          add_sweep(0, {k});
+          alone = true;
+        }
+      }
+      if (!open) break;
+      if (alone) continue;
+      std::vector<size_t> forward, backward;
+      for (const std::set<int>& guard : open_guards()) {
+        forward = sweep_in(1, guard);
+        backward = sweep_in(-1, guard);
+        if (!forward.empty() || !backward.empty()) break;
+      }
+      if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
+      const int direction = forward.size() >= backward.size() ? 1 : -1;
+      const auto& members = direction > 0 ? forward : backward;
+      if (layout_ == Layout::kWholeSweeps) {
+        add_sweep(direction, members);
+      } else {
+        add_sweeps(direction, members);
+      }
+    }
+    for (const Family& family : families_.all) {
+      for (const Dependency& d : family.dependencies) {
+        Family& read = families_.named(d.family);
+        if (d.offset != 0 || read.sweep != family.sweep) read.local = false;
+      }
+    }
+    if (layout_ == Layout::kWholeSweeps) carry();
+    return std::move(sweeps_);
+  }
+
+ private:
+  bool done(const std::string& family) const { return families_.named(family).sweep >= 0; }
+
+  bool ready(const Family& family) const {
+    return std::all_of(family.dependencies.begin(), family.dependencies.end(),
+                       [&](const Dependency& d) { return done(d.family); });
+  }
+
+  std::vector<size_t> sweep_in(int direction, const std::set<int>& guard) const {
+    std::vector<size_t> included;
+    std::set<std::string> names;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (size_t k = 0; k < families_.all.size(); ++k) {
+        const Family& family = families_.all[k];
+        if (family.sweep >= 0 || names.count(family.name) || family.items.count(kNoIndex) ||
+            family.guard != guard)
+          continue;
+        const bool fits = std::all_of(
+            family.dependencies.begin(), family.dependencies.end(), [&](const Dependency& d) {
+              if (done(d.family)) return true;
+              if (d.offset == kUnrelated) return false;
+              const bool before = d.offset * direction < 0;
+              if (d.family == family.name) return before;
+              return names.count(d.family) > 0 && (before || d.offset == 0);
+            });
+        if (!fits) continue;
+        included.push_back(k);
+        names.insert(family.name);
+        grown = true;
+      }
+    }
+    return included;
+  }
+
+  void add_sweep(int direction, std::vector<size_t> members) {
+    for (const size_t k : members) families_.all[k].sweep = static_cast<int>(sweeps_.size());
+    sweeps_.push_back({direction, std::move(members)});
+  }
+
+  // A sweep as up to three: what needs no neighbour's result, what does, and what follows from
+  // that. Only the middle one has to go link by link; of the others, upwards in memory, the
+  // compiler makes vectors.
+  void add_sweeps(int direction, const std::vector<size_t>& members) {
+    std::map<size_t, std::set<size_t>> needs;  // within the sweep, directly or not
+    for (const size_t k : members) {
+      std::vector<size_t> open{k};
+      while (!open.empty()) {
+        const Family& family = families_.all[open.back()];
+        open.pop_back();
+        for (const Dependency& d : family.dependencies) {
+          const size_t read = families_.position(d.family);
+          if (families_.all[read].sweep < 0 && needs[k].insert(read).second) open.push_back(read);
+        }
+      }
+    }
+    std::set<size_t> chained;  // needs itself, of the link before
+    for (const size_t k : members) {
+      if (needs[k].count(k)) chained.insert(k);
+    }
+    std::vector<size_t> before, between, after;
+    for (const size_t k : members) {
+      const auto leads_to = [&](size_t other) { return needs[other].count(k) > 0; };
+      const auto comes_of = [&](size_t other) { return needs[k].count(other) > 0; };
+      if (std::none_of(chained.begin(), chained.end(), comes_of)) {
+        before.push_back(k);
+      } else if (std::any_of(chained.begin(), chained.end(), leads_to)) {
+        between.push_back(k);
+      } else {
+        after.push_back(k);
+      }
+    }
+    for (const auto& part : {before, between, after}) {
+      if (!part.empty()) add_sweep(in_any_order(part) ? 1 : direction, part);
+    }
+  }
+
+  // Whether no family of a sweep reads another's neighbour.
+  bool in_any_order(const std::vector<size_t>& members) const {
+    return std::all_of(members.begin(), members.end(), [&](size_t k) {
+      return std::all_of(families_.all[k].dependencies.begin(), families_.all[k].dependencies.end(),
+                         [&](const Dependency& d) { return d.offset == 0 || done(d.family); });
+    });
+  }
+
+  // Of the families that have no sweep yet; what is always computed first.
+  std::set<std::set<int>> open_guards() const {
+    std::set<std::set<int>> guards;
+    for (const Family& family : families_.all)
+      if (family.sweep < 0) guards.insert(family.guard);
+    return guards;
+  }
+
+  // What is read at the same link and the one before, and after the sweep at its last link, needs
+  // no array: `name` and `name_last` do.
+  void carry() {
+    std::set<size_t> stored;
+    for (const Family& reader : families_.all) {
+      for (const auto& [index, item] : reader.items) {
+        for (const int number : families_.definitions().symbols_of(item.value)) {
+          const Symbol& symbol = families_.definitions()[number];
+          if (families_.given(symbol)) continue;
+          const size_t k = families_.position(symbol.family);
+          const Family& family = families_.all[k];
+          const int direction = sweeps_[static_cast<size_t>(family.sweep)].direction;
+          const int last =
+              direction > 0 ? family.items.rbegin()->first : family.items.begin()->first;
+          const bool near = reader.sweep == family.sweep
+                                ? symbol.index == index || symbol.index == index - direction
+                                : symbol.index == last;
+          if (direction == 0 || !near) stored.insert(k);
+        }
+      }
+    }
+    for (size_t k = 0; k < families_.all.size(); ++k)
+      families_.all[k].carried =
+          !families_.all[k].is_output && !families_.all[k].local && !stored.count(k);
+  }
+
+  Families& families_;
+  Layout layout_;
+  std::vector<Sweep> sweeps_;
+};
+
+}  // namespace
+
+std::vector<Sweep> schedule(Families& families, Layout layout) {
+  return Schedule(families, layout).schedule();
+}
+
+}  // namespace catena
