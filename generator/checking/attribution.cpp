@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/checking/attribution.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -38,6 +39,9 @@ class Attribution {
       add_scale(chain.torque[i]);
     }
     add_scale(chain.load_mass);
+    for (const auto& [name, symbols] : chain.effects)
+      for (const ex& symbol : symbols)
+        if (!symbol.is_zero()) add_scale(symbol);
   }
 
   std::vector<std::string> run(const Fraction& difference, const Contributions& parts) {
@@ -57,11 +61,17 @@ class Attribution {
     for (const auto& [source, piece] : pieces) {
       const Fraction value{GiNaC::add(piece.terms), difference.denominator};
       const auto part = model.find(source);
-      result.push_back(part == model.end() ? stray(source, value) : compared(part->second, value));
+      std::string sentence =
+          part == model.end() ? stray(source, value) : compared(part->second, value);
+      // The parameters of one effect may all be missing.
+      if (std::find(result.begin(), result.end(), sentence) == result.end())
+        result.push_back(std::move(sentence));
     }
     if (!homeless.empty())
-      result.push_back("terms linear in no single mass, inertia, stiffness, damping or torque: " +
-                       text_of({GiNaC::add(homeless), difference.denominator}, form_));
+      result.push_back(
+          "terms linear in no single mass, inertia, stiffness, damping, torque or parameter of an "
+          "effect: " +
+          text_of({GiNaC::add(homeless), difference.denominator}, form_));
     return result;
   }
 
@@ -104,14 +114,16 @@ class Attribution {
     for (const Contribution& part : parts) {
       const Fraction value = form_(part.value);
       if (value.numerator.is_zero() || value.denominator != 1) continue;
-      const ex first =
-          GiNaC::is_a<GiNaC::add>(value.numerator) ? value.numerator.op(0) : value.numerator;
-      const std::optional<Source> source = source_of(first);
-      if (!source) continue;
-      ModelPart& entry = result[*source];
-      if (entry.origin.find(part.origin) == std::string::npos)
-        entry.origin += (entry.origin.empty() ? "" : " and ") + part.origin;
-      entry.numerator = (entry.numerator + value.numerator).expand();
+      std::map<Source, GiNaC::exvector> terms;  // an effect may have several parameters
+      for_each_term(value.numerator, [&](const ex& term) {
+        if (const std::optional<Source> source = source_of(term)) terms[*source].push_back(term);
+      });
+      for (const auto& [source, own] : terms) {
+        ModelPart& entry = result[source];
+        if (entry.origin.find(part.origin) == std::string::npos)
+          entry.origin += (entry.origin.empty() ? "" : " and ") + part.origin;
+        entry.numerator = (entry.numerator + GiNaC::add(own)).expand();
+      }
     }
     return result;
   }

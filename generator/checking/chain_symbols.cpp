@@ -83,7 +83,7 @@ class TimeDerivative {
 
 }  // namespace
 
-ChainSymbols::ChainSymbols(int number_of_links)
+ChainSymbols::ChainSymbols(int number_of_links, const std::vector<Effect>& added)
     : links(number_of_links),
       angle(family("theta", links)),
       rate(family("thetadot", links)),
@@ -100,6 +100,22 @@ ChainSymbols::ChainSymbols(int number_of_links)
     derivative_[angle[i]] = rate[i];
     derivative_[rate[i]] = acceleration[i];
     accelerations_.insert(acceleration[i]);
+  }
+  for (const Effect& effect : added) {
+    for (const EffectParameter& parameter : effect.parameters) {
+      const std::string name = effect.id + "_" + parameter.name;
+      const auto symbol = [&](const std::string& text) {
+        return parameter.lower >= 0 ? GiNaC::ex(GiNaC::possymbol(text))
+                                    : GiNaC::ex(GiNaC::realsymbol(text));
+      };
+      std::vector<GiNaC::ex>& symbols = effects[name];
+      if (parameter.scope == Scope::kModel) {
+        symbols = {symbol(name)};
+        continue;
+      }
+      symbols = {0};
+      for (int i = 1; i <= links; ++i) symbols.push_back(symbol(name + "_" + std::to_string(i)));
+    }
   }
 }
 

@@ -3,14 +3,18 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
+#include <string>
 #include <vector>
+
+#include "description/effect.hpp"
 
 namespace catena::checking {
 
 /// The symbols of a chain of n links. Vectors are indexed 1..n. Entry 0 is that of the support:
 /// angle[0], rate[0] and acceleration[0] are 0, the others are not used.
 struct ChainSymbols {
-  explicit ChainSymbols(int links);
+  explicit ChainSymbols(int links, const std::vector<Effect>& effects = {});
 
   int links;
   std::vector<GiNaC::ex> angle;         ///< theta_i, absolute, from the downward vertical, rad
@@ -24,6 +28,9 @@ struct ChainSymbols {
   std::vector<GiNaC::ex> torque;        ///< T_i, external, on theta_i, N m
   GiNaC::ex load_mass;                  ///< m_c, kg
   GiNaC::ex gravity;                    ///< g, m/s^2
+  /// The parameters of effects: "load_drag_coefficient" is entry 0; entries 1..n, if there are any,
+  /// are those of the joints or links.
+  std::map<std::string, std::vector<GiNaC::ex>> effects;
 
   /// d/dt of an expression in these symbols, where angles and rates are functions of time. Throws
   /// std::invalid_argument if it contains an acceleration: there are no third derivatives.

@@ -77,7 +77,9 @@ class Comparison {
  public:
   Comparison(const Derivation& derivation, std::uint64_t seed)
       : derivation_(derivation), seed_(seed) {
-    if (derivation.chain) model_ = std::make_unique<FlatDerivation>(*derivation.chain);
+    if (derivation.chain)
+      model_ = std::make_unique<FlatDerivation>(
+          *derivation.chain, parts_of_effects(derivation.effects, *derivation.chain));
   }
 
   Finding of(const Entry& entry) {
@@ -392,6 +394,8 @@ class Comparison {
          {&chain.angle, &chain.rate, &chain.acceleration, &chain.length, &chain.mass,
           &chain.inertia, &chain.stiffness, &chain.damping, &chain.torque})
       all.insert(all.end(), family->begin() + 1, family->end());
+    for (const auto& [name, symbols] : chain.effects)
+      all.insert(all.end(), symbols.begin(), symbols.end());
     return random_state(symbols_in(all), seed_);
   }
 

@@ -45,6 +45,7 @@ struct Entry {
 /// A hand derivation after its loops and sums have been evaluated.
 struct Derivation {
   std::unique_ptr<ChainSymbols> chain;  ///< null for a scalar derivation
+  std::vector<Effect> effects;          ///< of the chain
   GiNaC::exmap given;                   ///< parameter -> value, holds on both sides
   std::vector<Entry> entries;           ///< in the order of Quantity, then of indices
   std::vector<std::string> notes;       ///< remarks that are not errors

@@ -17,8 +17,10 @@ using GiNaC::ex;
 
 class Evaluator {
  public:
-  Evaluator(const std::string& file, std::optional<int> links) : requested_links_(links) {
+  Evaluator(const std::string& file, std::optional<int> links, const std::vector<Effect>& effects)
+      : requested_links_(links) {
     scope_.file = file;
+    result_.effects = effects;
   }
 
   Derivation run(const Program& program) {
@@ -103,7 +105,7 @@ class Evaluator {
     if (number < 1 || number > kMostLinks)
       fail(statement.at, "links = " + std::to_string(number) + "; must be from 1 to " +
                              std::to_string(kMostLinks));
-    scope_.chain = std::make_unique<ChainSymbols>(number);
+    scope_.chain = std::make_unique<ChainSymbols>(number, result_.effects);
   }
 
   void declare(const Statement& statement) {
@@ -135,7 +137,8 @@ class Evaluator {
     const Expression& target = statement.expressions[0];
     const ex parameter = expressions_.read(target);
     if (!GiNaC::is_a<GiNaC::symbol>(parameter) || !scope_.chain->is_constant(parameter))
-      fail(target.at, "'given' expects a parameter: l_i, m_i, I_i, k_i, c_i, T_i, m_c or g");
+      fail(target.at,
+           "'given' expects a parameter: l_i, m_i, I_i, k_i, c_i, T_i, m_c, g or one of an effect");
     const auto replaced = [](const ex& in, const GiNaC::exmap& by) {
       return in.subs(by, GiNaC::subs_options::no_pattern);
     };
@@ -192,7 +195,8 @@ class Evaluator {
     const bool parameter =
         scope_.chain &&
         (name == "m_c" || name == "g" || name == "n" ||
-         (families().count(name) != 0 && !(name == "T" && reference.indices.empty())));
+         (families().count(name) != 0 && !(name == "T" && reference.indices.empty())) ||
+         scope_.chain->effects.contains(name));
     if (parameter && name == "I" && reference.indices.size() == 2)
       fail(target.at, "the mass matrix is called M; I_i is the inertia of link i");
     if (parameter)
@@ -277,11 +281,21 @@ class Evaluator {
     }
   }
 
+  /// C, K, F and G divide the forces of the plain chain; those of an effect may belong to several.
+  static bool is_of_plain_chain(Quantity quantity) {
+    return quantity == Quantity::kDamping || quantity == Quantity::kStiffness ||
+           quantity == Quantity::kCoriolis || quantity == Quantity::kGravity;
+  }
+
   void collect() {
     if (scope_.chain) {
       for (const Target& target : kTargets) {
         for (const auto& [reference, stored] : scope_.values) {
           if (reference.name != target.name) continue;
+          if (!result_.effects.empty() && is_of_plain_chain(target.quantity))
+            fail(stored.at, std::string(target.name) +
+                                " is not defined for a chain with effects; state L, T, V, D, M or "
+                                "the equations");
           const std::vector<int>& index = reference.indices;
           result_.entries.push_back({target.quantity, index.empty() ? 0 : index[0],
                                      index.size() < 2 ? 0 : index[1], reference.text(),
@@ -308,8 +322,9 @@ class Evaluator {
 
 }  // namespace
 
-Derivation evaluate(const Program& program, const std::string& file, std::optional<int> links) {
-  return Evaluator(file, links).run(program);
+Derivation evaluate(const Program& program, const std::string& file, std::optional<int> links,
+                    const std::vector<Effect>& effects) {
+  return Evaluator(file, links, effects).run(program);
 }
 
 }  // namespace catena::checking

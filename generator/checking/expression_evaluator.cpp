@@ -80,7 +80,19 @@ ex ExpressionEvaluator::read(const Expression& name) {
     if (scope_.chain && reference.name == "n") return links();
     if (scope_.chain && reference.name == "g") return scope_.chain->gravity;
     if (scope_.chain && reference.name == "m_c") return scope_.chain->load_mass;
+    if (scope_.chain) {
+      const auto effect = scope_.chain->effects.find(reference.name);
+      if (effect != scope_.chain->effects.end() && effect->second.size() == 1)
+        return effect->second.front();
+    }
   } else if (scope_.chain) {
+    const auto effect = scope_.chain->effects.find(reference.name);
+    if (effect != scope_.chain->effects.end() && reference.indices.size() == 1) {
+      check_range(name.at, reference, reference.indices[0], 1);
+      if (effect->second.size() == 1)
+        fail(name.at, "'" + reference.name + "' has no index; there is one for all links");
+      return effect->second[static_cast<std::size_t>(reference.indices[0])];
+    }
     const auto family = families().find(reference.name);
     if (family != families().end()) return family_member(name.at, reference, family->second);
   }
@@ -112,14 +124,16 @@ ex ExpressionEvaluator::unset(Location at, const Reference& reference) {
   if (target != nullptr && target->indices > 0)
     fail(at,
          "expected entries such as " + reference.name + (target->indices == 2 ? "[1,2]" : "[1]"));
-  if (scope_.chain && families().count(reference.name) != 0)
+  if (scope_.chain &&
+      (families().contains(reference.name) || scope_.chain->effects.contains(reference.name)))
     fail(at, "'" + reference.name + "' needs an index, as in " + reference.name + "_1");
   for (const auto& [known, stored] : scope_.values)
     if (known.name == reference.name)
       fail(at, reference.text() + " is not set (but " + known.text() + " is)");
   fail(at, "unknown name '" + reference.text() + "'; expected " +
                (scope_.chain ? "theta_i, thetadot_i, thetaddot_i, l_i, m_i, I_i, k_i, c_i, T_i "
-                               "with an index in use, m_c, g, n, pi, "
+                               "with an index in use, m_c, g, n, pi, a parameter of an effect "
+                               "(--effect), "
                              : "a declared symbol, pi, ") +
                "or a name assigned before");
 }

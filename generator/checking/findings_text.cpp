@@ -108,9 +108,12 @@ std::string equations_remark(const Derivation& derivation, const std::vector<Fin
 std::string findings_text(const std::string& file, const Derivation& derivation,
                           const std::vector<Finding>& findings) {
   std::string text = file;
-  if (derivation.chain)
+  if (derivation.chain) {
     text += ": " + std::to_string(derivation.chain->links) +
             (derivation.chain->links == 1 ? " link" : " links");
+    for (std::size_t i = 0; i < derivation.effects.size(); ++i)
+      text += (i == 0 ? ", with " : " and ") + derivation.effects[i].id;
+  }
   text += "\n\n";
   std::size_t width = 0;
   for (const Entry& entry : derivation.entries) width = std::max(width, entry.label.size());

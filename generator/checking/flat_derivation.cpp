@@ -2,6 +2,7 @@
 #include "generator/checking/flat_derivation.hpp"
 
 #include <functional>
+#include <utility>
 
 namespace catena::checking {
 namespace {
@@ -18,8 +19,7 @@ Contributions each(const Contributions& parts, const std::function<ex(const ex&)
   Contributions result;
   for (const Contribution& part : parts) {
     ex value = operation(part.value);
-    if (!value.is_zero())
-      result.push_back({part.origin, part.scale, part.is_weight, std::move(value)});
+    if (!value.is_zero()) result.push_back({part.origin, std::move(value)});
   }
   return result;
 }
@@ -34,7 +34,9 @@ ex total(const Contributions& parts) {
   return GiNaC::add(values);
 }
 
-FlatDerivation::FlatDerivation(const ChainSymbols& symbols) : symbols_(symbols) {
+FlatDerivation::FlatDerivation(const ChainSymbols& symbols, EffectParts effects)
+    : symbols_(symbols), effects_(std::move(effects)) {
+  effects_.equation.resize(symbols.angle.size());
   const ex half = GiNaC::numeric(1, 2);
   ex joint_down = 0, joint_side = 0, joint_height = 0;  // the joint above the link
   const auto kinetic_energy = [&](const ex& mass, const ex& down, const ex& side) {
@@ -50,39 +52,38 @@ FlatDerivation::FlatDerivation(const ChainSymbols& symbols) : symbols_(symbols) 
     const ex down = joint_down + l / 2 * GiNaC::cos(theta);            // (2.24)
     const ex side = joint_side + l / 2 * GiNaC::sin(theta);            // (2.24)
     const ex height = joint_height + l / 2 * (1 - GiNaC::cos(theta));  // (2.7)
-    kinetic_.push_back(
-        {"kinetic energy of link " + index, m, false, kinetic_energy(m, down, side)});
-    kinetic_.push_back({"rotational energy of link " + index, symbols.inertia[k], false,
+    kinetic_.push_back({"kinetic energy of link " + index, kinetic_energy(m, down, side)});
+    kinetic_.push_back({"rotational energy of link " + index,
                         half * symbols.inertia[k] * GiNaC::pow(symbols.rate[k], 2)});
-    gravity_potential_.push_back(
-        {"gravity of link " + index, m, true, m * symbols.gravity * height});
+    gravity_potential_.push_back({"gravity of link " + index, m * symbols.gravity * height});
     elastic_potential_.push_back(
-        {"spring of joint " + index, symbols.stiffness[k], false,
+        {"spring of joint " + index,
          half * symbols.stiffness[k] * GiNaC::pow(theta - symbols.angle[k - 1], 2)});
     dissipation_.push_back(
-        {"damper of joint " + index, symbols.damping[k], false,
+        {"damper of joint " + index,
          half * symbols.damping[k] * GiNaC::pow(symbols.rate[k] - symbols.rate[k - 1], 2)});
     joint_down += l * GiNaC::cos(theta);
     joint_side += l * GiNaC::sin(theta);
     joint_height += l * (1 - GiNaC::cos(theta));
   }
   kinetic_.push_back(  // (2.25): the load sits at the end of the last link
-      {"kinetic energy of the load", symbols.load_mass, false,
-       kinetic_energy(symbols.load_mass, joint_down, joint_side)});
-  gravity_potential_.push_back({"gravity of the load", symbols.load_mass, true,
-                                symbols.load_mass * symbols.gravity * joint_height});
+      {"kinetic energy of the load", kinetic_energy(symbols.load_mass, joint_down, joint_side)});
+  gravity_potential_.push_back(
+      {"gravity of the load", symbols.load_mass * symbols.gravity * joint_height});
 }
 
-Contributions FlatDerivation::kinetic() const { return kinetic_; }
+Contributions FlatDerivation::kinetic() const { return joined(kinetic_, effects_.kinetic); }
 
 Contributions FlatDerivation::potential() const {
-  return joined(elastic_potential_, gravity_potential_);
+  return joined(joined(elastic_potential_, gravity_potential_), effects_.potential);
 }
 
-Contributions FlatDerivation::dissipation() const { return dissipation_; }
+Contributions FlatDerivation::dissipation() const {
+  return joined(dissipation_, effects_.dissipation);
+}
 
 Contributions FlatDerivation::lagrangian() const {
-  return joined(kinetic_, each(potential(), [](const ex& part) { return -part; }));
+  return joined(kinetic(), each(potential(), [](const ex& part) { return -part; }));
 }
 
 Contributions FlatDerivation::inertial(int i) const {
@@ -95,9 +96,11 @@ Contributions FlatDerivation::inertial(int i) const {
 
 Contributions FlatDerivation::mass(int i, int j) const {
   // d/dthetaddot_j of d/dt dT/dthetadot_i, by the chain rule of d/dt.
-  return each(momentum(i), [&](const ex& part) {
-    return derivative(part, symbols_.rate[static_cast<std::size_t>(j)]);
-  });
+  const auto column = static_cast<std::size_t>(j);
+  return joined(
+      each(momentum(i), [&](const ex& part) { return derivative(part, symbols_.rate[column]); }),
+      each(effects_.equation[static_cast<std::size_t>(i)],
+           [&](const ex& part) { return derivative(part, symbols_.acceleration[column]); }));
 }
 
 const Contributions& FlatDerivation::momentum(int i) const {
@@ -146,8 +149,8 @@ Contributions FlatDerivation::equation(int i) const {
   result = joined(std::move(result), each(dissipation_, [&](const ex& part) {
                     return derivative(part, symbols_.rate[index]);
                   }));
-  result.push_back(
-      {"torque T_" + std::to_string(i), symbols_.torque[index], false, -symbols_.torque[index]});
+  result = joined(std::move(result), effects_.equation[index]);
+  result.push_back({"torque T_" + std::to_string(i), -symbols_.torque[index]});
   return result;
 }
 

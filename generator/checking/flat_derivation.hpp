@@ -4,24 +4,13 @@
 #include <ginac/ginac.h>
 
 #include <map>
-#include <string>
 #include <vector>
 
 #include "generator/checking/chain_symbols.hpp"
+#include "generator/checking/contribution.hpp"
+#include "generator/checking/effect_parts.hpp"
 
 namespace catena::checking {
-
-/// A part of a quantity and its origin in the chain, such as "kinetic energy of link 3".
-struct Contribution {
-  std::string origin;
-  GiNaC::ex scale;  ///< the mass, inertia, stiffness, damping or torque in which the part is linear
-  bool is_weight;   ///< whether it is proportional to g as well
-  GiNaC::ex value;
-};
-using Contributions = std::vector<Contribution>;
-
-/// The sum of the parts.
-GiNaC::ex total(const Contributions& parts);
 
 /// The chain's equations from its energies: kinematics (2.24)-(2.27), energies (2.3)-(2.9) with the
 /// load's potential m_c g h_c, which (2.9) leaves out, Rayleigh dissipation, and
@@ -29,9 +18,12 @@ GiNaC::ex total(const Contributions& parts);
 /// Nothing is simplified or assumed about the result. Every part keeps its body, joint or torque.
 /// Indices run from 1 to n. Heights are measured from the straight chain (2.7). A call costs about
 /// n^2 terms, so single entries of chains of many links are cheap.
+///
+/// What effects add (EffectParts) comes from the derivation that models are emitted from. It is part
+/// of T, V, D, M and the equations; C, K, F and G are those of the plain chain.
 class FlatDerivation {
  public:
-  explicit FlatDerivation(const ChainSymbols& symbols);
+  explicit FlatDerivation(const ChainSymbols& symbols, EffectParts effects = {});
 
   [[nodiscard]] Contributions kinetic() const;      ///< T, J
   [[nodiscard]] Contributions potential() const;    ///< V, J
@@ -53,6 +45,7 @@ class FlatDerivation {
 
   const ChainSymbols& symbols_;
   mutable std::map<int, Contributions> momenta_;  // those computed so far; M uses each n times
+  EffectParts effects_;
   Contributions kinetic_, gravity_potential_, elastic_potential_, dissipation_;
 };
 

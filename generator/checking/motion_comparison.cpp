@@ -44,6 +44,7 @@ std::vector<std::string> sources_without_which(
   for (std::size_t j = 1; j < chain.mass.size(); ++j)
     look_at("link " + std::to_string(j), {chain.mass[j], chain.inertia[j]});
   look_at("the load", {chain.load_mass});
+  for (const auto& [name, symbols] : chain.effects) look_at(name, symbols);
   return result;
 }
 

@@ -243,6 +243,7 @@ void Chain::add_energy(const std::string& item, EnergyItem::Kind kind, const ex&
 
 // d/dt(dT/dydot) - dT/dy
 void Chain::add_kinetic(const std::string& item, const ex& energy) {
+  energy_functions_.kinetic.push_back(energy);
   add_energy(item, EnergyItem::kStored, energy);
   for (const int number : definitions_.symbols_of(energy)) {
     const Symbol symbol = definitions_[number];
@@ -260,6 +261,7 @@ void Chain::add_kinetic(const std::string& item, const ex& energy) {
 
 // dV/dy
 void Chain::add_potential(const std::string& item, const ex& energy) {
+  energy_functions_.potential.push_back(energy);
   add_energy(item, EnergyItem::kStored, energy);
   for (const int number : definitions_.symbols_of(energy)) {
     const Symbol symbol = definitions_[number];
@@ -275,6 +277,7 @@ void Chain::add_potential(const std::string& item, const ex& energy) {
 
 // dD/dydot; the power that leaves is sum ydot dD/dydot
 void Chain::add_dissipation(const std::string& item, const ex& function) {
+  energy_functions_.dissipation.push_back(function);
   ex power = 0;
   for (const int number : definitions_.symbols_of(function)) {
     const auto rate = variable_of_rate_.find(number);

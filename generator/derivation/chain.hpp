@@ -71,6 +71,11 @@ class Chain {
   GiNaC::ex rate(const GiNaC::ex& expression) { return time_.of(expression); }
 
   const std::vector<EnergyItem>& energies() const { return energies_; }
+  /// T (J), V (J) and Rayleigh's D (W), each to be summed. Forces and torques are in none of them.
+  struct EnergyFunctions {
+    std::vector<GiNaC::ex> kinetic, potential, dissipation;
+  };
+  const EnergyFunctions& energy_functions() const { return energy_functions_; }
   /// Whether a definition is the generalised force of one effect (EffectForces::kApart).
   bool is_effect_force(int number) const { return effect_forces_.contains(number); }
   /// Joint moments, link tensions, curvatures (see catena_model.h), links entries each.
@@ -144,6 +149,7 @@ class Chain {
   std::vector<ex> coordinates_, rates_, accelerations_, residual_, states_, state_rates_;
   std::vector<ex> point_side_, point_down_, moments_, tensions_, curvatures_;
   std::vector<EnergyItem> energies_;
+  EnergyFunctions energy_functions_;
   Sensor sensor_;
   ex support_force_side_, support_force_down_;  ///< what the support exerts on the chain, N
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "common/input_error.hpp"
 #include "generator/checking/comparison.hpp"
@@ -17,6 +18,7 @@
 #include "generator/checking/findings_text.hpp"
 #include "generator/checking/parser.hpp"
 #include "generator/program/commands.hpp"
+#include "generator/program/model_options.hpp"
 
 namespace catena {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 struct CheckOptions {
   std::string file;
   std::optional<int> links;
+  std::vector<std::string> effects;
   std::uint64_t seed = 1;
 };
 
@@ -39,7 +42,7 @@ std::string contents_of(const std::string& file) {
 int check(const CheckOptions& options) {
   using namespace checking;
   const Derivation derivation = evaluate(parse_derivation(contents_of(options.file), options.file),
-                                         options.file, options.links);
+                                         options.file, options.links, effects_of(options.effects));
   const std::vector<Finding> findings = compare(derivation, options.seed);
   std::cout << findings_text(options.file, derivation, findings) << std::flush;
   if (!std::cout) throw std::runtime_error("the report cannot be written to standard output");
@@ -56,6 +59,7 @@ void add_check_command(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand("check", "Check a hand derivation, or scalar identities");
   command->add_option("DERIVATION", options->file, "text file, see docs/checking.md")->required();
   command->add_option("--links", options->links, "number of links, instead of the file's");
+  add_effect_option(*command, options->effects);
   command->add_option("--seed", options->seed, "selects the states shown and those of evaluations")
       ->capture_default_str();
   command->footer(

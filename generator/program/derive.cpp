@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -7,7 +8,9 @@
 #include <optional>
 
 #include "common/input_error.hpp"
+#include "common/number_text.hpp"
 #include "common/whole_file.hpp"
+#include "generator/derivation/neutral_proof.hpp"
 #include "generator/emission/emitted_files.hpp"
 #include "generator/emission/latex_document.hpp"
 #include "generator/program/commands.hpp"
@@ -43,6 +46,27 @@ void write_latex(const Options& options, const Description& description) {
   std::printf("written to %s\n", path.c_str());
 }
 
+/// Refuses effects that change the chain at their neutral values; certify proves it for the whole
+/// model. Two links have every kind of place.
+void require_neutral(const Description& description) {
+  constexpr int kLinks = 2;
+  for (const Effect& effect : description.effects) {
+    Description alone = plain_chain();
+    alone.effects = {effect};
+    for (const Proof& proof : prove_neutral(alone, kLinks).proofs) {
+      if (proof.equal) continue;
+      std::string values;
+      for (const EffectParameter& parameter : effect.parameters)
+        if (!std::isnan(parameter.neutral))
+          values += (values.empty() ? "" : ", ") + parameter.name + " = " +
+                    shortest_number(parameter.neutral);
+      throw InputError(effect.source_file + ": neutral: at " + values +
+                       " the model should be the plain chain, but the effect changes the " +
+                       proof.what + "; correct the neutral values or the terms");
+    }
+  }
+}
+
 /// What reports show: many links fill pages, and the equations repeat themselves.
 void print_equations(const Description& description) {
   nlohmann::ordered_json list = nlohmann::json::array();
@@ -55,6 +79,7 @@ void print_equations(const Description& description) {
 
 void derive(const Options& options) {
   const Description description = description_of(options.model, !options.any_links);
+  require_neutral(description);
   if (options.equations) {
     print_equations(description);
     return;

@@ -17,8 +17,20 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
   command.add_option("--description", options.description,
                      "description (TOML); without it the plain chain");
   command.add_option("--links", options.links, "link counts, instead of the description's");
-  command.add_option("--effect", options.effects,
-                     "effect to add: built-in id or TOML file; repeatable");
+  add_effect_option(command, options.effects);
+}
+
+void add_effect_option(CLI::App& command, std::vector<std::string>& effects) {
+  command.add_option("--effect", effects, "effect to add: built-in id or TOML file; repeatable");
+}
+
+std::vector<Effect> effects_of(const std::vector<std::string>& names) {
+  std::vector<Effect> effects;
+  for (const std::string& name : names)
+    effects.push_back(name.ends_with(".toml") ? read_effect(name) : built_in_effect(name));
+  if (const std::string conflict = conflict_between(effects); !conflict.empty())
+    throw InputError("--effect: " + conflict);
+  return effects;
 }
 
 CLI::Option* add_format_option(CLI::App& command, std::string& format) {
@@ -34,10 +46,9 @@ Language language_of(const std::string& format) {
 Description description_of(const ModelOptions& options, bool needs_links) {
   Description description =
       options.description.empty() ? plain_chain() : read_description(options.description);
-  for (const std::string& effect : options.effects) {
-    description.effects.push_back(effect.ends_with(".toml") ? read_effect(effect)
-                                                            : built_in_effect(effect));
-    if (options.description.empty()) description.id += "_" + description.effects.back().id;
+  for (const Effect& effect : effects_of(options.effects)) {
+    description.effects.push_back(effect);
+    if (options.description.empty()) description.id += "_" + effect.id;
   }
   if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
     throw InputError("--effect: " + conflict);

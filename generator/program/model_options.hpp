@@ -19,6 +19,10 @@ struct ModelOptions {
 
 void add_model_options(CLI::App& command, ModelOptions& options);
 
+/// --effect, and the effects it names. Throws InputError also for effects that exclude one another.
+void add_effect_option(CLI::App& command, std::vector<std::string>& effects);
+std::vector<Effect> effects_of(const std::vector<std::string>& names);
+
 /// --format, and the language it stands for.
 CLI::Option* add_format_option(CLI::App& command, std::string& format);
 Language language_of(const std::string& format);

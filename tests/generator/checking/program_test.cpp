@@ -69,6 +69,13 @@ TEST_CASE("the number of links and the states can be chosen") {
   CHECK(run("--seed 5 " + file).text != run("--seed 6 " + file).text);
 }
 
+TEST_CASE("effects are named on the command line, and in the answer") {
+  const Outcome outcome = run(example("air_drag.txt") + " --effect air_drag_linear");
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.text, "air_drag.txt: 3 links, with air_drag_linear"));
+  CHECK(run(example("air_drag.txt")).status == 2);
+}
+
 TEST_CASE("the answer is the same byte for byte each time") {
   for (const std::string file : {"lagrangian_2_9.txt", "catenary_2_50_2_53.txt"}) {
     const std::string first = run(example(file)).text;
@@ -90,5 +97,7 @@ TEST_CASE("wrong use and wrong input end with status 2 and say what to do") {
   CHECK(run("").status == 2);
   CHECK(run("--links two " + example("gravity_4_23.txt")).status == 2);
   CHECK(run("--links 0 " + example("gravity_4_23.txt")).status == 2);
+  CHECK(contains(run("--effect air_drg_linear " + example("air_drag.txt")).text,
+                 "did you mean \"air_drag_linear\"?"));
   CHECK(run("--help").status == 0);
 }

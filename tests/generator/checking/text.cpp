@@ -40,8 +40,9 @@ const Finding& Checked::of(const std::string& label) const {
   throw std::runtime_error("no entry is called " + label);
 }
 
-Checked checked(const std::string& text, std::optional<int> links) {
-  Checked result{evaluate(parse_derivation(text, "test"), "test", links), {}};
+Checked checked(const std::string& text, std::optional<int> links,
+                const std::vector<Effect>& effects) {
+  Checked result{evaluate(parse_derivation(text, "test"), "test", links, effects), {}};
   result.findings = compare(result.derivation, 1);
   return result;
 }

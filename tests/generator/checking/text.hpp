@@ -28,6 +28,7 @@ struct Checked {
   /// The finding about the entry with this label; fails the test if there is none.
   [[nodiscard]] const Finding& of(const std::string& label) const;
 };
-Checked checked(const std::string& text, std::optional<int> links = std::nullopt);
+Checked checked(const std::string& text, std::optional<int> links = std::nullopt,
+                const std::vector<Effect>& effects = {});
 
 }  // namespace catena::tests
