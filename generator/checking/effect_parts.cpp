@@ -24,10 +24,14 @@ class ChainWithEffects {
   ChainWithEffects(const Description& description, const ChainSymbols& symbols)
       : chain_(description, symbols.links), written_out_(chain_.definitions()) {
     const std::map<std::string, const std::vector<ex>*> families = {
-        {"theta", &symbols.angle},         {"theta_dot", &symbols.rate},
-        {"theta_ddot", &symbols.acceleration}, {"length", &symbols.length},
-        {"mass", &symbols.mass},           {"inertia", &symbols.inertia},
-        {"stiffness", &symbols.stiffness}, {"damping", &symbols.damping},
+        {"theta", &symbols.angle},
+        {"theta_dot", &symbols.rate},
+        {"theta_ddot", &symbols.acceleration},
+        {"length", &symbols.length},
+        {"mass", &symbols.mass},
+        {"inertia", &symbols.inertia},
+        {"stiffness", &symbols.stiffness},
+        {"damping", &symbols.damping},
         {"torque", &symbols.torque}};
     const Definitions& definitions = chain_.definitions();
     for (int number = 0; number < definitions.size(); ++number) {

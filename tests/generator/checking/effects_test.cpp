@@ -55,7 +55,8 @@ TEST_CASE("drag of the load, with its root, is proved") {
 }
 
 TEST_CASE("a brake with a parameter for each joint, any number of links") {
-  const std::string right = derivation("+ sum(i = 1..n, brake_b_i/2*(thetadot_i - thetadot[i-1])^2)");
+  const std::string right =
+      derivation("+ sum(i = 1..n, brake_b_i/2*(thetadot_i - thetadot[i-1])^2)");
   for (const int links : {1, 3, 6})
     CHECK(checked(right, links, {brake()}).count(Verdict::kEqual) == 4 + links);
   const std::string wrong = derivation("+ sum(i = 1..n, brake_b_i/2*thetadot_i^2)");
@@ -76,8 +77,9 @@ TEST_CASE("what is wrong with an effect is named") {
 
 TEST_CASE("an added mass is part of M") {
   const Effect added = built_in_effect("added_mass");
-  const std::string moved = "links 1\nM[1,1] = I_1 + m_1*l_1^2/4 + m_c*l_1^2 + l_1^2*added_mass_load "
-                            "+ l_1^3/4*added_mass_normal\n";
+  const std::string moved =
+      "links 1\nM[1,1] = I_1 + m_1*l_1^2/4 + m_c*l_1^2 + l_1^2*added_mass_load "
+      "+ l_1^3/4*added_mass_normal\n";
   const Checked result = checked(moved, std::nullopt, {added});
   INFO(result.findings[0].difference);
   CHECK(result.count(Verdict::kEqual) == 1);

@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "identify/problem/problem.hpp"
 #include "tests/identify/recordings.hpp"
@@ -206,6 +208,42 @@ TEST_CASE("noise, fit_until and masses in another unit are named") {
   expect(film.said(), {"density: 142 kg/m"});
   film.mistake = [](Case& the_case) { the_case.cable.load_mass = 1381; };
   expect(film.said(), {"load_mass: 1380 kg"});
+}
+
+TEST_CASE(
+    "a cable that snaps within milliseconds after it is let go began at rest; one that moved did "
+    "not") {
+  // 1000 frames/s: 0.5 (cos t - 1) of a swing, and a snap to 4 m/s with a time constant of 3 ms.
+  const auto said = [](double snap, double before, double noise) {
+    Film film;
+    film.rate = 1000;
+    film.duration = 2;
+    film.mistake = [=](Case& the_case) {
+      ExperimentSpec& spec = spec_of(the_case);
+      std::mt19937_64 generator(3);
+      std::normal_distribution<double> normal(0, noise);
+      std::string text = "t,x1,y1,x2,y2,x3,y3\n";
+      for (int k = 0; k < 2000; ++k) {
+        const double t = k / 1000.0;
+        text += std::to_string(t);
+        const double shift = snap * (t - 0.003 * (1 - std::exp(-t / 0.003))) * std::exp(-t / 0.05) +
+                             before * t * std::exp(-t / 0.2);
+        for (const double arc : {0.4, 0.9, kLength})
+          text +=
+              "," +
+              std::to_string(arc * std::sin(0.7 * std::cos(2.6 * t)) + shift + normal(generator)) +
+              "," + std::to_string(arc * std::cos(0.7 * std::cos(2.6 * t)) + normal(generator));
+        text += "\n";
+      }
+      std::ofstream(spec.data) << text;
+    };
+    return film.said();
+  };
+  CHECK(said(4, 0, 1e-9) == "");
+  CHECK(said(4, 0, 1e-4) == "");
+  CHECK(said(0, 0, 1e-3) == "");
+  for (const double noise : {1e-9, 1e-4, 1e-3})
+    expect(said(0, 2, noise), {"from: the cable moves at", "release"});
 }
 
 TEST_CASE("angles in degrees taken as radians are named, right ones are not") {
