@@ -21,8 +21,8 @@
 
 namespace {
 
+using catena::Batch;
 using catena::BatchDynamics;
-using catena::Lanes;
 using catena::Point;
 
 struct Arrays {
@@ -32,7 +32,7 @@ struct Arrays {
 
 template <int sets>
 inline int evaluate(int links, int parameters, const Arrays& arrays) {
-  using Number = Lanes<sets>;
+  using Number = Batch<sets>;
   int failed = 0;
   for (int first = 0; first < BatchDynamics::kBatch; first += sets) {
     const auto group = [&](const double* of, int entries) {

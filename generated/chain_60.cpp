@@ -560,9 +560,9 @@ CATENA_EACH_PROCESSOR
 void c_newton_solve_transposed(const void*, const double* work, double* x) {
   factored(work).solve_transposed(x);
 }
-template <int batch>
+template <int size>
 int32_t batch_of(const catena_point* at, double* a) {
-  using Number = Lanes<batch>;
+  using Number = Batch<size>;
   const auto numbers = [](const double* first) {
     return reinterpret_cast<const Number*>(first);
   };

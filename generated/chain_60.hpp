@@ -12,8 +12,8 @@
 //   C: constant, symmetric, tridiagonal
 #pragma once
 
+#include "batch.hpp"
 #include "dense.hpp"
-#include "lanes.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
 #include "semiseparable.hpp"

@@ -19,8 +19,8 @@
 #include <array>
 
 #include "any_links.hpp"
+#include "batch.hpp"
 #include "dense.hpp"
-#include "lanes.hpp"
 #include "quasiseparable.hpp"
 #include "scalar.hpp"
 #include "semiseparable.hpp"

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The differentials of several directions at once, one a lane: a type D for tangents, which are
-// linear in it. What does not depend on the direction is computed once, in T = double; every lane
+// The differentials of several directions at once, one an element: a type D for tangents, which are
+// linear in it. What does not depend on the direction is computed once, in T = double; every element
 // gets the bits that its direction gets alone.
 #pragma once
 
+#include "batch.hpp"
 #include "catena_model.h"
-#include "lanes.hpp"
 #include "scalar.hpp"
 
 namespace catena {
 
-using Directions = Lanes<CATENA_DIRECTIONS>;
+using Directions = Batch<CATENA_DIRECTIONS>;
 
 inline const Directions* directions(const double* values) {
   return reinterpret_cast<const Directions*>(values);

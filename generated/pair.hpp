@@ -4,7 +4,7 @@
 // processor computes with at the price of one number.
 #pragma once
 
-#include "lanes.hpp"
+#include "batch.hpp"
 #include "multiply_add.hpp"
 
 namespace catena {
@@ -48,7 +48,7 @@ template <>
 class Pair<double> {
  public:
   Pair() = default;
-  Pair(double first, double second) : values_(CATENA_APART(Lanes<2>::Vector{first, second})) {}
+  Pair(double first, double second) : values_(CATENA_APART(Batch<2>::Vector{first, second})) {}
   double first() const { return values_[0]; }
   double second() const { return values_[1]; }
 
@@ -65,9 +65,9 @@ class Pair<double> {
   }
 
  private:
-  explicit Pair(const Lanes<2>& values) : values_(values) {}
+  explicit Pair(const Batch<2>& values) : values_(values) {}
 
-  Lanes<2> values_;
+  Batch<2> values_;
 };
 #endif
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Sine and cosine of one angle together, without branches, tables or library calls: every number of
-// lanes gives the same bits (compile with -ffp-contract=off).
+// elements gives the same bits (compile with -ffp-contract=off).
 //
 // x = k pi/2 + r, |r| <= pi/4, with pi/2 in four parts and what r lost by rounding carried along in
 // `rest` (Cody and Waite); the polynomials in r^2 interpolate (sin r / r - 1) / r^2 and (cos r - 1
@@ -16,7 +16,7 @@
 
 namespace catena {
 
-/// sin r and cos r, and `shifted`, which has k in its low bits. T: double or several (lanes.hpp).
+/// sin r and cos r, and `shifted`, which has k in its low bits. T: double or several (batch.hpp).
 template <class T>
 inline void sine_cosine_reduced(const T& x, T& sine, T& cosine, T& shifted) {
   const T two_over_pi(0x1.45f306dc9c883p-1);

@@ -169,8 +169,8 @@ std::string header_text(const Description& description, const ModelFunctions& mo
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(model)
-      << "#pragma once\n\n#include <array>\n\n#include \"any_links.hpp\"\n#include \"dense.hpp\"\n"
-         "#include \"lanes.hpp\"\n#include \"quasiseparable.hpp\"\n#include \"scalar.hpp\"\n"
+      << "#pragma once\n\n#include <array>\n\n#include \"any_links.hpp\"\n#include \"batch.hpp\"\n"
+         "#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n#include \"scalar.hpp\"\n"
          "#include \"semiseparable.hpp\"\n\nnamespace catena::"
       << name << " {\n\n/// The fewest links.\ninline constexpr int kFewestLinks = " << kFewest
       << ";\n"

@@ -309,8 +309,8 @@ class TableFunctions {
              ">" + passed + ";\n}\n";
     };
     const std::string entry = head("int32_t", "accelerations", point);
-    return "template <int batch>\n" + in_lines("int32_t batch_of(", arguments, ") {") +
-           "  using Number = Lanes<batch>;\n"
+    return "template <int size>\n" + in_lines("int32_t batch_of(", arguments, ") {") +
+           "  using Number = Batch<size>;\n"
            "  const auto numbers = [](const double* first) {\n"
            "    return reinterpret_cast<const Number*>(first);\n"
            "  };\n"

@@ -28,7 +28,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
          "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions) << "#pragma once\n\n"
       << (functions.set == FunctionSet::kFits ? "#include \"any_nonzero.hpp\"\n" : "")
-      << "#include \"dense.hpp\"\n#include \"lanes.hpp\"\n#include "
+      << "#include \"batch.hpp\"\n#include \"dense.hpp\"\n#include "
          "\"quasiseparable.hpp\"\n"
          "#include \"scalar.hpp\"\n#include \"semiseparable.hpp\"\n\n";
   out << "extern \"C\" {\nstruct catena_model;\n}\n\n";

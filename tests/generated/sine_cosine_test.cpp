@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sines and cosines of emitted models against fifty digits, in units in the last place of the
-// result, and against themselves in lanes, bit for bit.
+// result, and against themselves in batches, bit for bit.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "generated/lanes.hpp"
+#include "generated/batch.hpp"
 #include "tests/generated/fifty_digits.hpp"
 
 using catena::tests::FiftyDigits;
@@ -61,17 +61,17 @@ std::vector<double> near_multiples(double most) {
 }
 
 template <int count>
-void check_lanes(const std::vector<double>& angles) {
-  using catena::Lanes;
+void check_batch(const std::vector<double>& angles) {
+  using catena::Batch;
   for (std::size_t i = 0; i + count <= angles.size(); i += count) {
-    Lanes<count> sine, cosine;
-    sine_cosine(Lanes<count>::of(&angles[i]), sine, cosine);
+    Batch<count> sine, cosine;
+    sine_cosine(Batch<count>::of(&angles[i]), sine, cosine);
     for (int k = 0; k < count; ++k) {
       double one_sine, one_cosine;
       catena::sine_cosine(angles[i + static_cast<std::size_t>(k)], one_sine, one_cosine);
-      const double lane_sine = sine[k], lane_cosine = cosine[k];
-      REQUIRE(std::memcmp(&lane_sine, &one_sine, sizeof one_sine) == 0);
-      REQUIRE(std::memcmp(&lane_cosine, &one_cosine, sizeof one_cosine) == 0);
+      const double batch_sine = sine[k], batch_cosine = cosine[k];
+      REQUIRE(std::memcmp(&batch_sine, &one_sine, sizeof one_sine) == 0);
+      REQUIRE(std::memcmp(&batch_cosine, &one_cosine, sizeof one_cosine) == 0);
     }
   }
 }
@@ -112,10 +112,10 @@ TEST_CASE("zero, and what has no sine") {
   }
 }
 
-TEST_CASE("lanes have the bits of one angle at a time") {
+TEST_CASE("a batch has the bits of one angle at a time") {
   for (const auto& angles : {between(-7, 7), between(-1.6e6, 1.6e6), near_multiples(999)}) {
-    check_lanes<2>(angles);
-    check_lanes<4>(angles);
-    check_lanes<8>(angles);
+    check_batch<2>(angles);
+    check_batch<4>(angles);
+    check_batch<8>(angles);
   }
 }

@@ -4,13 +4,13 @@
 // is not zero.
 #pragma once
 
-#include "lanes.hpp"
+#include "batch.hpp"
 
 namespace catena {
 
 inline bool is_zero(double number) { return number == 0; }
 template <int count>
-inline bool is_zero(const Lanes<count>& numbers) {
+inline bool is_zero(const Batch<count>& numbers) {
   bool zero = true;
   for (int k = 0; k < count; ++k) zero = zero && numbers[k] == 0;
   return zero;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Several parameter sets and states in one call of the emitted text give, lane by lane, the bits of
+// Several parameter sets and states in one call of the emitted text give, element by element, the bits of
 // as many calls for one.
-#include "generated/lanes.hpp"
+#include "generated/batch.hpp"
 
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@
 namespace {
 
 constexpr int kSets = 8;
-using Eight = catena::Lanes<kSets>;
+using Eight = catena::Batch<kSets>;
 
 struct Sets {
   explicit Sets(int n) : n(n) {
@@ -74,8 +74,8 @@ void check_bits(const Sets& sets, Together together, Alone alone) {
     for (std::size_t i = 0; i < one.size(); ++i) {
       CAPTURE(k);
       CAPTURE(i);
-      const double lane = result[i][static_cast<int>(k)];
-      CHECK(std::memcmp(&lane, &one[i], sizeof lane) == 0);
+      const double element = result[i][static_cast<int>(k)];
+      CHECK(std::memcmp(&element, &one[i], sizeof element) == 0);
     }
   }
 }
@@ -109,7 +109,7 @@ TEST_CASE("whole sweeps give the bits of sweeps cut for vectors of links") {
   check_bits(sets, together, alone);
 }
 
-TEST_CASE("functions go lane by lane") {
+TEST_CASE("functions go element by element") {
   volatile double step = 0.1;  // or the compiler would compute the expected values, more exactly
   Eight x;
   for (int k = 0; k < kSets; ++k) x.set(k, step * (k + 1));
@@ -125,7 +125,7 @@ void check_that_one_pivot_fails_all() {
   CAPTURE(count);
   for (int k = 0; k < count; ++k) {
     CAPTURE(k);
-    catena::Lanes<count> pivots(1.0);
+    catena::Batch<count> pivots(1.0);
     CHECK(catena::positive_pivot(pivots));
     CHECK(catena::usable_pivot(-pivots));
     for (const double bad : {0.0, std::nan("")}) {
