@@ -44,6 +44,9 @@ std::vector<ReportFigure> report_figures(const Document& document) {
     add_motion_figures(experiment, figures);
   }
   for (const Experiment& experiment : document.result.experiments) {
+    add_force_figures(experiment, figures);
+  }
+  for (const Experiment& experiment : document.result.experiments) {
     add_residual_figures(experiment, figures);
   }
   add_fit_figures(document.result, figures);

@@ -15,7 +15,7 @@ using namespace results;
 /// choosing experiment and variant; the figures of a family follow one another.
 struct ReportFigure {
   Figure figure;
-  std::string section;       ///< "motion", "residuals", "fit", "energy" or "diagnosis"
+  std::string section;       ///< "motion", "forces", "residuals", "fit", "energy" or "diagnosis"
   std::string family;        ///< "positions_side"
   std::string experiment;    ///< name, or empty: of the whole result
   std::string variant_kind;  ///< what a reader chooses: "Point", "Parameter", "Effect", "Round";
@@ -28,6 +28,7 @@ std::vector<ReportFigure> report_figures(const Document& document);
 
 /// The parts, each appending to `figures`; ids are given by report_figures.
 void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
+void add_force_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_residual_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_fit_figures(const Result& result, std::vector<ReportFigure>& figures);

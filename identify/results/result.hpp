@@ -61,10 +61,17 @@ struct Energy {
   double imbalance = kAbsent;  ///< J
 };
 
+/// Inside the cable, at the times of the trajectory; signs as in runtime/internal_forces.hpp.
+struct Forces {
+  Rows tension;  ///< N, per link
+  Rows moment;   ///< N m, per joint; joint 1 is the support
+};
+
 struct Experiment {
   std::string name, use;
   double fit_until = kAbsent;  ///< s; later samples were held out
   Channels trajectory;         ///< points: support, far end of each link, load
+  std::optional<Forces> forces;
   std::optional<Energy> energy;
   std::vector<std::pair<std::string, long>> statistics;  ///< of the integration
   /// Points of the chain where the sensors see them; empty where the model has no sensor effects

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <concepts>
 #include <nlohmann/json.hpp>  // NLOHMANN_JSON_EXPAND and NLOHMANN_JSON_PASTE
 
@@ -68,6 +69,7 @@ void fields(auto& archive, Is<Gap> auto& gap) {
   archive.optional("size", gap.size);
 }
 
+CATENA_FIELDS(Forces, tension, moment)
 CATENA_FIELDS(EnergyItem, name, kind, value)
 void fields(auto& archive, Is<Energy> auto& energy) {
   archive("time", energy.time);
@@ -83,6 +85,17 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
   archive.optional("use", experiment.use);
   archive.optional("fit_until", experiment.fit_until);
   archive.optional("trajectory", experiment.trajectory);
+  archive.optional("forces", experiment.forces);
+  if (experiment.forces) {
+    for (const auto& [key, rows] : {std::pair("tension", &experiment.forces->tension),
+                                    std::pair("moment", &experiment.forces->moment)})
+      archive.rule(
+          std::all_of(
+              rows->begin(), rows->end(),
+              [&](const Row& row) { return row.size() == experiment.trajectory.time.size(); }),
+          "forces",
+          fmt::format("each row of {} must have one number per time of the trajectory", key));
+  }
   archive.optional("energy", experiment.energy);
   archive.optional("statistics", experiment.statistics);
   archive.optional("seen", experiment.seen);

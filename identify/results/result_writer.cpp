@@ -56,6 +56,8 @@ void put_motion(results::Experiment& experiment, const Problem& problem, const M
   const Trajectory& path = simulation.trajectory;
   experiment.trajectory = {path.time, rows_of(motion.side), rows_of(motion.down),
                            rows_of(path.q.topRows(problem.model().links()))};
+  if (motion.forces.tension.size())
+    experiment.forces = {rows_of(motion.forces.tension), rows_of(motion.forces.moment)};
   if (path.energy.size()) {
     static const char* const kKinds[] = {"stored", "dissipated", "supplied"};
     results::Energy& energy = experiment.energy.emplace();

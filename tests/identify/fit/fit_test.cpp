@@ -277,6 +277,23 @@ TEST_CASE("a robust loss is not led astray by outliers") {
   CHECK(off(found(Loss::kCauchy, Eigen::Vector2d(0.9, 0.0002))) < 0.2 * plain);
 }
 
+TEST_CASE("a robust fit from far begins without its loss, whose slope is lost there") {
+  const double noise = 2e-5;  // m: the residuals at the start are thousands of times as large
+  const Problem problem =
+      twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, noise, 3);
+  Recording recording = problem.experiments()[0].recording;
+  for (Eigen::Index k = 5; k < 60; k += 10) recording.measured(4, k) += 0.2;
+  Case the_case = problem.the_case();
+  the_case.experiments[0].noise = noise;
+  the_case.error.loss = Loss::kCauchy;
+  const Problem robust(the_case, problem.model(), {recording});
+  for (const auto& [stiffness, damping] : {std::pair(0.001, 0.001), {0.5, 0.001}, {0.9, 0.9}}) {
+    FitOptions options;
+    options.start = Eigen::Vector2d(stiffness, damping);
+    CHECK(fit(robust, options, fit_least_squares).x[0] == doctest::Approx(0.1).epsilon(0.01));
+  }
+}
+
 TEST_CASE("fits stop when told to, with the best so far") {
   const Problem problem = twin(FitMethod::kNelderMead, Measure::kLeastSquares, 0.1, 0.005);
   std::atomic<bool> stop = false;

@@ -49,6 +49,26 @@ std::set<std::string> families(const std::vector<ReportFigure>& figures) {
   return names;
 }
 
+TEST_CASE("the keys of format 1 are read") {
+  const json diagnosis = made_diagnosis();
+  REQUIRE(diagnosis["format"] == 1);
+  CHECK(read(diagnosis).diagnosis->noise == diagnosis["floor"].get<double>());
+}
+
+TEST_CASE("forces inside the cable are drawn as lines and as a map") {
+  json written = {{"format", 2}, {"kind", "result"}, {"command", "simulate"}};
+  written["experiments"] = {{{"name", "run"},
+                             {"trajectory", {{"time", {0.0, 0.1}}, {"angle", {{0.1, 0.2}}}}},
+                             {"forces", {{"tension", {{3.0, 4.0}}}, {"moment", {{-1.0, 1.0}}}}}}};
+  const auto figures = report_figures(read(written));
+  CHECK(families(figures).contains("moment_map"));
+  const auto tension = std::find_if(figures.begin(), figures.end(), [](const ReportFigure& entry) {
+    return entry.family == "tension";
+  });
+  REQUIRE(tension != figures.end());
+  CHECK(tension->figure.series.at(0).y == std::vector<double>{3.0, 4.0});
+}
+
 TEST_CASE("a file that cannot be read says where and why") {
   struct Row {
     std::function<void(json&)> spoil;
@@ -69,6 +89,10 @@ TEST_CASE("a file that cannot be read says where and why") {
          r["experiments"][0]["predicted"]["down"].erase(0);
        },
        "predicted has 11 rows for 12 points"},
+      {[](json& r) {
+         r["experiments"][0]["forces"] = {{"tension", {{1.0, 2.0}}}, {"moment", json::array()}};
+       },
+       "each row of tension must have one number per time of the trajectory"},
       {[](json& r) { r["parameters"][0]["interval"] = {1}; },
        "parameters[0].interval is [1]; it must have two ends"},
       {[](json& r) { r["parameters"][0]["value"] = "big"; },
