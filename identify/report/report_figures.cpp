@@ -48,6 +48,7 @@ std::vector<ReportFigure> report_figures(const Document& document) {
   }
   for (const Experiment& experiment : document.result.experiments) {
     add_residual_figures(experiment, figures);
+    add_noise_figures(experiment, figures);
   }
   add_fit_figures(document.result, figures);
   for (const Experiment& experiment : document.result.experiments) {

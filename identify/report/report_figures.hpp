@@ -30,6 +30,7 @@ std::vector<ReportFigure> report_figures(const Document& document);
 void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_force_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_residual_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
+void add_noise_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_energy_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_fit_figures(const Result& result, std::vector<ReportFigure>& figures);
 void add_diagnosis_figures(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -214,7 +215,7 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
   };
   const std::set<std::string> seen =
       with(motion, {"residuals", "error_over_time", "residual_map", "spectrum_side",
-                    "spectrum_down", "energy", "energy_balance"});
+                    "spectrum_down", "autocorrelation", "quantiles", "energy", "energy_balance"});
   for (const Row& row :
        {Row{made_simulation(4, 2, 50),
             with(motion, {"position_angle", "energy", "energy_balance"})},
@@ -223,7 +224,7 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
                         "error_by_links"})},
         Row{made_pendulum(),
             {"shapes", "frames", "position_angle", "residuals", "error_over_time", "residual_map",
-             "spectrum_angle"}},
+             "spectrum_angle", "autocorrelation", "quantiles"}},
         Row{made_diagnosis(),
             with(seen, {"gap", "shares", "scores", "before_after_error", "before_after_position",
                         "residual_map_before", "residual_map_after", "before_after_spectrum",
@@ -397,6 +398,38 @@ TEST_CASE("radial residuals are differences of the distance from the support") {
   CHECK(residuals.radial[0][1] == 0);
   CHECK(mean_absolute(residuals.radial[0]) == doctest::Approx(50));
   CHECK(residuals.size[0][0] == doctest::Approx(1e3 * std::hypot(3, 0.9)));
+}
+
+TEST_CASE("autocorrelation and quantiles are those of the noise in the fitted part") {
+  constexpr std::size_t kFitted = 4000, kFrames = 4400;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> gauss(0, 1e-3);
+  Experiment experiment;
+  experiment.name = "run";
+  experiment.fit_until = 0.01 * (kFitted - 1);
+  experiment.measured.emplace();
+  Measured& measured = *experiment.measured;
+  measured.points = {Point{.name = "link 1"}};
+  measured.values.angle = measured.predicted.angle = {results::Row(kFrames, 0.0)};
+  double noise = 0;
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    noise =
+        0.6 * noise + 0.8 * gauss(random);  // variance 1e-6, correlation 0.6 from frame to frame
+    measured.values.time.push_back(0.01 * static_cast<double>(k));
+    measured.values.angle[0][k] = k < kFitted ? noise : 1.0;
+  }
+  std::vector<ReportFigure> figures;
+  add_noise_figures(experiment, figures);
+  REQUIRE(figures.size() == 2);
+  const Series& correlation = figures[0].figure.series.front();
+  CHECK(correlation.y[0] == 1);
+  CHECK(correlation.y[1] == doctest::Approx(0.6).epsilon(0.05));
+  CHECK(correlation.y[2] == doctest::Approx(0.36).epsilon(0.15));
+  CHECK(figures[0].figure.rules.back().at ==
+        doctest::Approx(1.96 / std::sqrt(kFitted)).epsilon(1e-3));
+  const Series& quantiles = figures[1].figure.series.back();
+  for (std::size_t i = 10; i + 10 < quantiles.x.size(); ++i)  // in mrad, of deviation 1
+    CHECK(quantiles.y[i] == doctest::Approx(quantiles.x[i]).epsilon(0.1).scale(1));
 }
 
 TEST_CASE("files: one CSV for each figure, and the parameters") {
