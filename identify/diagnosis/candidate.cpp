@@ -85,12 +85,44 @@ bool has_data_of_kind(const Case& the_case, DataKind kind) {
                      [&](const ExperimentSpec& experiment) { return experiment.kind == kind; });
 }
 
+/// Whether the case says that these bodies weigh nothing.
+struct Weightless {
+  bool links = false, load = false;
+};
+
+Weightless weightless(const Case& the_case) {
+  const CableGeometry& cable = the_case.cable;
+  const auto unknown = [&](const std::string& family) {
+    return std::any_of(the_case.parameters.begin(), the_case.parameters.end(),
+                       [&](const ParameterSpec& spec) { return spec.sets.starts_with(family); });
+  };
+  const auto zero = [](double mass) { return mass == 0; };
+  const bool no_link = cable.link_masses.empty()
+                           ? cable.density == 0
+                           : std::all_of(cable.link_masses.begin(), cable.link_masses.end(), zero);
+  return {no_link && !unknown("mass") && !unknown("cable.density"),
+          cable.load_mass == 0 && !unknown("load_mass") && !unknown("cable.load_mass")};
+}
+
+/// Whether all that an effect does, it does to bodies that weigh nothing.
+bool acts_on_nothing(const Effect& effect, const Weightless& bodies) {
+  const auto on_nothing = [&](const auto& term) {
+    const bool on_link = term.at == Place::kLink || term.at == Place::kLinkCentre;
+    return on_link ? bodies.links : term.at == Place::kLoad && bodies.load;
+  };
+  return effect.forces.size() + effect.scalars.size() > 0 &&
+         std::all_of(effect.forces.begin(), effect.forces.end(), on_nothing) &&
+         std::all_of(effect.scalars.begin(), effect.scalars.end(), on_nothing);
+}
+
 /// Why an effect cannot be there in this case; empty: it can.
 std::string why_impossible(const Effect& effect, const Case& the_case) {
   const DiagnosisSpec& spec = the_case.diagnosis;
   if (has(spec.impossible, effect.id)) return "the case says that it is impossible";
   if (effect.rare && !has(spec.possible, effect.id))
     return "rare; tried where the case has it in diagnosis.possible";
+  if (acts_on_nothing(effect, weightless(the_case)))
+    return "acts on a body to which the case gives no mass";
   const Sensor& sensor = effect.sensor;
   const bool of_camera = sensor.side.given() || sensor.down.given();
   if (of_camera && !has_data_of_kind(the_case, DataKind::kMarkers))

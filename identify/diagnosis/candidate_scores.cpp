@@ -8,6 +8,7 @@
 
 #include "common/parallel.hpp"
 #include "identify/diagnosis/residual_frequencies.hpp"
+#include "identify/diagnosis/same_model.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {
@@ -104,6 +105,7 @@ CandidateScores::CandidateScores(const CandidateSearch& search) : search_(search
       context.model_with_all(the_case.links, own_models_in_base));
   x_ = transfer(*search.base.problem, search.base.x, *all_);
   frequencies_ = driving_frequencies(search.base, search.sigmas);
+  same_ = names_of_same_models(context.library(), context.model_with_all(the_case.links));
 }
 
 bool CandidateScores::is_asked(const Candidate& candidate, bool own_models) const {
@@ -130,7 +132,8 @@ CandidateScores::Plan CandidateScores::plan(bool own_models) const {
   const std::vector<Candidate>& library = search_.context.library();
   plan.places.resize(library.size());
   for (std::size_t i = 0; i < library.size(); ++i)
-    if (is_asked(library[i], own_models) && library[i].unavailable.empty())
+    if (is_asked(library[i], own_models) && library[i].unavailable.empty() &&
+        !same_.contains(library[i].id))
       add_runs_of(library[i], plan, plan.places[i]);
   return plan;
 }
@@ -244,7 +247,9 @@ Explanation CandidateScores::score_candidate(ScoreTest& test, const Plan& plan,
   explanation.title = candidate.title;
   explanation.candidate = static_cast<int>(index);
   explanation.note = candidate.unavailable;
-  if (!candidate.unavailable.empty()) return explanation;
+  if (const auto same = same_.find(candidate.id); same != same_.end())
+    explanation.note = "the same model as " + same->second + " here";
+  if (!explanation.note.empty()) return explanation;
   const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
   if (amplitudes.empty()) {
     score_limit(test, candidate, explanation);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "identify/diagnosis/candidate_search.hpp"
@@ -57,9 +59,10 @@ class CandidateScores {
                       const Score& score) const;
 
   const CandidateSearch& search_;
-  std::shared_ptr<const Problem> all_;  // the model with all effects, everything free
-  Eigen::VectorXd x_;                   // the base in it
-  std::vector<double> frequencies_;     // Hz, where the residuals have lines
+  std::shared_ptr<const Problem> all_;       // the model with all effects, everything free
+  Eigen::VectorXd x_;                        // the base in it
+  std::vector<double> frequencies_;          // Hz, where the residuals have lines
+  std::map<std::string, std::string> same_;  // those that go by the name of another one
 };
 
 }  // namespace catena

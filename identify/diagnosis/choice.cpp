@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/special_case.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/verdict.hpp"
@@ -25,38 +26,64 @@ bool simpler(const DiagnosisState& state, const Explanation& a, const Explanatio
                          state.context.model_with_all(state.last().links));
 }
 
-}  // namespace
-
-bool more_than_a_detail(const DiagnosisState& state, const Comparison& comparison) {
-  return comparison.misfit_removed >
-         kThresholds.detail * std::pow(misfit_without_effects(state.found.stages), 2);
+/// The acceptable ones that the held-out part confirms: none of the others predicts it better. What
+/// has many unknowns may imitate the fitted part best.
+std::vector<const Explanation*> confirmed(const DiagnosisState& state,
+                                          const std::vector<Explanation>& explanations) {
+  std::vector<const Explanation*> candidates;
+  for (const Explanation& explanation : explanations)
+    if (acceptable(state, state.last().model, explanation)) candidates.push_back(&explanation);
+  std::vector<const Explanation*> left;
+  for (const Explanation* each : candidates)
+    if (std::none_of(candidates.begin(), candidates.end(), [&](const Explanation* other) {
+          return predicts_better(other->model, each->model, state.found.sigmas);
+        }))
+      left.push_back(each);
+  return left;
 }
 
-bool acceptable(const DiagnosisState& state, const Explanation& explanation) {
+}  // namespace
+
+bool more_than_a_detail(const DiagnosisState& state, const FittedModel& base,
+                        const FittedModel& larger) {
+  const Stage& bare = last_without_effects(state.found.stages);
+  const std::vector<double>& sigmas = state.found.sigmas;
+  const double removed =
+      std::pow(fit_gap(base, sigmas).misfit, 2) - std::pow(fit_gap(larger, sigmas).misfit, 2);
+  if (removed > kThresholds.detail * std::pow(bare.fit.misfit, 2)) return true;
+  const double later =
+      std::pow(held_out_gap(base, sigmas).rms, 2) - std::pow(held_out_gap(larger, sigmas).rms, 2);
+  return later > kThresholds.detail * std::pow(bare.held_out.rms, 2) &&
+         predicts_better(larger, base, sigmas);
+}
+
+bool acceptable(const DiagnosisState& state, const FittedModel& base,
+                const Explanation& explanation) {
   if (!explanation.refitted) return false;
   const Comparison& comparison = explanation.comparison;
   const double log10_p = comparison.log10_p + std::log10(std::max(1, state.found.tried));
   return log10_p < kThresholds.certain && comparison.criterion < 0 &&
          comparison.misfit_share > kThresholds.worthwhile &&
-         state.generalises(explanation.held_out) && more_than_a_detail(state, comparison);
+         state.generalises(explanation.held_out) &&
+         more_than_a_detail(state, base, explanation.model) &&
+         (static_cast<int>(state.last().effects.size()) < kThresholds.effects_unconfirmed ||
+          predicts_better(explanation.model, base, state.found.sigmas));
 }
 
 const Explanation* choose(const DiagnosisState& state,
                           const std::vector<Explanation>& explanations) {
+  const std::vector<const Explanation*> candidates = confirmed(state, explanations);
   const Explanation* best = nullptr;
-  for (const Explanation& explanation : explanations)
-    if (acceptable(state, explanation) &&
-        (!best || remainder(state, explanation) < remainder(state, *best)))
-      best = &explanation;
+  for (const Explanation* explanation : candidates)
+    if (!best || remainder(state, *explanation) < remainder(state, *best)) best = explanation;
   if (!best) return best;
   const Explanation* simplest = best;
-  for (const Explanation& explanation : explanations) {
-    if (!acceptable(state, explanation) || &explanation == best ||
-        !simpler(state, explanation, *best) ||
-        decide(best->model, explanation.model, state.found.sigmas).decided)
+  for (const Explanation* explanation : candidates) {
+    if (explanation == best || !simpler(state, *explanation, *best) ||
+        decide(best->model, explanation->model, state.found.sigmas).decided)
       continue;
-    if (simplest == best || remainder(state, explanation) < remainder(state, *simplest))
-      simplest = &explanation;
+    if (simplest == best || remainder(state, *explanation) < remainder(state, *simplest))
+      simplest = explanation;
   }
   return simplest;
 }

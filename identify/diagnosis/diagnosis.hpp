@@ -68,7 +68,7 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
-  int max_effects = 2;  ///< three can imitate much that is none of them
+  int max_effects = 4;  ///< fits with all their subsets give the shares
   int max_links = 60;
   int refits = 6;  ///< candidates refitted in every look
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identify/diagnosis/choice.hpp"
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/special_case.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -62,7 +63,8 @@ struct Weighed {
   const Explanation* explanation = nullptr;
   const Candidate* effect = nullptr;  // nullptr: a rival that is no effect
   Decision decision;
-  bool better = false;  // leaves less
+  bool better = false;          // leaves less
+  bool predicts_worse = false;  // what was held out
 };
 
 Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
@@ -73,6 +75,7 @@ Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
   weighed.better = state.squares(explanation.model) < state.squares(last);
   weighed.decision = weighed.better ? decide(explanation.model, last, state.found.sigmas)
                                     : decide(last, explanation.model, state.found.sigmas);
+  weighed.predicts_worse = predicts_better(last, explanation.model, state.found.sigmas);
   return weighed;
 }
 
@@ -81,9 +84,10 @@ void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
              const Weighed& weighed, const Model& all) {
   const bool contains = weighed.effect && is_special_case(named, *weighed.effect, all);
   const bool form = weighed.effect && weighed.effect->effect.form_of == id;
-  std::vector<Alternative>& list = weighed.decision.decided || contains ? found.runners_up
-                                   : form                               ? found.forms
-                                                                        : found.alternatives;
+  std::vector<Alternative>& list = weighed.decision.decided || weighed.predicts_worse || contains
+                                       ? found.runners_up
+                                   : form ? found.forms
+                                          : found.alternatives;
   list.push_back({id, *weighed.explanation, weighed.decision});
 }
 
@@ -91,27 +95,34 @@ void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
 /// a better claim to the name, after entering its model; else nothing.
 std::string weigh_alternatives(DiagnosisState& state, const std::string& id, const Stage& without) {
   const Candidate& named = *state.context.find(id);
+  const std::vector<double>& sigmas = state.found.sigmas;
   const Explanation* successor = nullptr;
   for (const Explanation& explanation : without.explanations) {
     if (!explanation.refitted || explanation.id == id) continue;
     const Weighed weighed = weigh(state, explanation);
     const Model all = state.context.model_with_all(state.last().links);
-    const bool may_succeed = weighed.effect && !state.reopens_gap(explanation.model);
+    const bool may_succeed = weighed.effect && !state.reopens_gap(explanation.model) &&
+                             !state.had(with(without.effects, explanation.id));
+    // What was held out may decide, too.
+    if (may_succeed && !successor && acceptable(state, without.model, explanation) &&
+        predicts_better(explanation.model, state.last().model, sigmas))
+      successor = &explanation;
     if (may_succeed && weighed.better && weighed.decision.decided &&
         state.generalises(explanation.held_out) &&
         (!successor || state.squares(explanation.model) < state.squares(successor->model)))
       successor = &explanation;
     // Of two that explain the same, one inside the other, the smaller has the name; of two laws of
     // one effect, the one that the other is declared a form of.
-    if (may_succeed && !successor && !weighed.decision.decided && acceptable(state, explanation) &&
+    if (may_succeed && !successor && !weighed.decision.decided &&
+        acceptable(state, without.model, explanation) &&
         (named.effect.form_of == weighed.effect->id ||
          is_special_case(*weighed.effect, named, all)))
       successor = &explanation;
     sort_in(state.found, id, named, weighed, all);
   }
   if (!successor) return {};
-  state.enter(trim(successor->model, state.found.sigmas, state.context),
-              with(without.effects, successor->id), successor->id, id);
+  state.enter(trim(successor->model, sigmas, state.context), with(without.effects, successor->id),
+              successor->id, id);
   return state.last().added;
 }
 
@@ -123,14 +134,14 @@ bool needless(const DiagnosisState& state, const Stage& without) {
   if (!without.fit.present || !predicts_as_well(last.held_out, without.held_out)) return true;
   const Comparison gain = compare(without.model, last.model, state.found.sigmas);
   return gain.log10_p + std::log10(std::max(1, state.found.tried)) > kThresholds.certain ||
-         gain.misfit_share < kThresholds.worthwhile || !more_than_a_detail(state, gain);
+         gain.misfit_share < kThresholds.worthwhile ||
+         !more_than_a_detail(state, without.model, last.model);
 }
 
 bool look_back(DiagnosisState& state) {
   std::vector<std::string>& effects = state.found.effects;
   forget_alternatives(state.found);
   bool changed = false;
-  int swaps = 0;
   for (std::size_t i = 0; i < effects.size();) {
     state.context.stop_if_asked();
     const std::string id = effects[i];
@@ -151,12 +162,10 @@ bool look_back(DiagnosisState& state) {
         continue;
       }
       others.push_back(better);
-      ++swaps;
     }
     changed = true;
     effects = others;
     forget_alternatives(state.found);
-    if (swaps > kThresholds.swaps) break;
     i = 0;
   }
   return changed;

@@ -125,7 +125,8 @@ bool add_pair(DiagnosisState& state) {
   for (const Pair& pair : pairs)
     if (!best || state.squares(pair.best()) < state.squares(best->best())) best = &pair;
   if (!best || state.squares(best->best()) >= state.squares(state.last().model)) return false;
-  if (explained(state.found.stages) &&
+  // Of as many effects, others take their place only where the data decide.
+  if ((explained(state.found.stages) || state.last().effects.size() >= 2) &&
       !decide(best->best(), state.last().model, state.found.sigmas).decided)
     return false;
   if (!state.generalises(held_out_gap(best->best(), state.found.sigmas)) ||

@@ -69,6 +69,15 @@ bool DiagnosisState::reopens_gap(const FittedModel& model) const {
          gap_left(fit_gap(model, sigmas), held_out_gap(model, sigmas));
 }
 
+bool DiagnosisState::had(std::vector<std::string> effects) const {
+  std::sort(effects.begin(), effects.end());
+  return std::any_of(found.stages.begin(), found.stages.end(), [&](const Stage& stage) {
+    std::vector<std::string> others = stage.effects;
+    std::sort(others.begin(), others.end());
+    return others == effects;
+  });
+}
+
 int DiagnosisState::more_links(int links) const { return std::min(2 * links, options.max_links); }
 
 std::vector<std::string> with(std::vector<std::string> effects, const std::string& id) {

@@ -38,6 +38,9 @@ class DiagnosisState {
   bool generalises(const GapTest& held_out) const;
   /// Whether the best model so far leaves no gap and `model`, once entered, would leave one.
   bool reopens_gap(const FittedModel& model) const;
+  /// Whether a model with exactly these effects was the best once: looking back replaces no effect
+  /// by one that was replaced before.
+  bool had(std::vector<std::string> effects) const;
   /// Twice `links`, or as many as are allowed.
   int more_links(int links) const;
 };

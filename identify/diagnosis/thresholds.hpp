@@ -58,10 +58,14 @@ struct DiagnosisThresholds {
   /// Share of the squared misfit before the first effect that a further one must remove. What the
   /// law of a large effect gets slightly wrong is fitted by others a little. Chosen.
   double detail = 0.01;
+  /// So many effects need only predict the held-out part no worse. Further ones must predict it
+  /// better: three can imitate much that is none of them. Chosen.
+  int effects_unconfirmed = 2;
 
   // Do the data decide between two models? (compare.cpp)
 
-  /// Odds at which chance explains a lead. The same as `certain`.
+  /// Odds at which chance explains a lead, in what was fitted and in what was held out. The same as
+  /// `certain`.
   double odds = 1000;
   /// Over noise: the error that two models share at least, for no law is exact. Chosen.
   double shared_error = 0.1;
@@ -98,8 +102,6 @@ struct DiagnosisThresholds {
   int seconds_of_pairs = 3;
   /// Looks forward and back.
   int rounds = 2;
-  /// Replacements in one look back, after which it ends: two effects could replace each other.
-  int swaps = 3;
   /// Standard errors from its neutral value, within which an amplitude is put back there: 95 %.
   double needless_amplitude = 2;
 };

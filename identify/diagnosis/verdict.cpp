@@ -9,6 +9,7 @@
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/residual_places.hpp"
+#include "identify/diagnosis/same_model.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 
 namespace catena {
@@ -129,7 +130,7 @@ bool one_may_imitate_two(const std::vector<Stage>& stages) {
   const Stage& last = stages.back();
   return last.effects.size() == 1 && last.fit.ratio() > kThresholds.visible && trace_left(last) &&
          std::pow(last.fit.misfit, 2) >
-             kThresholds.wrong_law * std::pow(misfit_without_effects(stages), 2);
+             kThresholds.wrong_law * std::pow(last_without_effects(stages).fit.misfit, 2);
 }
 
 bool predicts_as_well(const GapTest& held_out, const GapTest& other) {
@@ -137,23 +138,18 @@ bool predicts_as_well(const GapTest& held_out, const GapTest& other) {
   return held_out.rms <= kThresholds.as_good_held_out * other.rms;
 }
 
-double misfit_without_effects(const std::vector<Stage>& stages) {
-  double misfit = 0;
-  for (const Stage& stage : stages)
-    if (stage.effects.empty()) misfit = stage.fit.misfit;
-  return misfit;
+const Stage& last_without_effects(const std::vector<Stage>& stages) {
+  const auto last = std::find_if(stages.rbegin(), stages.rend(),
+                                 [](const Stage& stage) { return stage.effects.empty(); });
+  return last == stages.rend() ? stages.front() : *last;
 }
 
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
   return last.ratio() > kThresholds.visible &&
          std::pow(last.misfit, 2) >
-             kThresholds.imitated * std::pow(misfit_without_effects(stages), 2);
+             kThresholds.imitated * std::pow(last_without_effects(stages).fit.misfit, 2);
 }
 
-namespace {
-
-/// Effects that stand whatever else is missing: each takes a good part of the misfit away where it
-/// was fitted and some where it was not, and nothing that was tried in its place does as well.
 std::vector<std::string> certain_effects(const Diagnosis& found) {
   std::vector<std::string> certain;
   for (const EffectShare& share : found.shares.effects) {
@@ -161,13 +157,14 @@ std::vector<std::string> certain_effects(const Diagnosis& found) {
         std::any_of(found.alternatives.begin(), found.alternatives.end(),
                     [&](const Alternative& other) { return other.instead_of == share.effect; });
     const bool predicts = !found.shares.has_held_out || share.held_out.lower > 0;
-    if (!rivalled && predicts && share.fitted.lower > kThresholds.worthwhile)
+    const double most = found.shares.has_held_out
+                            ? std::max(share.fitted.lower, share.held_out.lower)
+                            : share.fitted.lower;
+    if (!rivalled && predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile)
       certain.push_back(share.effect);
   }
   return certain;
 }
-
-}  // namespace
 
 void conclude(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
@@ -179,6 +176,11 @@ void conclude(DiagnosisState& state, const Case& asked) {
   found.final_held_out = held_out_gap(found.final, found.sigmas);
   found.parameters = final_parameters(found);
   found.shares = shares_of(state);
+  const auto same = names_of_same_models(state.context.library(),
+                                         state.context.model_with_all(found.stages.back().links));
+  for (const auto& [other, name] : same)
+    if (std::find(found.effects.begin(), found.effects.end(), name) != found.effects.end())
+      found.notes.push_back(other + " is the same model as " + name + " here");
   for (const std::string& words : noise_in_words(found.final))
     found.notes.push_back("noise of " + words);
 

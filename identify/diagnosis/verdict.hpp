@@ -26,13 +26,18 @@ bool one_may_imitate_two(const std::vector<Stage>& stages);
 /// leaves `other`: an effect must, beside the model without it. True where nothing is held out.
 bool predicts_as_well(const GapTest& held_out, const GapTest& other);
 
-/// Misfit of the last stage that had no effect; 0 if none had.
-double misfit_without_effects(const std::vector<Stage>& stages);
+/// The last stage that had no effect; the baseline has none.
+const Stage& last_without_effects(const std::vector<Stage>& stages);
 
 /// Effects that only imitate what is missing leave a visible part of the gap that they were added
 /// for (7 % above the noise, 2 % of the squared misfit before the first of them); the right ones
 /// leave a trace of it, from what their laws get slightly wrong. `last`: what is left with them.
 bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
+
+/// Effects that stand whatever else is missing: each takes some of the misfit away where it was
+/// fitted and where it was not, a good part in one of them (which one depends on where the recording
+/// was cut), and nothing that was tried in its place does as well.
+std::vector<std::string> certain_effects(const Diagnosis& found);
 
 /// Divides the misfit among the effects, fits the final model as `asked` says, and tells what the
 /// stages amount to. Throws

@@ -61,3 +61,22 @@ TEST_CASE("what the case calls impossible is not looked for, and must be an effe
           library_of_candidates({}, plain_chain(), the_case);
         }).find("did you mean \"pivot_damping\"?") != std::string::npos);
 }
+
+TEST_CASE("what acts on a body without mass is not looked for") {
+  Case thread = case_of(DataKind::kMarkers);
+  thread.cable.link_masses = {0.0};
+  thread.cable.load_mass = 0.1;
+  const std::string reason = "acts on a body to which the case gives no mass";
+  CHECK(why_not("air_drag_quadratic", thread) == reason);
+  CHECK(why_not("load_drag", thread) == "");
+  CHECK(why_not("added_mass", thread) == "");  // it has a term of the load
+  CHECK(why_not("pivot_dry_friction", thread) == "");
+  Case rod = case_of(DataKind::kAngles);
+  rod.cable.link_masses = {0.2};
+  CHECK(why_not("air_drag_quadratic", rod) == "");
+  CHECK(why_not("load_drag", rod) == reason);
+  ParameterSpec load;  // unknown, so it may be there
+  load.sets = "load_mass";
+  rod.parameters = {load};
+  CHECK(why_not("load_drag", rod) == "");
+}

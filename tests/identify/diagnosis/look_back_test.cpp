@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/verdict.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
@@ -93,4 +94,79 @@ TEST_CASE("a model reopens a gap through the held-out part, too") {
   CHECK(closed.state.reopens_gap(leaving(0.7 * kNoise, 0)));
   TwoEffects open(0.7 * kNoise, 0);
   CHECK_FALSE(open.state.reopens_gap(leaving(0.7 * kNoise, 0)));
+}
+
+namespace {
+
+/// An effect of so many unknowns, as refitted.
+Explanation explanation_of(const DiagnosisState& state, const std::string& id, int unknowns,
+                           FittedModel model) {
+  Explanation explanation;
+  explanation.id = id;
+  explanation.candidate = 0;
+  explanation.refitted = true;
+  explanation.comparison = compare(state.last().model, model, state.found.sigmas);
+  explanation.comparison.added = unknowns;
+  explanation.fit = fit_gap(model, state.found.sigmas);
+  explanation.held_out = held_out_gap(model, state.found.sigmas);
+  explanation.model = std::move(model);
+  return explanation;
+}
+
+}  // namespace
+
+TEST_CASE("what was held out rules out an effect that only imitates the fitted part") {
+  testing::TemporaryFolder folder;
+  DiagnosisContext context({}, {}, folder.path(), fit_least_squares, {});
+  DiagnosisOptions options;
+  DiagnosisState state(context, options);
+  state.found.tried = 26;
+  state.enter(leaving(8 * kNoise, 20 * kNoise), {}, "");
+  std::vector<Explanation> both;
+  both.push_back(explanation_of(state, "imitates", 1, leaving(3 * kNoise, 15 * kNoise)));
+  both.push_back(explanation_of(state, "predicts", 2, leaving(4 * kNoise, 5 * kNoise)));
+  CHECK(choose(state, both)->id == "predicts");
+  // Where both predict alike, the fitted part decides.
+  both[0] = explanation_of(state, "imitates", 1, leaving(3 * kNoise, 5 * kNoise));
+  CHECK(choose(state, both)->id == "imitates");
+}
+
+TEST_CASE("a detail of what was fitted is none if it is a good part of what was held out") {
+  TwoEffects effects(1.5 * kNoise, 10 * kNoise);
+  const FittedModel& base = effects.state.last().model;
+  CHECK_FALSE(more_than_a_detail(effects.state, base, leaving(kNoise, 10 * kNoise)));
+  CHECK(more_than_a_detail(effects.state, base, leaving(kNoise, 5 * kNoise)));
+}
+
+TEST_CASE("a third effect must predict better, not only as well") {
+  TwoEffects effects(5 * kNoise, 5 * kNoise);
+  const FittedModel base = effects.state.last().model;
+  const auto third = [&](double held_out) {
+    return acceptable(effects.state, base,
+                      explanation_of(effects.state, "third", 1, leaving(kNoise, held_out)));
+  };
+  CHECK_FALSE(third(5 * kNoise));
+  CHECK(third(3 * kNoise));
+}
+
+TEST_CASE("what was the best once is known in any order") {
+  const TwoEffects effects(0, 0);
+  CHECK(effects.state.had({"clock_offset", "air_drag_quadratic"}));
+  CHECK_FALSE(effects.state.had({"clock_offset"}));
+}
+
+TEST_CASE("an effect is certain that shows in both parts, and well in one, without a rival") {
+  Diagnosis found;
+  found.shares.has_held_out = true;
+  const auto certain = [&](ShareInterval fitted, ShareInterval held_out) {
+    found.shares.effects = {{"drag", fitted, held_out}};
+    return !certain_effects(found).empty();
+  };
+  CHECK(certain({0.2, 0.06, 0.3}, {0.9, 0.86, 0.95}));
+  CHECK(certain({0.8, 0.7, 0.9}, {0.1, 0.01, 0.2}));
+  CHECK_FALSE(certain({0.8, 0.7, 0.9}, {0.1, -0.01, 0.2}));
+  CHECK_FALSE(certain({0.1, -0.01, 0.2}, {0.9, 0.86, 0.95}));
+  CHECK_FALSE(certain({0.1, 0.01, 0.2}, {0.1, 0.01, 0.2}));
+  found.alternatives = {{"drag", {}, {}}};
+  CHECK_FALSE(certain({0.8, 0.7, 0.9}, {0.8, 0.7, 0.9}));
 }

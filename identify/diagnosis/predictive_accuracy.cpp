@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/predictive_accuracy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "identify/diagnosis/thresholds.hpp"
+
+namespace catena {
+namespace {
+
+constexpr std::size_t kBlocks = 12;  // fewer could not be beyond chance of 1 in 1000
+constexpr std::size_t kRankSums = kBlocks * (kBlocks + 1) / 2 + 1;
+
+/// Of every held-out frame: by how much less `model` leaves.
+std::vector<double> leads(const FittedModel& model, const FittedModel& other,
+                          const std::vector<double>& sigmas) {
+  std::vector<double> lead;
+  for (std::size_t e = 0; e < model.held_out_residual.size(); ++e) {
+    const Eigen::MatrixXd difference =
+        (other.held_out_residual[e].cwiseAbs2() - model.held_out_residual[e].cwiseAbs2()) /
+        (sigmas[e] * sigmas[e]);
+    for (Eigen::Index k = 0; k < difference.cols(); ++k) {
+      double sum = 0;
+      for (const double value : difference.col(k)) sum += std::isnan(value) ? 0 : value;
+      lead.push_back(sum);
+    }
+  }
+  return lead;
+}
+
+/// The probability that ranks 1 to 12, each counted by the toss of a coin, sum up to so much.
+double chance_of(std::size_t rank_sum) {
+  std::array<double, kRankSums> probability{};
+  probability[0] = 1;
+  for (std::size_t rank = 1; rank <= kBlocks; ++rank)
+    for (std::size_t sum = kRankSums; sum-- > 0;)
+      probability[sum] = (probability[sum] + (sum >= rank ? probability[sum - rank] : 0)) / 2;
+  double chance = 0;
+  for (std::size_t sum = rank_sum; sum < kRankSums; ++sum) chance += probability[sum];
+  return chance;
+}
+
+}  // namespace
+
+double chance_of_lead(const FittedModel& model, const FittedModel& other,
+                      const std::vector<double>& sigmas) {
+  const std::vector<double> lead = leads(model, other, sigmas);
+  const std::size_t length = lead.size() / kBlocks;
+  if (length < 2) return 1;
+  std::array<double, kBlocks> blocks{};
+  for (std::size_t k = 0; k < kBlocks * length; ++k) blocks[k / length] += lead[k];
+  std::sort(blocks.begin(), blocks.end(),
+            [](double a, double b) { return std::abs(a) < std::abs(b); });
+  std::size_t rank_sum = 0;
+  for (std::size_t rank = 1; rank <= kBlocks; ++rank)
+    if (blocks[rank - 1] > 0) rank_sum += rank;
+  return chance_of(rank_sum);
+}
+
+bool predicts_better(const FittedModel& model, const FittedModel& other,
+                     const std::vector<double>& sigmas) {
+  return kThresholds.as_good_held_out * held_out_gap(model, sigmas).rms <
+             held_out_gap(other, sigmas).rms &&
+         chance_of_lead(model, other, sigmas) * kThresholds.odds < 1;
+}
+
+}  // namespace catena
