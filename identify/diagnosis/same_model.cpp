@@ -15,9 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kStates = 8;
-constexpr double kStep = 0.1;     // of an amplitude, in its unit
-constexpr double kEqual = 1e-6;   // relative: above roundings and the floors of |v|
-constexpr double kNothing = 1e-9; // of the residual: an amplitude that does nothing
+constexpr double kStep = 0.1;      // of an amplitude, in its unit
+constexpr double kEqual = 1e-6;    // relative: above roundings and the floors of |v|
+constexpr double kNothing = 1e-9;  // of the residual: an amplitude that does nothing
 
 /// A candidate, and how r changes with each of its amplitudes that does anything.
 struct Span {
@@ -52,9 +52,9 @@ VectorXd residuals(const Model& model, const VectorXd& parameters) {
     const VectorXd q = draw(1.5), v = draw(3), a = draw(10);
     const VectorXd z = VectorXd::Zero(model.states()), u = VectorXd::Zero(3 * model.signals());
     VectorXd r(n);
-    model.residual({0.1 * state, q.data(), v.data(), a.data(), z.data(), u.data(),
-                    parameters.data()},
-                   r.data());
+    model.residual(
+        {0.1 * state, q.data(), v.data(), a.data(), z.data(), u.data(), parameters.data()},
+        r.data());
     stacked.segment(state * n, n) = r;
   }
   return stacked;
