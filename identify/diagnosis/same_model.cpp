@@ -50,7 +50,8 @@ VectorXd residuals(const Model& model, const VectorXd& parameters) {
           n, [&] { return scale * (static_cast<double>(random() >> 11) * 0x1.0p-52 - 1); }));
     };
     const VectorXd q = draw(1.5), v = draw(3), a = draw(10);
-    const VectorXd z = VectorXd::Zero(model.states()), u = VectorXd::Zero(3 * model.signals());
+    const VectorXd z = VectorXd::Zero(model.states());
+    const VectorXd u = VectorXd::Zero(Index{3} * model.signals());
     VectorXd r(n);
     model.residual(
         {0.1 * state, q.data(), v.data(), a.data(), z.data(), u.data(), parameters.data()},
