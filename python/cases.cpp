@@ -9,15 +9,25 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
+#include "common/whole_file.hpp"
+#include "common/work_folder.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/models/model_provider.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/problem/problem.hpp"
+#include "identify/recordings/table.hpp"
+#include "identify/report/report.hpp"
+#include "identify/results/result_writer.hpp"
+#include "identify/uncertainty/uncertainty.hpp"
 #include "python/core.hpp"
+#include "python/tables.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -27,16 +37,28 @@ namespace {
 
 /// A case with its model and data. Shared, because experiments and fits refer to it.
 struct LoadedCase {
+  HandedIn recordings;
   std::shared_ptr<const Problem> problem;
 
-  explicit LoadedCase(const std::filesystem::path& path) {
-    py::gil_scoped_release unlock;
-    const Case loaded = read_case(path);
-    problem = std::make_shared<Problem>(loaded, provide_model(loaded.description, loaded.links));
+  /// `text`: of the case, where it need not be read from the file. Warns of what is odd about the
+  /// case and its recordings.
+  LoadedCase(const std::filesystem::path& file, HandedIn handed_in,
+             const std::optional<std::string>& text = {})
+      : recordings(std::move(handed_in)) {
+    {
+      py::gil_scoped_release unlock;
+      const Case loaded = text ? parse_case(*text, file.string(), file.parent_path(), recordings)
+                               : read_case(file, recordings);
+      problem = std::make_shared<Problem>(loaded, provide_model(loaded.description, loaded.links));
+    }
+    for (const std::string& warning : problem->warnings())
+      if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
   }
 
+  /// -1, the case itself, where it has no experiment.
   int experiment(int index) const {
     const auto count = static_cast<int>(problem->experiments().size());
+    if (count == 0 && index == 0) return -1;
     if (index < 0 || index >= count)
       throw std::invalid_argument("experiment: " + std::to_string(index) + "; there are " +
                                   std::to_string(count) + ", counted from 0");
@@ -55,45 +77,228 @@ struct LoadedCase {
   Eigen::MatrixXd predict(const std::optional<Eigen::VectorXd>& x, int index) const {
     SignalCheck check;
     const Eigen::VectorXd at = unknowns(x);
+    const int of = experiment(index);
+    if (of < 0)
+      throw std::invalid_argument(
+          "predict: the case has no [[experiment]]; simulate gives its motion");
     Prediction prediction;
     {
       py::gil_scoped_release unlock;
-      prediction = problem->predict(at, experiment(index), true, {}, [&check] { return check(); });
+      prediction = problem->predict(at, of, true, {}, [&check] { return check(); });
     }
     check.rethrow();
     if (!prediction.ok()) throw ComputationError(prediction.message);
     return prediction.simulated.transpose();
   }
 
-  double error(const std::optional<Eigen::VectorXd>& x) const {
+  /// Of the fitted frames.
+  Evaluation evaluated(const std::optional<Eigen::VectorXd>& x, bool jacobian) const {
     SignalCheck check;
     const Eigen::VectorXd at = unknowns(x);
     Evaluation evaluation;
     {
       py::gil_scoped_release unlock;
-      evaluation = evaluate(*problem, at, false, false, [&check] { return check(); });
+      evaluation = evaluate(*problem, at, false, jacobian, [&check] { return check(); });
     }
     check.rethrow();
     if (!evaluation.ok) throw ComputationError(evaluation.message);
-    return error_of(*problem, evaluation, Part::kFit);
+    return evaluation;
+  }
+
+  double error(const std::optional<Eigen::VectorXd>& x) const {
+    return error_of(*problem, evaluated(x, false), Part::kFit);
+  }
+
+  /// What least squares makes small: residuals over their noise, then constraints with their weights.
+  Eigen::VectorXd residuals(const std::optional<Eigen::VectorXd>& x) const {
+    const Misfit misfit = misfit_of(*problem, evaluated(x, false));
+    Eigen::VectorXd all(misfit.residuals.value.size() + misfit.constraints.value.size());
+    all << misfit.residuals.value.cwiseQuotient(noise_of(*problem, misfit.residuals)),
+        misfit.constraints.value.cwiseProduct(misfit.constraints.weight);
+    return all;
+  }
+
+  /// Its derivatives, one row per residual.
+  Eigen::MatrixXd jacobian(const std::optional<Eigen::VectorXd>& x) const {
+    const Misfit misfit = misfit_of(*problem, evaluated(x, true));
+    const Eigen::Index count = misfit.residuals.value.size();
+    Eigen::MatrixXd all(count + misfit.constraints.value.size(), problem->start().size());
+    all.topRows(count) = noise_of(*problem, misfit.residuals).cwiseInverse().asDiagonal() *
+                         misfit.residuals.jacobian;
+    if (misfit.constraints.value.size() > 0)
+      all.bottomRows(misfit.constraints.value.size()) =
+          misfit.constraints.weight.asDiagonal() * misfit.constraints.jacobian;
+    return all;
+  }
+
+  Simulation simulate(const std::optional<Eigen::VectorXd>& x, int index) const {
+    SignalCheck check;
+    const Eigen::VectorXd at = unknowns(x);
+    const int of = experiment(index);
+    Motion motion;
+    {
+      py::gil_scoped_release unlock;
+      const auto keep_going = [&check] { return check(); };
+      motion =
+          of < 0 ? motion_alone(*problem, at, keep_going) : motion_of(*problem, at, of, keep_going);
+    }
+    check.rethrow();
+    if (motion.simulation.status != Status::kSuccess)
+      throw ComputationError(motion.simulation.message);
+    return std::move(motion.simulation);
+  }
+
+  py::tuple bounds() const {
+    const auto& unknowns = problem->unknowns();
+    Eigen::VectorXd lower(unknowns.size()), upper(unknowns.size());
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      lower[static_cast<Eigen::Index>(i)] = unknowns[i].lower;
+      upper[static_cast<Eigen::Index>(i)] = unknowns[i].upper;
+    }
+    return py::make_tuple(lower, upper);
+  }
+
+  py::tuple state() const {
+    py::dict tables;
+    for (const auto& [name, table] : recordings)
+      tables[py::str(name)] = py::make_tuple(table->names, table->columns);
+    const Case& the_case = problem->the_case();
+    return py::make_tuple(std::filesystem::absolute(the_case.file), the_case.text, tables);
   }
 };
 
+LoadedCase case_from(const py::tuple& state) {
+  HandedIn recordings;
+  for (const auto& [key, value] : state[2].cast<py::dict>()) {
+    const auto name = key.cast<std::string>();
+    const auto table = value.cast<py::tuple>();
+    recordings[name] = table_of(name, table[0].cast<std::vector<std::string>>(),
+                                table[1].cast<std::vector<std::vector<double>>>());
+  }
+  return {state[0].cast<std::filesystem::path>(), recordings, state[1].cast<std::string>()};
+}
+
 struct Identification {
-  std::shared_ptr<const Problem> problem;
+  LoadedCase loaded;
   FitResult fit;
-  std::vector<Gap> before, after;
+
+  explicit Identification(LoadedCase of) : loaded(std::move(of)) {}
+
+  const Problem& problem() const { return *loaded.problem; }
+
+  std::vector<Gap> gaps(const Eigen::VectorXd& x) const {
+    SignalCheck check;
+    std::vector<Gap> found;
+    {
+      py::gil_scoped_release unlock;
+      found = gaps_of(problem(), evaluate(problem(), x, true, false, [&] { return check(); }));
+    }
+    check.rethrow();
+    return found;
+  }
+
+  const Uncertainty& uncertainty() const {
+    if (!uncertainty_) {
+      std::optional<Uncertainty> found;
+      try {
+        py::gil_scoped_release unlock;
+        found = uncertainty_of(problem(), fit.x);
+      } catch (const std::runtime_error& error) {
+        throw ComputationError(error.what());
+      }
+      uncertainty_ = std::move(found);
+    }
+    return *uncertainty_;
+  }
+
+  Eigen::VectorXd standard_errors() const {
+    Eigen::VectorXd errors(fit.x.size());
+    for (Eigen::Index i = 0; i < errors.size(); ++i)
+      errors[i] = uncertainty().estimates[static_cast<std::size_t>(i)].standard_error;
+    return errors;
+  }
+
+  Eigen::MatrixXd covariance() const {
+    const Eigen::VectorXd errors = standard_errors();
+    return errors.asDiagonal() * uncertainty().correlation * errors.asDiagonal();
+  }
+
+  Eigen::MatrixXd intervals() const {
+    Eigen::MatrixXd ends(fit.x.size(), 2);
+    for (Eigen::Index i = 0; i < ends.rows(); ++i) {
+      const Estimate& estimate = uncertainty().estimates[static_cast<std::size_t>(i)];
+      ends.row(i) << estimate.lower, estimate.upper;
+    }
+    return ends;
+  }
+
+  /// The result file, as the program writes it.
+  std::string result_text() const {
+    catena::Identification all;
+    all.fit = fit;
+    all.starts = {fit};
+    all.before = evaluate(problem(), problem().start(), true, false);
+    all.after = evaluate(problem(), fit.x, true, false);
+    for (int e = 0; e < static_cast<int>(problem().experiments().size()); ++e)
+      all.motions.push_back(motion_of(problem(), fit.x, e));
+    try {
+      all.uncertainty = uncertainty_of(problem(), fit.x);
+    } catch (const std::runtime_error&) {  // sensitivities that fail leave no errors
+    }
+    return identification_result_text(problem(), all);
+  }
+
+  void report(const std::filesystem::path& file) const {
+    py::gil_scoped_release unlock;
+    const WorkFolder scratch = scratch_folder();
+    write_whole_file(scratch.path() / "result.json", result_text());
+    report::write_report(results::read_document(scratch.path()), {file, {}});
+  }
+
+  py::tuple state() const {
+    py::list history;
+    for (const HistoryEntry& entry : fit.history)
+      history.append(py::make_tuple(entry.error, entry.x, entry.message));
+    return py::make_tuple(loaded.state(), static_cast<int>(fit.status), fit.message, fit.x,
+                          fit.error, fit.start_error, fit.error_noise, fit.evaluations,
+                          fit.iterations, fit.failures, fit.seconds, fit.cpu_seconds, history);
+  }
 
   py::dict unknowns() const {
     py::dict values;
-    for (std::size_t i = 0; i < problem->unknowns().size(); ++i)
-      values[py::str(problem->unknowns()[i].name)] = fit.x[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < problem().unknowns().size(); ++i)
+      values[py::str(problem().unknowns()[i].name)] = fit.x[static_cast<Eigen::Index>(i)];
     return values;
   }
   std::string case_text_of(const std::filesystem::path& directory) const {
-    return case_text(problem->with(fit.x), directory);
+    return case_text(problem().with(fit.x), directory);
   }
+
+ private:
+  mutable std::optional<Uncertainty> uncertainty_;  // when it is first asked for
 };
+
+Identification identification_from(const py::tuple& state) {
+  Identification found(case_from(state[0]));
+  FitResult& fit = found.fit;
+  fit.status = static_cast<FitStatus>(state[1].cast<int>());
+  fit.message = state[2].cast<std::string>();
+  fit.x = state[3].cast<Eigen::VectorXd>();
+  fit.error = state[4].cast<double>();
+  fit.start_error = state[5].cast<double>();
+  fit.error_noise = state[6].cast<double>();
+  fit.evaluations = state[7].cast<int>();
+  fit.iterations = state[8].cast<int>();
+  fit.failures = state[9].cast<int>();
+  fit.seconds = state[10].cast<double>();
+  fit.cpu_seconds = state[11].cast<double>();
+  for (const py::handle& entry : state[12]) {
+    const auto parts = entry.cast<py::tuple>();
+    fit.history.push_back(
+        {parts[0].cast<double>(), parts[1].cast<Eigen::VectorXd>(), parts[2].cast<std::string>()});
+  }
+  return found;
+}
 
 Identification identify(const LoadedCase& loaded, const std::optional<py::function>& progress) {
   SignalCheck check;
@@ -112,18 +317,10 @@ Identification identify(const LoadedCase& loaded, const std::optional<py::functi
       stop = true;
     }
   };
-  Identification found{loaded.problem, {}, {}, {}};
-  const Problem& problem = *loaded.problem;
+  Identification found(loaded);
   {
     py::gil_scoped_release unlock;
-    found.fit = fit(problem, options, fit_least_squares);
-    const auto gaps = [&](const Eigen::VectorXd& x) {
-      return gaps_of(problem, evaluate(problem, x, true, false, [&] { return check(); }));
-    };
-    if (!stop && found.fit.status != FitStatus::kFailed) {
-      found.before = gaps(problem.start());
-      found.after = gaps(found.fit.x);
-    }
+    found.fit = fit(*loaded.problem, options, fit_least_squares);
   }
   check.rethrow();
   if (raised) std::rethrow_exception(raised);
@@ -168,7 +365,17 @@ void add_cases(py::module_& module) {
           "Frames x channels, m or rad; NaN where a point was not seen.");
 
   py::class_<LoadedCase>(module, "Case", "A case file with its model and its data.")
-      .def(py::init<const std::filesystem::path&>(), "case"_a)
+      .def(py::init(
+               [](const std::filesystem::path& file, const std::optional<py::dict>& recordings) {
+                 return LoadedCase(file, recordings ? tables_of(*recordings) : HandedIn());
+               }),
+           "case"_a, "recordings"_a = py::none(),
+           "recordings: data that are no files, by the name of their [[experiment]]. Each is a "
+           "DataFrame, a dict of columns or a structured array with the columns, units and axes "
+           "that "
+           "the file would have; or an array whose rows are frames: time_s, side_1_m, down_1_m, "
+           "side_2_m, ... What is odd about a case or its recordings is a UserWarning.")
+      .def(py::pickle([](const LoadedCase& s) { return s.state(); }, &case_from))
       .def_property_readonly("title",
                              [](const LoadedCase& s) { return s.problem->the_case().title; })
       .def_property_readonly("model", [](const LoadedCase& s) { return s.problem->model(); })
@@ -196,6 +403,22 @@ void add_cases(py::module_& module) {
            "Prediction at every frame, frames x channels as Experiment.measured.")
       .def("error", &LoadedCase::error, "x"_a = py::none(),
            "Error measure of the case over the fitted frames.")
+      .def_property_readonly(
+          "bounds", &LoadedCase::bounds,
+          "Lower and upper bounds of the unknowns, infinite where there are none.")
+      .def(
+          "residuals", &LoadedCase::residuals, "x"_a = py::none(),
+          "What least squares makes small: simulated minus measured of all points that were seen "
+          "in "
+          "fitted frames, m or rad, or over the noise where the case states it; then priors and "
+          "gaps between joined windows with their weights. For other optimisers, which have losses "
+          "of their own.")
+      .def("jacobian", &LoadedCase::jacobian, "x"_a = py::none(),
+           "Derivatives of residuals(x), residuals x unknowns, from one simulation with "
+           "sensitivities.")
+      .def("simulate", &LoadedCase::simulate, "x"_a = py::none(), "experiment"_a = 0,
+           "The motion from the start of an experiment, at its frames; without any, for as long as "
+           "[simulation] says. Raises ComputationError where the integration fails.")
       .def("identify", &identify, "progress"_a = py::none(),
            "Finds the unknowns by the method of the case. progress(evaluations, limit, error) is "
            "called "
@@ -220,8 +443,22 @@ void add_cases(py::module_& module) {
       .def_property_readonly("evaluations",
                              [](const Identification& i) { return i.fit.evaluations; })
       .def_property_readonly("seconds", [](const Identification& i) { return i.fit.seconds; })
-      .def_readonly("gaps_before", &Identification::before)
-      .def_readonly("gaps", &Identification::after)
+      .def_property_readonly(
+          "gaps_before", [](const Identification& i) { return i.gaps(i.problem().start()); },
+          "Of the start, simulated when asked for.")
+      .def_property_readonly(
+          "gaps", [](const Identification& i) { return i.gaps(i.fit.x); },
+          "Of what was found, simulated when asked for.")
+      .def_property_readonly("standard_errors", &Identification::standard_errors,
+                             "Of x, in its units; infinite where the data do not tell. They allow "
+                             "for residuals that are not white.")
+      .def_property_readonly("covariance", &Identification::covariance,
+                             "Of x; NaN with an unknown that the data do not determine.")
+      .def_property_readonly("intervals", &Identification::intervals,
+                             "95 % intervals of x, unknowns x 2.")
+      .def("report", &Identification::report, "file"_a,
+           "Writes the HTML report, as catena report does.")
+      .def(py::pickle([](const Identification& i) { return i.state(); }, &identification_from))
       .def("case_text", &Identification::case_text_of, "directory"_a = ".",
            "The case with what was found as its starting values; paths in it are relative to "
            "directory.");

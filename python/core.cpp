@@ -298,15 +298,49 @@ Eigen::VectorXd parameters_from(const Model& model, const py::kwargs& values) {
   return parameters;
 }
 
+Model plain_chain(int links) {
+  return Model::has_built_in(links) ? Model::built_in(links) : any_links_model(links);
+}
+
+Trajectory trajectory_from(const py::tuple& state) {
+  return {state[0].cast<std::vector<double>>(), state[1].cast<Eigen::MatrixXd>(),
+          state[2].cast<Eigen::MatrixXd>(), state[3].cast<Eigen::MatrixXd>(),
+          state[4].cast<Eigen::MatrixXd>()};
+}
+
+py::tuple state_of(const Trajectory& t) { return py::make_tuple(t.time, t.q, t.v, t.z, t.energy); }
+
+py::tuple state_of(const Simulation& s) {
+  const Statistics& n = s.statistics;
+  return py::make_tuple(static_cast<int>(s.status), s.message, state_of(s.trajectory),
+                        s.energy_imbalance, n.steps, n.residual_evaluations, n.jacobian_evaluations,
+                        n.newton_iterations, n.error_test_failures, n.newton_failures,
+                        n.cpu_seconds);
+}
+
+Simulation simulation_from(const py::tuple& state) {
+  Simulation s;
+  s.status = static_cast<Status>(state[0].cast<int>());
+  s.message = state[1].cast<std::string>();
+  s.trajectory = trajectory_from(state[2]);
+  s.energy_imbalance = state[3].cast<double>();
+  Statistics& n = s.statistics;
+  n.steps = state[4].cast<long>();
+  n.residual_evaluations = state[5].cast<long>();
+  n.jacobian_evaluations = state[6].cast<long>();
+  n.newton_iterations = state[7].cast<long>();
+  n.error_test_failures = state[8].cast<long>();
+  n.newton_failures = state[9].cast<long>();
+  n.cpu_seconds = state[10].cast<double>();
+  return s;
+}
+
 void add_model(py::module_& module) {
   py::class_<Model>(
       module, "Model",
       "A model of a chain of links. Model(12) is the plain chain of 12 links; any number of links "
       "works.")
-      .def(py::init([](int links) {
-             return Model::has_built_in(links) ? Model::built_in(links) : any_links_model(links);
-           }),
-           "links"_a)
+      .def(py::init(&plain_chain), "links"_a)
       .def_static("load", &Model::load, "shared_library"_a, "A model compiled as a shared library.")
       .def_static("built_in_links", &Model::built_in_links,
                   "The link counts whose equations are compiled on their own: a little faster.")
@@ -323,6 +357,16 @@ void add_model(py::module_& module) {
            "The parameter array from values by name. A family such as stiffness sets stiffness_1, "
            "stiffness_2, ... to one value or to one value each; what is not named keeps its "
            "default.")
+      .def(py::pickle(
+          [](const Model& model) {
+            if (plain_chain(model.links()).table().description_hash !=
+                std::string(model.table().description_hash))
+              throw std::invalid_argument(
+                  "only plain chains, Model(n), can be pickled; pickle the catena.Case of this "
+                  "one");
+            return py::make_tuple(model.links());
+          },
+          [](const py::tuple& state) { return plain_chain(state[0].cast<int>()); }))
       .def("__repr__", [](const Model& model) {
         return "catena.Model(" + std::to_string(model.links()) + " links, " +
                std::to_string(model.parameters()) + " parameters)";
@@ -332,7 +376,15 @@ void add_model(py::module_& module) {
       .def(py::init(&State::zero), "model"_a)
       .def_readwrite("q", &State::q)
       .def_readwrite("v", &State::v)
-      .def_readwrite("z", &State::z);
+      .def_readwrite("z", &State::z)
+      .def(py::pickle([](const State& s) { return py::make_tuple(s.q, s.v, s.z); },
+                      [](const py::tuple& t) {
+                        State s;
+                        s.q = t[0].cast<Eigen::VectorXd>();
+                        s.v = t[1].cast<Eigen::VectorXd>();
+                        s.z = t[2].cast<Eigen::VectorXd>();
+                        return s;
+                      }));
   module.def("straight", &straight, "model"_a, "angle"_a,
              "At rest, every link at this angle from the downward vertical (rad).");
   module.def("from_angles", &from_angles, "model"_a, "angles"_a,
@@ -360,7 +412,8 @@ void add_simulation(py::module_& module) {
       .def_property_readonly("v", view_of(&Trajectory::v), "Rates, rad/s.")
       .def_property_readonly("z", view_of(&Trajectory::z), "Extra states.")
       .def_property_readonly("energy", view_of(&Trajectory::energy),
-                             "J, one column per entry of Model.energy_names.");
+                             "J, one column per entry of Model.energy_names.")
+      .def(py::pickle([](const Trajectory& t) { return state_of(t); }, &trajectory_from));
   py::class_<Statistics>(module, "Statistics", "Statistics of the integration.")
       .def_readonly("steps", &Statistics::steps)
       .def_readonly("residual_evaluations", &Statistics::residual_evaluations)
@@ -378,7 +431,8 @@ void add_simulation(py::module_& module) {
       .def_readonly("trajectory", &Simulation::trajectory)
       .def_readonly("statistics", &Simulation::statistics)
       .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
-                    "Largest |stored + dissipated - supplied - initial| over the times, J.");
+                    "Largest |stored + dissipated - supplied - initial| over the times, J.")
+      .def(py::pickle([](const Simulation& s) { return state_of(s); }, &simulation_from));
   py::class_<SensitiveSimulation, Simulation>(
       module, "SensitiveSimulation", "A simulation with its derivatives along the directions.")
       .def_readonly("sensitivity", &SensitiveSimulation::sensitivity);

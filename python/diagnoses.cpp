@@ -13,9 +13,13 @@
 #include "common/whole_file.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
+#include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
+#include "identify/problem/problem.hpp"
+#include "identify/report/report.hpp"
 #include "identify/results/output_folder.hpp"
 #include "python/core.hpp"
+#include "python/tables.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -54,6 +58,7 @@ void run_interruptibly(F f, std::atomic<bool>& stop) {
 }
 
 Shared diagnose_case(const std::filesystem::path& case_file,
+                     const std::optional<py::dict>& handed_in,
                      const std::vector<std::filesystem::path>& effects, int max_effects,
                      int max_links, int refits, int threads,
                      const std::optional<py::function>& progress) {
@@ -63,9 +68,11 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   std::atomic<bool> stop{false};
   std::exception_ptr raised;
   const auto finished = std::make_shared<FinishedDiagnosis>();
+  const HandedIn recordings = handed_in ? tables_of(*handed_in) : HandedIn();
+  std::vector<std::string> warnings;
   const auto work = [&] {
     const ReadOnce inputs;
-    const Case the_case = read_case(case_file);
+    const Case the_case = read_case(case_file, recordings);
     finished->context = std::make_unique<DiagnosisContext>(
         the_case, effects, finished->scratch.path(), fit_least_squares, ProviderOptions{});
     DiagnosisContext& context = *finished->context;
@@ -76,13 +83,14 @@ Shared diagnose_case(const std::filesystem::path& case_file,
         py::gil_scoped_acquire lock;
         if (raised) return;
         try {
-          (*progress)(now.doing);
+          (*progress)(progress_line(now));
         } catch (...) {
           raised = std::current_exception();
           stop = true;
         }
       };
     try {
+      warnings = Problem(the_case, context.model_with({}, the_case.links)).warnings();
       finished->found = diagnose(the_case, context, {max_effects, max_links, refits});
       finished->findings = find_out(finished->found);
     } catch (const InputError&) {
@@ -99,6 +107,8 @@ Shared diagnose_case(const std::filesystem::path& case_file,
     if (!raised) throw;
   }
   if (raised) std::rethrow_exception(raised);
+  for (const std::string& warning : warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
   return finished;
 }
 
@@ -203,16 +213,31 @@ void add_diagnoses(py::module_& module) {
           "folder"_a,
           "Writes what catena diagnose writes: diagnosis.json, the results of the rounds, the case "
           "with what was found, and the new model.")
+      .def(
+          "report",
+          [](const Shared& d, const std::filesystem::path& file) {
+            py::gil_scoped_release unlock;
+            const WorkFolder scratch = scratch_folder();
+            for (const auto& [name, text] : diagnosis_files(d->found, d->findings, *d->context)) {
+              std::filesystem::create_directories((scratch.path() / name).parent_path());
+              write_whole_file(scratch.path() / name, text);
+            }
+            report::write_report(results::read_document(scratch.path()), {file, {}});
+          },
+          "file"_a, "Writes the HTML report, as catena report does.")
       .def("__str__", [](const Shared& d) { return diagnosis_table(d->found, d->findings); });
   const DiagnosisOptions defaults;
-  module.def("diagnose", &diagnose_case, "case"_a, py::kw_only(),
-             "effects"_a = std::vector<std::filesystem::path>{},
-             "max_effects"_a = defaults.max_effects, "max_links"_a = defaults.max_links,
-             "refits"_a = defaults.refits, "threads"_a = 2, "progress"_a = py::none(),
-             "Finds the effect that the model of a case file lacks, adds it, fits again. effects: "
-             "effect files of your own to look for as well. progress(line) is told what is being "
-             "done; what it raises ends the diagnosis and is raised again. Raises InputError for a "
-             "bad case, ComputationError where a model cannot be made or fitted.");
+  module.def(
+      "diagnose", &diagnose_case, "case"_a, "recordings"_a = py::none(), py::kw_only(),
+      "effects"_a = std::vector<std::filesystem::path>{}, "max_effects"_a = defaults.max_effects,
+      "max_links"_a = defaults.max_links, "refits"_a = defaults.refits, "threads"_a = 2,
+      "progress"_a = py::none(),
+      "Finds the effect that the model of a case file lacks, adds it, fits again. recordings: "
+      "as Case takes them. effects: "
+      "effect files of your own to look for as well. progress(line) is told what is being "
+      "done, how much of it is left and the best so far; what it raises ends the diagnosis and is "
+      "raised again. Raises InputError for a "
+      "bad case, ComputationError where a model cannot be made or fitted.");
 }
 
 }  // namespace catena::python

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -105,6 +106,8 @@ struct PointSpec {
   bool load = false;                     ///< marker at the load
 };
 
+struct Table;  // identify/recordings/table.hpp
+
 /// A function of time the model asks for (a support's measured motion), from two columns of a file.
 struct SignalSpec {
   std::string name;  ///< as the model names it
@@ -114,7 +117,8 @@ struct SignalSpec {
 
 struct ExperimentSpec {
   std::string name;
-  std::filesystem::path data;  ///< absolute, or relative to the working directory
+  std::filesystem::path data;          ///< absolute, or relative to the working directory
+  std::shared_ptr<const Table> table;  ///< what would be in that file, where a caller hands it in
   DataKind kind = DataKind::kMarkers;
   Use use = Use::kFit;
   DataSource source = DataSource::kCatena;

@@ -255,12 +255,17 @@ void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
 }
 
 ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
-                               const std::filesystem::path& directory) {
+                               const std::filesystem::path& directory, const HandedIn& recordings) {
   ExperimentSpec experiment;
   experiment.where = table.file() + ":" + std::to_string(table.line());
   experiment.name = table.optional_text("name").value_or("experiment " + std::to_string(number));
-  experiment.data = directory / table.text("data");
-  if (!std::filesystem::is_regular_file(experiment.data))
+  if (const auto handed_in = recordings.find(experiment.name); handed_in != recordings.end()) {
+    experiment.table = handed_in->second;
+    experiment.data = directory / table.optional_text("data").value_or(experiment.name + ".csv");
+  } else {
+    experiment.data = directory / table.text("data");
+  }
+  if (!experiment.table && !std::filesystem::is_regular_file(experiment.data))
     table.fail("data", experiment.data.string() + "; there is no such file");
   experiment.kind = static_cast<DataKind>(table.choice("kind", kDataKindWords));
   experiment.use = static_cast<Use>(table.choice("use", kUseWords, false));
@@ -399,8 +404,18 @@ void check_priors(const std::vector<TomlTable>& tables, const Case& the_case) {
   }
 }
 
+/// Refuses recordings of experiments that the case does not have.
+void check_names(const HandedIn& recordings, const Case& the_case) {
+  std::vector<std::string> names;
+  for (const ExperimentSpec& experiment : the_case.experiments) names.push_back(experiment.name);
+  for (const auto& [name, table] : recordings)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError("recordings: \"" + name + "\" is no [[experiment]] of " +
+                       the_case.file.string() + suggestion(name, names));
+}
+
 Case read(const TomlTable& file, const std::filesystem::path& path,
-          const std::filesystem::path& directory) {
+          const std::filesystem::path& directory, const HandedIn& recordings) {
   Case the_case;
   the_case.file = path;
   the_case.text = file.source();
@@ -427,11 +442,13 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   the_case.signals = read_signals(file, directory);
   names.clear();
   for (const TomlTable& table : file.tables("experiment")) {
-    the_case.experiments.push_back(read_experiment(
-        table, static_cast<int>(the_case.experiments.size()) + 1, the_case.links, directory));
+    the_case.experiments.push_back(
+        read_experiment(table, static_cast<int>(the_case.experiments.size()) + 1, the_case.links,
+                        directory, recordings));
     if (!names.insert(the_case.experiments.back().name).second)
       table.fail("name", "\"" + the_case.experiments.back().name + "\"; names must differ");
   }
+  check_names(recordings, the_case);
   const std::vector<TomlTable> parameters = file.tables("parameter");
   for (std::size_t j = 0; j < parameters.size(); ++j)
     check_value_names(parameters[j], the_case.parameters[j], the_case.experiments);
@@ -457,13 +474,13 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
 
 }  // namespace
 
-Case read_case(const std::filesystem::path& path) {
-  return read(TomlTable::read(path, "case"), path, path.parent_path());
+Case read_case(const std::filesystem::path& path, const HandedIn& recordings) {
+  return read(TomlTable::read(path, "case"), path, path.parent_path(), recordings);
 }
 
 Case parse_case(const std::string& text, const std::string& name,
-                const std::filesystem::path& directory) {
-  return read(TomlTable::parse(text, name, "case"), name, directory);
+                const std::filesystem::path& directory, const HandedIn& recordings) {
+  return read(TomlTable::parse(text, name, "case"), name, directory, recordings);
 }
 
 }  // namespace catena

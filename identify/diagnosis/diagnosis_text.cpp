@@ -75,6 +75,15 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
 
 }  // namespace
 
+std::string progress_line(const DiagnosisProgress& progress) {
+  std::string line = progress.doing;
+  if (progress.of > 0) line += fmt::format(", {} of {} done", progress.done, progress.of);
+  if (std::isfinite(progress.seconds_left))
+    line += fmt::format(", about {:.0f} s left of this", progress.seconds_left);
+  if (!progress.best.empty()) line += "; best so far: " + progress.best;
+  return line;
+}
+
 DiagnosisFindings find_out(const Diagnosis& d) {
   DiagnosisFindings findings;
   findings.places = residual_places(d.stages.front().model, d.sigmas);

@@ -29,4 +29,7 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
                                                                  const DiagnosisFindings& findings,
                                                                  const DiagnosisContext& context);
 
+/// "refitting with load_drag, 3 of 8 done, about 12 s left of this; best so far: with ..."
+std::string progress_line(const DiagnosisProgress& progress);
+
 }  // namespace catena

@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/motion.hpp"
 
+#include <cmath>
+
+#include "common/input_error.hpp"
 #include "identify/problem/prediction.hpp"
+#include "identify/recordings/signal_reader.hpp"
 #include "runtime/positions.hpp"
 
 namespace catena {
+namespace {
+
+/// Every `step` from 0 to `duration`, s.
+std::vector<double> output_times(const SimulationSpec& settings) {
+  const auto count = static_cast<std::size_t>(std::floor(settings.duration / settings.step + 1e-9));
+  std::vector<double> times;
+  for (std::size_t k = 0; k <= count; ++k) times.push_back(static_cast<double>(k) * settings.step);
+  if (times.size() < 2) times.push_back(settings.duration);
+  return times;
+}
+
+}  // namespace
 
 Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                        const std::vector<double>& times, const SimulationSpec& settings,
@@ -28,6 +44,19 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
   if (motion.simulation.status == Status::kSuccess && model.table().internal_forces != nullptr)
     motion.forces = internal_forces(model, parameters, path, signals);
   return motion;
+}
+
+Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
+                    const std::function<bool()>& keep_going) {
+  const Case& the_case = problem.the_case();
+  if (std::isnan(the_case.simulation.duration))
+    throw InputError(
+        the_case.file.string() +
+        ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
+  return simulate_motion(
+      problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
+      output_times(the_case.simulation), the_case.simulation,
+      read_signals(the_case.signals, problem.model(), the_case.file.string()), keep_going);
 }
 
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,

@@ -34,6 +34,11 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
                        const std::vector<double>& times, const SimulationSpec& settings,
                        const Signals& signals, const std::function<bool()>& keep_going = {});
 
+/// The motion of a case without a recording, as its file says; x: its unknowns. Throws InputError where
+/// the case does not say for how long, and what simulate_motion throws.
+Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
+                    const std::function<bool()>& keep_going = {});
+
 /// The motion of one experiment (an index into problem.experiments()) with the unknowns x, from its
 /// start on, at its frames. Throws what simulate_motion throws, and ImpossibleValue where x gives
 /// the experiment no start.

@@ -5,6 +5,7 @@
 
 #include "common/impossible_value.hpp"
 #include "identify/problem/initial_state.hpp"
+#include "identify/problem/plausibility.hpp"
 
 namespace catena {
 namespace {
@@ -39,6 +40,20 @@ Problem::Problem(Case the_case, Model model, std::vector<Experiment> experiments
       map_(case_, model_),
       experiments_(std::move(experiments)),
       unknowns_(case_, experiments_) {}
+
+std::vector<std::string> Problem::warnings() const {
+  std::vector<std::string> all;
+  const auto add = [&](const std::string& name, const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) all.push_back(name + ": " + warning);
+  };
+  if (experiments_.empty())
+    add(case_.file.string(),
+        check_numbers(case_.cable, case_.initial,
+                      link_lengths(model_, model_parameters(start(), -1)).sum()));
+  for (const Experiment& experiment : experiments_)
+    add(experiment.spec.name, experiment.recording.warnings);
+  return all;
+}
 
 bool Problem::joined() const {
   for (const Experiment& experiment : experiments_)

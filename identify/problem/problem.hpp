@@ -79,6 +79,10 @@ class Problem {
   /// starts at x. The starts of windows have no place in a case; they are found again.
   Case with(const Eigen::VectorXd& x) const;
 
+  /// What is odd about the recordings, or without any about the case (plausibility.hpp): "NAME:
+  /// key: what is seen; what to change".
+  std::vector<std::string> warnings() const;
+
   /// Multiple shooting: the windows of an experiment are to meet.
   bool joined() const;
 

@@ -9,7 +9,6 @@
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
-#include "identify/problem/plausibility.hpp"
 #include "identify/results/csv_tables.hpp"
 
 namespace catena {
@@ -70,16 +69,8 @@ Model model_of(const Case& the_case, const CommonOptions& options) {
 
 void show_warnings(const Problem& problem, const CommonOptions& options) {
   if (options.quiet) return;
-  if (problem.experiments().empty()) {
-    const Case& the_case = problem.the_case();
-    const double length =
-        link_lengths(problem.model(), problem.model_parameters(problem.start(), -1)).sum();
-    for (const std::string& warning : check_numbers(the_case.cable, the_case.initial, length))
-      std::cerr << "catena: warning: " << the_case.file.string() << ": " << warning << "\n";
-  }
-  for (const Experiment& experiment : problem.experiments())
-    for (const std::string& warning : experiment.recording.warnings)
-      std::cerr << "catena: warning: " << experiment.spec.name << ": " << warning << "\n";
+  for (const std::string& warning : problem.warnings())
+    std::cerr << "catena: warning: " << warning << "\n";
 }
 
 std::filesystem::path output_folder(const CommonOptions& options) {

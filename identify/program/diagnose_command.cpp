@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/diagnose_command.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <iostream>
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
+#include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
@@ -24,16 +22,6 @@ struct DiagnoseOptions : CommonOptions {
   int threads = 2;
 };
 
-/// "refitting with load_drag, 3 of 8 done, about 12 s left; best so far: with air_drag_linear, ..."
-std::string line_of(const DiagnosisProgress& progress) {
-  std::string line = progress.doing;
-  if (progress.of > 0) line += fmt::format(", {} of {} done", progress.done, progress.of);
-  if (std::isfinite(progress.seconds_left))
-    line += fmt::format(", about {:.0f} s left of this", progress.seconds_left);
-  if (!progress.best.empty()) line += "; best so far: " + progress.best;
-  return line;
-}
-
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
   const Case the_case = read_case(options.case_file);
@@ -49,7 +37,9 @@ int diagnose_case(const DiagnoseOptions& options) {
   DiagnosisContext context(the_case, options.effects, scratch.path(), fit_least_squares, provider);
   context.stop = &interrupted();
   context.threads = options.threads;
-  context.notice = [&progress](const DiagnosisProgress& now) { progress.show(0, line_of(now)); };
+  context.notice = [&progress](const DiagnosisProgress& now) {
+    progress.show(0, progress_line(now));
+  };
   OutputFolder output(output_folder(options), kDiagnosisNames);
   show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
   Diagnosis found;

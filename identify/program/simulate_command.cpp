@@ -3,27 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 
-#include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/tables.hpp"
-#include "identify/recordings/signal_reader.hpp"
 #include "identify/results/csv_tables.hpp"
 #include "identify/results/result_writer.hpp"
 
 namespace catena {
 namespace {
-
-std::vector<double> output_times(const SimulationSpec& settings) {
-  const auto count = static_cast<std::size_t>(std::floor(settings.duration / settings.step + 1e-9));
-  std::vector<double> times;
-  for (std::size_t k = 0; k <= count; ++k) times.push_back(static_cast<double>(k) * settings.step);
-  if (times.size() < 2) times.push_back(settings.duration);
-  return times;
-}
 
 bool keep_going() { return !interrupted(); }
 
@@ -37,15 +26,10 @@ bool succeeded(const Simulation& simulation, const std::string& name) {
 
 /// The case alone, for as long as it says.
 int simulate_alone(const Problem& problem, const CommonOptions& options) {
-  const Case& the_case = problem.the_case();
-  const Eigen::VectorXd x = problem.start();
   std::vector<std::string> names = motion_file_names(problem);
   names.emplace_back("result.json");
   OutputFolder output(output_folder(options), names);
-  const Motion motion = simulate_motion(
-      problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
-      output_times(the_case.simulation), the_case.simulation,
-      read_signals(the_case.signals, problem.model(), the_case.file.string()), keep_going);
+  const Motion motion = motion_alone(problem, problem.start(), keep_going);
   if (!succeeded(motion.simulation, "simulation"))
     return report_interruption("nothing was written");
   OutputFiles files;
@@ -94,10 +78,6 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
 int simulate_case(const CommonOptions& options) {
   watch_for_interruption();
   Case the_case = read_case(options.case_file);
-  if (the_case.experiments.empty() && std::isnan(the_case.simulation.duration))
-    throw InputError(
-        the_case.file.string() +
-        ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
   const Model model = model_of(the_case, options);
   const Problem problem(std::move(the_case), model);
   show_warnings(problem, options);

@@ -218,7 +218,8 @@ void leave_out_outliers(Recording& recording, const ExperimentSpec& experiment, 
     if (i >= kNamed) continue;
     const auto frame = static_cast<std::size_t>(outlier.frame);
     named += (i ? ", " : "") + recording.points[static_cast<std::size_t>(outlier.point)].name +
-             " at " + number_text(recording.time[frame]) + " s (line " +
+             " at " + number_text(recording.time[frame]) +
+             (experiment.table ? " s (row " : " s (line ") +
              std::to_string(table.lines[rows[frame]]) + ", off by " +
              number_text(std::round(1e4 * outlier.size) / 10) + (angles ? " mrad)" : " mm)");
   }
@@ -231,8 +232,9 @@ void leave_out_outliers(Recording& recording, const ExperimentSpec& experiment, 
 }  // namespace
 
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
-  const Table table =
-      import_tracker_table(experiment.source, experiment.data, experiment.likelihood_floor);
+  const Table table = experiment.table ? *experiment.table
+                                       : import_tracker_table(experiment.source, experiment.data,
+                                                              experiment.likelihood_floor);
   Recording recording;
   recording.points = experiment.points.empty()
                          ? default_points(experiment, table, links, cable_length)

@@ -29,7 +29,7 @@ struct Recording {
   std::vector<std::string> warnings;  ///< e.g. motion out of the plane
 };
 
-/// Reads the data of an experiment with a cable of `links` links and length `cable_length` (m;
+/// Reads the data of an experiment, from its file or from the table handed in, with a cable of `links` links and length `cable_length` (m;
 /// default markers are spread evenly over it). Throws InputError naming file, line or column.
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length);
 

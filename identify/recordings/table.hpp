@@ -8,12 +8,13 @@
 
 namespace catena {
 
-/// Columns of numbers under their names, from a CSV file. An empty field is NaN, and so is "NaN".
+/// Columns of numbers under their names, from a CSV file or handed in. An empty field is NaN, and so
+/// is "NaN".
 struct Table {
   std::string file;
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
-  std::vector<int> lines;  ///< of the file, one per row
+  std::vector<int> lines;  ///< of the file, one per row; of what is handed in, the rows from 0
 
   std::size_t rows() const { return lines.size(); }
   bool has(std::string_view name) const;

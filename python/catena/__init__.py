@@ -39,6 +39,23 @@ from ._core import (
 )
 from ._core import __version__ as __version__
 
+
+def show_progress(*now: object) -> None:
+    """Shows how far identify or diagnose is, in one line, in a notebook or a terminal.
+
+    Pass it as their argument `progress`.
+    """
+    if len(now) == 3:
+        line = f"evaluation {now[0]} of at most {now[1]}, error {now[2]:.6g}"
+    else:
+        line = str(now[0])
+    global _shown
+    print("\r" + line.ljust(_shown), end="", flush=True)
+    _shown = len(line)
+
+
+_shown = 0  # letters of the line that is overwritten
+
 __all__ = [
     "AdjointSimulation",
     "Case",
@@ -64,6 +81,7 @@ __all__ = [
     "from_angles",
     "internal_forces",
     "positions",
+    "show_progress",
     "simulate",
     "simulate_batch",
     "simulate_with_gradient",

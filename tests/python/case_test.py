@@ -12,7 +12,7 @@ import numpy as np
 CASE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "first_cable" / "case.toml"
 
 
-class Studies(unittest.TestCase):
+class Cases(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.case = catena.Case(CASE)

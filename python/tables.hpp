@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "identify/cases/case_reader.hpp"
+
+namespace catena::python {
+
+/// Recordings of a dict, by the name of their experiment. Each is a DataFrame, a dict of columns or a
+/// structured array, with the columns that the file would have; or an array of numbers whose rows are
+/// frames: the time, then side and down of every marker. Throws std::invalid_argument for anything else.
+HandedIn tables_of(const pybind11::dict& recordings);
+
+/// The recording of one experiment.
+std::shared_ptr<const Table> table_of(const std::string& experiment, std::vector<std::string> names,
+                                      std::vector<std::vector<double>> columns);
+
+}  // namespace catena::python
