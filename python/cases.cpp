@@ -138,7 +138,7 @@ struct LoadedCase {
     Motion motion;
     {
       py::gil_scoped_release unlock;
-      const auto keep_going = [&check] { return check(); };
+      const auto keep_going = [&check](double) { return check(); };
       motion =
           of < 0 ? motion_alone(*problem, at, keep_going) : motion_of(*problem, at, of, keep_going);
     }

@@ -102,8 +102,8 @@ HandedIn tables_of(const py::dict& recordings) {
     const std::string name = py::str(key);
     const auto recording = py::reinterpret_borrow<py::object>(value);
     std::vector<std::string> names = names_of(recording);
-    Columns columns = names.empty() ? columns_of(recording, name, names)
-                                    : named_columns(recording, name, names);
+    Columns columns =
+        names.empty() ? columns_of(recording, name, names) : named_columns(recording, name, names);
     tables[name] = table_of(name, std::move(names), std::move(columns));
   }
   return tables;

@@ -24,11 +24,11 @@ std::vector<double> output_times(const SimulationSpec& settings) {
 
 Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                        const std::vector<double>& times, const SimulationSpec& settings,
-                       const Signals& signals, const std::function<bool()>& keep_going) {
+                       const Signals& signals, const std::function<bool(double)>& keep_going) {
   SimulationOptions options = simulation_options(settings);
   // A model for fits has neither energies nor internal forces.
   options.energy = options.energy && model.energies() > 0;
-  if (keep_going) options.keep_going = [&](double) { return keep_going(); };
+  if (keep_going) options.keep_going = keep_going;
   Motion motion;
   motion.simulation = simulate(model, parameters, initial, times, options, signals);
   const Trajectory& path = motion.simulation.trajectory;
@@ -47,7 +47,7 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
 }
 
 Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
-                    const std::function<bool()>& keep_going) {
+                    const std::function<bool(double)>& keep_going) {
   const Case& the_case = problem.the_case();
   if (std::isnan(the_case.simulation.duration))
     throw InputError(
@@ -60,7 +60,7 @@ Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
 }
 
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
-                 const std::function<bool()>& keep_going) {
+                 const std::function<bool(double)>& keep_going) {
   const Experiment& chosen = problem.experiments()[static_cast<std::size_t>(experiment)];
   std::vector<double> times = {chosen.spec.start};
   for (const double t : chosen.recording.time)
@@ -70,8 +70,7 @@ Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experimen
                          chosen.signals, keep_going);
 }
 
-SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment,
-                     const std::function<bool()>& keep_going) {
+SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment) {
   const Model& model = problem.model();
   Experiment watched = problem.experiments()[static_cast<std::size_t>(experiment)];
   const bool angles = watched.recording.channels.front().component == Component::kAngle;
@@ -99,7 +98,7 @@ SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int exper
   const Eigen::VectorXd parameters = problem.model_parameters(x, experiment);
   const Eigen::MatrixXd reported =
       predict_experiment(model, problem.the_case().simulation, watched, parameters,
-                         problem.initial_state(x, experiment), true, {}, keep_going)
+                         problem.initial_state(x, experiment), true, {}, {})
           .simulated;
   SeenChain seen{watched.recording.time, {}, {}};
   if (!angles) {

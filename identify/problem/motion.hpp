@@ -27,30 +27,29 @@ struct SeenChain {
 /// Simulates a model, energies included.
 ///
 /// `parameters`: the model's array. `initial`: the state at times[0]. `times`: s, increasing.
-/// `keep_going`: asked at every step; false ends the simulation. Throws std::invalid_argument for
+/// `keep_going`: asked at every step with its time (s); false ends the simulation. Throws std::invalid_argument for
 /// sizes that do not fit the model and for values outside its bounds. A simulation that fails says
 /// so in its status and has the times before the failure.
 Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                        const std::vector<double>& times, const SimulationSpec& settings,
-                       const Signals& signals, const std::function<bool()>& keep_going = {});
+                       const Signals& signals, const std::function<bool(double)>& keep_going = {});
 
 /// The motion of a case without a recording, as its file says; x: its unknowns. Throws InputError where
 /// the case does not say for how long, and what simulate_motion throws.
 Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
-                    const std::function<bool()>& keep_going = {});
+                    const std::function<bool(double)>& keep_going = {});
 
 /// The motion of one experiment (an index into problem.experiments()) with the unknowns x, from its
 /// start on, at its frames. Throws what simulate_motion throws, and ImpossibleValue where x gives
 /// the experiment no start.
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
-                 const std::function<bool()>& keep_going = {});
+                 const std::function<bool(double)>& keep_going = {});
 
 /// What the sensors of one experiment (an index into problem.experiments()) report of the whole
 /// chain with the unknowns x: with their clock, tilt, scale, origin and offsets, to be laid over
 /// what was measured. Of markers: both ends of every link, then the load. Of angles: the chain of
 /// links with the angles reported, from the support. NaN where the simulation failed. Throws as
 /// motion_of.
-SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment,
-                     const std::function<bool()>& keep_going = {});
+SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment);
 
 }  // namespace catena

@@ -9,6 +9,7 @@
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
+#include "identify/program/progress.hpp"
 #include "identify/results/csv_tables.hpp"
 
 namespace catena {
@@ -64,6 +65,7 @@ Model model_of(const Case& the_case, const CommonOptions& options) {
   provider.stop = &interrupted();
   if (!options.quiet)
     provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
+  const Waiting waiting(!options.quiet, [] { return std::string("preparing the model"); });
   return provide_model(the_case.description, the_case.links, provider);
 }
 

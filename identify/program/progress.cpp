@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <utility>
 
 namespace catena {
 
@@ -33,6 +34,29 @@ void ProgressLine::show(double share, const std::string& text) {
   if (share > 0) line += fmt::format(", at most {:.0f} s left", seconds * (1 - share) / share);
   std::cerr << line << std::flush;
   written_ = true;
+}
+
+Waiting::Waiting(bool wanted, std::function<std::string()> text) : line_(wanted) {
+  if (!line_.is_shown()) return;
+  thread_ = std::thread([this, text = std::move(text)] {
+    const auto begin = std::chrono::steady_clock::now();
+    std::unique_lock lock(mutex_);
+    auto next = std::chrono::milliseconds(1000);
+    while (!over_.wait_until(lock, begin + next, [this] { return is_over_; })) {
+      line_.show(0,
+                 fmt::format("{}, {:.0f} s", text(), std::chrono::duration<double>(next).count()));
+      next += std::chrono::milliseconds(500);
+    }
+  });
+}
+
+Waiting::~Waiting() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  over_.notify_all();
+  if (thread_.joinable()) thread_.join();
 }
 
 }  // namespace catena

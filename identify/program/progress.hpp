@@ -2,8 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace catena {
 
@@ -11,6 +14,7 @@ namespace catena {
 class ProgressLine {
  public:
   explicit ProgressLine(bool wanted);
+  bool is_shown() const { return shown_; }
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -29,6 +33,23 @@ class ProgressLine {
   bool written_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_;
+};
+
+/// Says on a terminal what is being waited for, from the second second on, and how long it has been.
+class Waiting {
+ public:
+  /// `text`: what is going on; asked for every half second, in a thread of its own.
+  Waiting(bool wanted, std::function<std::string()> text);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  ProgressLine line_;
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool is_over_ = false;
+  std::thread thread_;
 };
 
 }  // namespace catena

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cmath>
 #include <iostream>
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"
 #include "identify/results/result_writer.hpp"
@@ -14,7 +17,30 @@
 namespace catena {
 namespace {
 
-bool keep_going() { return !interrupted(); }
+/// The time that a simulation has come to, for whoever waits.
+class Watch {
+ public:
+  Watch(const CommonOptions& options, double end)
+      : end_(end), waiting_(!options.quiet, [this] { return text(); }) {}
+
+  std::function<bool(double)> keep_going() {
+    return [this](double time) {
+      time_ = time;
+      return !interrupted();
+    };
+  }
+
+ private:
+  std::string text() const {
+    const double time = time_;
+    return std::isnan(time) ? "simulating"
+                            : fmt::format("simulating, at {:.3g} s of {:.4g} s", time, end_);
+  }
+
+  std::atomic<double> time_ = kNotGiven;
+  double end_;
+  Waiting waiting_;
+};
 
 /// Throws where the simulation failed; false where it was interrupted.
 bool succeeded(const Simulation& simulation, const std::string& name) {
@@ -29,7 +55,10 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
   std::vector<std::string> names = motion_file_names(problem);
   names.emplace_back("result.json");
   OutputFolder output(output_folder(options), names);
-  const Motion motion = motion_alone(problem, problem.start(), keep_going);
+  const Motion motion = [&] {
+    Watch watch(options, problem.the_case().simulation.duration);
+    return motion_alone(problem, problem.start(), watch.keep_going());
+  }();
   if (!succeeded(motion.simulation, "simulation"))
     return report_interruption("nothing was written");
   OutputFiles files;
@@ -51,15 +80,21 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
   std::vector<std::string> names = motion_file_names(problem);
   names.insert(names.end(), {"result.json", "residuals.csv"});
   OutputFolder output(output_folder(options), names);
-  const Evaluation evaluation = evaluate(problem, x, true, false, keep_going);
+  const Evaluation evaluation = [&] {
+    const Waiting waiting(!options.quiet, [] { return std::string("comparing with the data"); });
+    return evaluate(problem, x, true, false, [] { return !interrupted(); });
+  }();
   if (interrupted()) return report_interruption("nothing was written");
   if (!evaluation.ok) throw std::runtime_error(evaluation.message);
   OutputFiles files;
   std::vector<Motion> motions;
   for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e) {
-    motions.push_back(motion_of(problem, x, e, keep_going));
-    if (!succeeded(motions.back().simulation,
-                   problem.experiments()[static_cast<std::size_t>(e)].spec.name))
+    const Experiment& experiment = problem.experiments()[static_cast<std::size_t>(e)];
+    motions.push_back([&] {
+      Watch watch(options, experiment.recording.time.back());
+      return motion_of(problem, x, e, watch.keep_going());
+    }());
+    if (!succeeded(motions.back().simulation, experiment.spec.name))
       return report_interruption("nothing was written");
     std::cerr << energy_warning(motions.back().simulation);
     add_motion_files(problem, e, motions.back(), files);
