@@ -2,10 +2,14 @@
 #include "common/command_line.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <iostream>
+#include <new>
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
@@ -33,7 +37,24 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
+const char* ending_program;
+std::terminate_handler usual_end;
+std::atomic<bool> memory_was_short = false;
+
 }  // namespace
+
+void end_where_memory_is_short(const char* program) {
+  ending_program = program;
+  std::set_new_handler([] {
+    memory_was_short = true;
+    throw std::bad_alloc();
+  });
+  usual_end = std::set_terminate([] {
+    if (!memory_was_short) usual_end();
+    std::fprintf(stderr, "%s: not enough memory\n", ending_program);
+    std::_Exit(1);
+  });
+}
 
 int status_of(const CLI::App& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return program.exit(error);

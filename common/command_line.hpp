@@ -19,6 +19,10 @@ int status_of(const CLI::App& program, const CLI::ParseError& error);
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 
+/// Some functions of libraries that must not throw ask for memory: where there is none, the program
+/// ends with status 1 and says so, instead of by a signal.
+void end_where_memory_is_short(const char* program);
+
 /// To be asked last: `status`, or 1 after a message on standard error where something that was
 /// printed could not be written (a full disk).
 int status_after_output(const char* program, int status);

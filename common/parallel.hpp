@@ -5,15 +5,14 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace catena {
 
 /// Calls work(0) .. work(count - 1), each once, on up to `threads` threads, the caller's among
-/// them; on fewer where the system gives no more. No two calls may write the same data. After an exception no further call begins; the first
-/// one is thrown again when all threads have ended.
+/// them; on fewer where the system gives no more. No two calls may write the same data. After an
+/// exception no further call begins; the first one is thrown again when all threads have ended.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
@@ -33,7 +32,7 @@ void in_parallel(std::size_t count, int threads, const Work& work) {
   try {
     for (int t = 1; t < threads && static_cast<std::size_t>(t) < count; ++t)
       helpers.emplace_back(run);
-  } catch (const std::system_error&) {  // too many threads or too little memory for one more
+  } catch (const std::exception&) {  // too many threads or too little memory for one more
   }
   run();
   for (std::thread& helper : helpers) helper.join();

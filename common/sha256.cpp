@@ -6,8 +6,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <fstream>
-#include <sstream>
+
+#include "common/whole_file.hpp"
 
 namespace catena {
 namespace {
@@ -82,10 +82,7 @@ std::string sha256_hex(std::string_view message) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return sha256_hex(bytes.str());
+  return sha256_hex(bytes_of_file(file));
 }
 
 }  // namespace catena

@@ -10,7 +10,7 @@ namespace catena {
 /// SHA-256 (FIPS 180-4) of the bytes of `text`, 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view text);
 
-/// The same of what a file holds; of nothing where it cannot be read.
+/// The same of what a file holds. Throws std::filesystem::filesystem_error if it cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace catena

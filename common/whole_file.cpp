@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/whole_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "common/input_error.hpp"
@@ -90,6 +92,27 @@ void require_utf8(std::string_view text, const std::string& what) {
   }
 }
 
+std::string bytes_of_file(const std::filesystem::path& path) {
+  // A stream does not tell a failure to read from the end of the file.
+  const auto fail = [&] {
+    const std::error_code error(errno, std::generic_category());
+    throw std::filesystem::filesystem_error("cannot be read", path, error);
+  };
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail();
+  const std::unique_ptr<const int, void (*)(const int*)> closed(&file,
+                                                                [](const int* f) { close(*f); });
+  std::string bytes;
+  std::array<char, 1 << 16> buffer;
+  for (ssize_t got; (got = read(file, buffer.data(), buffer.size())) != 0;) {
+    if (got > 0)
+      bytes.append(buffer.data(), static_cast<std::size_t>(got));
+    else if (errno != EINTR)
+      fail();
+  }
+  return bytes;
+}
+
 std::string read_whole_file(const std::filesystem::path& path) {
   if (auto known = remembered(path)) return *std::move(known);
   std::error_code error;
@@ -97,11 +120,13 @@ std::string read_whole_file(const std::filesystem::path& path) {
     throw InputError(path.string() + ": there is no such file");
   if (std::filesystem::is_directory(path, error))
     throw InputError(path.string() + ": is a folder; give the path of a file");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream) throw InputError(path.string() + ": cannot be read; check its permissions");
-  std::string text = bytes.str();
+  std::string text;
+  try {
+    text = bytes_of_file(path);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw InputError(path.string() + ": cannot be read (" + failure.code().message() +
+                     "); check its permissions");
+  }
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   require_utf8(text, path.string());
   const std::scoped_lock lock(texts().mutex);

@@ -7,6 +7,10 @@
 
 namespace catena {
 
+/// The bytes of a file as they are. Throws std::filesystem::filesystem_error naming the path if they
+/// cannot be read, all of them.
+std::string bytes_of_file(const std::filesystem::path& path);
+
 /// The text of a file (UTF-8; a byte order mark is left out). Throws InputError naming the path if
 /// it is missing, a folder or cannot be read, and the line where a byte is not UTF-8.
 std::string read_whole_file(const std::filesystem::path& path);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <new>
 
 #include "common/number_text.hpp"
 
@@ -11,10 +11,6 @@ namespace catena {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-void require(int flag, const char* call) {
-  if (flag < 0) throw std::logic_error(std::string(call) + ": " + CVodeGetReturnFlagName(flag));
-}
 
 }  // namespace
 
@@ -85,11 +81,13 @@ void AdjointSolver::run(const std::vector<double>& times, const Trajectory& slop
     double t = times[k - 1];
     if (flag >= 0) flag = CVodeGetB(cvodes_, which_, &t, lambda_.get());
     if (flag >= 0) flag = CVodeGetQuadB(cvodes_, which_, &t, integral_.get());
+    if (flag == CV_MEM_FAIL) throw std::bad_alloc();
     if (flag < 0) {
       result.status = Status::kStepFailure;
       result.message =
           "the adjoint equations cannot be integrated from t = " + number_text(times[k]) +
-          " s back to " + number_text(times[k - 1]) + " s (" + CVodeGetReturnFlagName(flag) + ")";
+          " s back to " + number_text(times[k - 1]) + " s (status " + std::to_string(flag) +
+          " of CVODES)";
       return;
     }
     if (options_.keep_going && !options_.keep_going(times[k - 1])) {

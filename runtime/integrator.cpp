@@ -34,11 +34,6 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// CVODES reports the arguments we give it; a refusal is an error of this program.
-void require(int flag, const char* call) {
-  if (flag < 0) throw std::logic_error(std::string(call) + ": " + CVodeGetReturnFlagName(flag));
-}
-
 SUNContext new_context() {
   SUNContext context = nullptr;
   if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
@@ -67,6 +62,12 @@ void resize(const Model& model, std::size_t count, Trajectory& trajectory) {
 }
 
 }  // namespace
+
+void require(int flag, const char* call) {
+  if (flag == CV_MEM_FAIL) throw std::bad_alloc();
+  // Its name is not asked for: where memory is short, CVODES writes names to a null pointer.
+  if (flag < 0) throw std::logic_error(std::string(call) + ": status " + std::to_string(flag));
+}
 
 Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                        double start, const SimulationOptions& options, const Signals& signals,
@@ -263,6 +264,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
     if (step == 1 && !directions_.empty() && options_.sensitivities_in_error_test)
       require(CVodeSetSensErrCon(cvodes_.get(), SUNTRUE), "CVodeSetSensErrCon");
     const int flag = this->step(step, sight, t);
+    if (flag == CV_MEM_FAIL) throw std::bad_alloc();
     if (flag < 0) {
       explain(flag, reached, result);
       break;

@@ -30,6 +30,10 @@ using SunContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, SunC
 using NVectorHandle = std::unique_ptr<_generic_N_Vector, NVectorDeleter>;
 using CvodesHandle = std::unique_ptr<void, CvodesDeleter>;
 
+/// CVODES reports the arguments that we give it. Throws std::bad_alloc where it lacks memory, and
+/// std::logic_error for all else, which is an error of this program.
+void require(int flag, const char* call);
+
 /// One run of CVODES on one model, from the initial state through all output times.
 class Integrator {
  public:

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +10,7 @@
 #include <vector>
 
 #include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 #include "generator/checking/comparison.hpp"
 #include "generator/checking/evaluator.hpp"
 #include "generator/checking/findings_text.hpp"
@@ -31,11 +29,11 @@ struct CheckOptions {
 };
 
 std::string contents_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad())
-    throw InputError(file + ": error: cannot be read: " + std::strerror(errno));
-  return text;
+  try {
+    return bytes_of_file(file);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw InputError(file + ": error: cannot be read: " + failure.code().message());
+  }
 }
 
 /// 0 if every entry is equal, 1 if one is different or undecided.

@@ -4,6 +4,7 @@
 // failed or a difference was found; 2: wrong usage or input.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
@@ -30,6 +31,9 @@ int run(int argc, char** argv) {
   } catch (const catena::InputError& error) {
     std::fprintf(stderr, "catena-derive: %s\n", error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "catena-derive: not enough memory\n");
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "catena-derive: %s\n", error.what());
     return 1;
@@ -40,5 +44,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  catena::end_where_memory_is_short("catena-derive");
   return catena::status_after_output("catena-derive", run(argc, argv));
 }

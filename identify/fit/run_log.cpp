@@ -10,13 +10,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "common/sha256.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 namespace {
@@ -73,9 +73,7 @@ RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool r
     : name_(file.string()), notice_(std::move(notice)) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  const std::string before = text.str();
+  const std::string before = std::filesystem::exists(file) ? bytes_of_file(file) : "";
   if (!before.starts_with(kOurs) && !std::string_view(kOurs).starts_with(before))
     throw InputError(name_ + ": is no log of catena; move it away or choose another folder");
   const std::size_t whole = resume ? read(before, key) : 0;

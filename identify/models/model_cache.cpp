@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -34,9 +33,11 @@ const char* environment(const char* name) {
 
 /// Whether an entry holds what was written when it was made.
 bool is_whole(const fs::path& entry) {
-  std::ifstream in(entry / kChecksum);
-  std::string written;
-  return in >> written && written == sha256_of_file(entry / kLibrary);
+  try {
+    return bytes_of_file(entry / kChecksum) == sha256_of_file(entry / kLibrary) + "\n";
+  } catch (const fs::filesystem_error&) {
+    return false;  // it will be made again
+  }
 }
 
 /// Puts a file or folder on the disk before it gets its name: a crash leaves no half entry.
@@ -113,7 +114,9 @@ void require_trusted(const fs::path& cache) {
 
 fs::path ModelCache::default_folder() {
   if (const char* chosen = environment("CATENA_CACHE")) return chosen;
-  if (const char* base = environment("XDG_CACHE_HOME")) return fs::path(base) / "catena";
+  // The specification of this variable wants relative paths to be ignored.
+  if (const char* base = environment("XDG_CACHE_HOME"); base && fs::path(base).is_absolute())
+    return fs::path(base) / "catena";
   if (const char* home = environment("HOME")) return fs::path(home) / ".cache" / "catena";
   const passwd* account = getpwuid(geteuid());
   if (!account || !account->pw_dir || !*account->pw_dir)

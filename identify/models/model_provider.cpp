@@ -128,12 +128,8 @@ void derive_model(const Description& description, int links, const fs::path& fol
 }
 
 std::string derived_equations(const fs::path& description, int links) {
-  try {
-    return run_derivation(find_derive_program(), description_in(description), links,
-                          {"--equations"}, "deriving the equations");
-  } catch (const ModelError&) {
-    return {};
-  }
+  return run_derivation(find_derive_program(), description_in(description), links, {"--equations"},
+                        "deriving the equations");
 }
 
 Model provide_model(const fs::path& description_file, int links, const ProviderOptions& options) {
@@ -155,6 +151,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
     return without_compiling("catena-derive");
   const fs::path derive =
       options.derive_program.empty() ? find_derive_program() : options.derive_program;
+  if (!can_run(derive)) throw ModelError(derive.string() + ": is no program that can be run");
   std::string compiler = options.compiler;
   if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
   std::vector<std::string> flags = {

@@ -36,7 +36,7 @@ Model provide_model(const std::filesystem::path& description, int links,
                     const ProviderOptions& options = {});
 
 /// The equations of the model with `links` links, at most 3, as `catena-derive derive --equations`
-/// prints them (JSON). Empty if there is no catena-derive.
+/// prints them (JSON). Throws as provide_model.
 std::string derived_equations(const std::filesystem::path& description, int links);
 
 /// Writes the emitted code of a model into `folder`, which is made. Throws InputError and ModelError

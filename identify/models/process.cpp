@@ -28,13 +28,14 @@ std::vector<char*> argument_array(const std::vector<std::string>& command) {
   return arguments;
 }
 
-[[noreturn]] void fail(const std::string& program, int error) {
-  throw std::runtime_error(program + ": cannot be run: " + std::strerror(error));
+[[noreturn]] void fail(const std::string& program, int error, const char* what = "cannot be run") {
+  throw std::runtime_error(program + ": " + what + ": " + std::strerror(error));
 }
 
 /// A pipe whose ends are closed with it.
 struct Pipe {
   std::array<int, 2> ends{-1, -1};
+  int error = 0;  ///< of reading
 
   explicit Pipe(const std::string& program) {
     if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(program, errno);
@@ -53,7 +54,8 @@ struct Pipe {
     std::array<char, 4096> buffer;
     const ssize_t got = read(ends[0], buffer.data(), buffer.size());
     if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (got == 0 || (got < 0 && errno != EINTR)) close_end(0);
+    if (got < 0 && errno != EINTR) error = errno;
+    if (got == 0 || error != 0) close_end(0);
   }
 };
 
@@ -107,6 +109,8 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::at
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  for (const int failed : {output.error, errors.error})
+    if (failed != 0) fail(command.front(), failed, "what it says cannot be read");
   return ended(status);
 }
 

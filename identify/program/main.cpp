@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   using namespace catena;
   int status = kExitFailed;
   signal(SIGXFSZ, SIG_IGN);  // beyond a limit, writing fails as on a full disk
+  end_where_memory_is_short("catena");
   try {
     status = run(argc, argv);
   } catch (const InputError& error) {

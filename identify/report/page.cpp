@@ -114,6 +114,7 @@ std::string to_html(const Document& document, const std::vector<ReportFigure>& f
                     element("h2", {{"id", heading}}, section.heading) + section.content);
   }
   const std::string script = asset_script();
+  static const std::string script_hash = base64_of_hex(sha256_hex(script));
   const std::string title = result.title.empty() ? "catena " + result.command : result.title;
   return filled(asset_page(), {{"title", Html(title).str()},
                                {"command", Html(result.command).str()},
@@ -122,7 +123,7 @@ std::string to_html(const Document& document, const std::vector<ReportFigure>& f
                                {"sections", body.str()},
                                {"data", safe_in_script(payload(document, figures, kMostPoints))},
                                {"script", script},
-                               {"script_hash", base64_of_hex(sha256_hex(script))}});
+                               {"script_hash", script_hash}});
 }
 
 }  // namespace catena::report

@@ -411,7 +411,11 @@ Html equations_section(const Result& result) {
   if (!result.model) return html;
   const ModelEntry& model = *result.model;
   for (const EffectEntry& effect : model.effects) html += group_html(formulas_of(effect));
-  if (!model.derived) return html;
+  if (!model.derived)
+    return model.not_derived.empty()
+               ? html
+               : html +
+                     element("p", {}, "The equations could not be derived: " + model.not_derived);
   Html derived;
   for (const DerivedEquation& equation : model.derived->equations)
     derived += formula_html(equation.title, equation.latex);

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/input_error.hpp"
@@ -118,7 +118,8 @@ void OutputFolder::recover() {
 
 OutputFolder::Manifest OutputFolder::manifest_in(const fs::path& folder) {
   Manifest manifest;
-  std::ifstream in(folder / kManifest);
+  if (!fs::exists(folder / kManifest)) return manifest;
+  std::istringstream in(bytes_of_file(folder / kManifest));
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.size() < 67 || line.compare(64, 2, "  ") != 0 ||

@@ -204,6 +204,7 @@ struct ModelEntry {
   std::string description_hash;
   double load_mass = kAbsent;  ///< kg
   std::optional<Derived> derived;
+  std::string not_derived;  ///< why `derived` is not there
   std::vector<EffectEntry> effects;
   std::string description;
 };

@@ -190,6 +190,7 @@ void fields(auto& archive, Is<ModelEntry> auto& model) {
   archive("description_hash", model.description_hash);
   archive("load_mass", model.load_mass);
   archive.optional("derived", model.derived);
+  archive.optional("not_derived", model.not_derived);
   archive("effects", model.effects);
   archive.optional("description", model.description);
 }

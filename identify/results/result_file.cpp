@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "common/input_error.hpp"
 #include "common/nesting.hpp"
+#include "common/whole_file.hpp"
 #include "identify/results/result_fields.hpp"
 
 namespace catena::results {
@@ -258,15 +258,17 @@ class Reader {
 };
 
 Json parsed(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) {
+  std::string text;
+  try {
+    text = bytes_of_file(file);
+  } catch (const std::filesystem::filesystem_error& failure) {
     throw InputError(
-        fmt::format("{}: cannot be opened; give a result.json, diagnosis.json or links_study.json, "
-                    "or its folder",
-                    file.string()));
+        fmt::format("{}: cannot be read ({}); give a result.json, diagnosis.json or "
+                    "links_study.json, or its folder",
+                    file.string(), failure.code().message()));
   }
   try {
-    return Json::parse(stream, [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+    return Json::parse(text, [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
       if (depth > kDeepestNesting)
         throw InputError(
             fmt::format("{}: lists and tables nested more than {} deep; catena writes no such file",

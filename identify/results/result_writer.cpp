@@ -41,8 +41,12 @@ results::Result result_for(const Problem& problem, const char* command) {
   model.links = problem.model().links();
   model.description_hash = problem.model().table().description_hash;
   model.load_mass = the_case.cable.load_mass;
-  const std::string derived = derived_equations(the_case.description, problem.model().links());
-  if (!derived.empty()) model.derived = results::read_derived(derived);
+  try {
+    model.derived =
+        results::read_derived(derived_equations(the_case.description, problem.model().links()));
+  } catch (const std::exception& error) {  // no reason to lose what was computed
+    model.not_derived = error.what();
+  }
   if (!the_case.description.empty()) {
     model.description = read_whole_file(the_case.description);
     for (const Effect& effect : read_description(the_case.description).effects)

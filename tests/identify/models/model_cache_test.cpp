@@ -117,6 +117,8 @@ TEST_CASE("without HOME the cache is not in the temporary folder") {
   CHECK(folder.string().find(fs::temp_directory_path().string()) == std::string::npos);
   setenv("XDG_CACHE_HOME", "/x", 1);
   CHECK(ModelCache::default_folder() == "/x/catena");
+  setenv("XDG_CACHE_HOME", "relative", 1);
+  CHECK(ModelCache::default_folder() == folder);
   unsetenv("XDG_CACHE_HOME");
   for (const auto& [name, value] : before) setenv(name, value.c_str(), 1);
 }

@@ -123,7 +123,7 @@ TEST_CASE("a file that cannot be read says where and why") {
   }
   const testing::TemporaryFolder folder;
   CHECK_THROWS_WITH_AS(read_document(folder.path() / "none.json"),
-                       doctest::Contains("cannot be opened"), InputError);
+                       doctest::Contains("cannot be read"), InputError);
   std::ofstream(folder.path() / "half.json") << "{\"format\": 1, ";
   CHECK_THROWS_WITH_AS(read_document(folder.path() / "half.json"), doctest::Contains("not JSON"),
                        InputError);
