@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.sha256";
+constexpr const char* kRoom = "room";  // a try: a run that is killed leaves no manifest by it
 constexpr const char* kUnfinished = "unfinished-";
 /// The smallest results take as much: a disk that is full now is found before work begins.
 constexpr std::size_t kFewestBytes = 64 << 10;
@@ -74,8 +75,8 @@ OutputFolder::OutputFolder(const fs::path& folder, const std::vector<std::string
     recover();
     check(names);
     work_.emplace(path_, kUnfinished);
-    write_whole_file(work_->path() / kManifest, std::string(kFewestBytes, ' '));
-    fs::remove(work_->path() / kManifest);
+    write_whole_file(work_->path() / kRoom, std::string(kFewestBytes, ' '));
+    fs::remove(work_->path() / kRoom);
   } catch (const std::exception& error) {
     refuse(path_, error.what());
   }
