@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/cases/case_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <map>
