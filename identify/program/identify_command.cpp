@@ -9,6 +9,7 @@
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
+#include "common/most_links.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
 #include "identify/cases/case_reader.hpp"
@@ -29,6 +30,11 @@
 
 namespace catena {
 namespace {
+
+/// More refits do not make an interval surer: its ends are then known to 2 % of a standard error.
+constexpr int kMostRefits = 100'000;
+/// More than any machine has; a thread costs memory.
+constexpr int kMostThreads = 1024;
 
 struct IdentifyOptions : CommonOptions {
   double time_limit = 0;
@@ -128,12 +134,12 @@ void complete(const Problem& problem, const IdentifyOptions& options, Identifica
     return;  // sensitivities that fail leave the estimates without errors
   }
   if (options.profiles && !interrupted())
-    found.profiles =
-        profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares, options.threads);
+    found.profiles = profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares,
+                                 options.threads, &interrupted());
   if (options.bootstrap > 0 && !interrupted())
     found.bootstrap =
         bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares, options.bootstrap,
-                  problem.the_case().optimiser.seed, options.threads);
+                  problem.the_case().optimiser.seed, options.threads, &interrupted());
 }
 
 /// How well joined windows meet: nothing to say where none are joined.
@@ -246,13 +252,15 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   add_common_options(*command, options);
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
-  command->add_option("--bootstrap", options.bootstrap, "so many refits of resampled residuals")
-      ->check(non_negative_number());
+  command
+      ->add_option("--bootstrap", options.bootstrap,
+                   "so many refits of resampled residuals; at most 100000")
+      ->check(CLI::Range(0, kMostRefits));
   command
       ->add_option("--links-study", options.links_study,
                    "refit with these numbers of links: 6,12,24")
       ->delimiter(',')
-      ->check(positive_number());
+      ->check(CLI::Range(2, kMostLinks));
   command
       ->add_option("--error-budget", options.error_budget,
                    "so much above its least error will do; 0.05")
@@ -264,7 +272,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       ->check(positive_number());
   command
       ->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
-      ->check(positive_number());
+      ->check(CLI::Range(1, kMostThreads));
   command->callback([&exit_status] { exit_status = identify_case(options); });
 }
 

@@ -30,11 +30,13 @@ MatrixXd drawn_again(const MatrixXd& residuals, Index block, std::mt19937_64& ge
 }  // namespace
 
 MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertainty& uncertainty,
-                   const LeastSquares& least_squares, int count, unsigned seed, int threads) {
+                   const LeastSquares& least_squares, int count, unsigned seed, int threads,
+                   const std::atomic<bool>* stop) {
   const Evaluation best = evaluate(problem, fit.x, false, false);
   const double rho = std::clamp(uncertainty.autocorrelation, 0.0, 0.97);
   MatrixXd rows(count, fit.x.size());
   in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
+    if (stop && *stop) return;
     std::mt19937_64 generator(seed + 1'000'003ULL * (row + 1));
     std::vector<Experiment> experiments = problem.experiments();
     for (std::size_t e = 0; e < experiments.size(); ++e) {
@@ -51,9 +53,11 @@ MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertain
     }
     FitOptions options;
     options.start = fit.x;
+    options.stop = stop;
     const Problem again(problem.the_case(), problem.model(), std::move(experiments));
     rows.row(static_cast<Index>(row)) = least_squares(again, options).x.transpose();
   });
+  if (stop && *stop) rows.resize(0, rows.cols());
   return rows;
 }
 

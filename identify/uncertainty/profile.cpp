@@ -42,7 +42,7 @@ Problem held_at(const Problem& problem, int unknown, double value) {
 
 /// The same, at the best the others can do; infinite if it failed.
 double best_square(const Problem& problem, int unknown, double value, VectorXd& rest,
-                   const LeastSquares& least_squares) {
+                   const LeastSquares& least_squares, const std::atomic<bool>* stop) {
   const Problem held = held_at(problem, unknown, value);
   const auto square_at = [&](const VectorXd& x) {
     const Evaluation evaluation = evaluate(held, x, false, false);
@@ -53,6 +53,7 @@ double best_square(const Problem& problem, int unknown, double value, VectorXd& 
   if (rest.size() == 0) return square_at(rest);
   FitOptions options;
   options.start = rest;
+  options.stop = stop;
   const FitResult fit = least_squares(held, options);
   rest = fit.x;
   return square_at(rest);
@@ -72,7 +73,7 @@ double moved(const Unknown& unknown, double best, const Estimate& estimate, doub
 
 std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
                                  const Uncertainty& uncertainty, const LeastSquares& least_squares,
-                                 int threads) {
+                                 int threads, const std::atomic<bool>* stop) {
   std::vector<int> chosen;
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j)
     if (problem.unknowns()[j].parameter >= 0 && problem.unknowns()[j].experiment < 0)
@@ -102,8 +103,9 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
       for (const double deviations : {0.5, 1.0, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0}) {
         const double value = moved(unknown, centre, uncertainty.estimates[j], side * deviations);
         if (value == last) break;  // the bound
+        if (stop && *stop) return;
         last = value;
-        const double square = best_square(problem, chosen[p], value, rest, least_squares);
+        const double square = best_square(problem, chosen[p], value, rest, least_squares, stop);
         points.emplace_back(value, (square - least) / (variance * repeated));
         if (points.back().second > profile.threshold) {
           crossed[side > 0] = true;
@@ -123,6 +125,7 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
                       : highest < kFlat        ? Verdict::kStructurallyNot
                                                : Verdict::kPracticallyNot;
   });
+  if (stop && *stop) profiles.clear();
   return profiles;
 }
 

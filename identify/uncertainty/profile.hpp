@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <vector>
 
 #include "identify/uncertainty/uncertainty.hpp"
@@ -20,9 +21,10 @@ struct Profile {
 
 /// Profiles of every unknown of the physics around the fit, by refits from the neighbouring point.
 /// Crosses the threshold on both sides: identifiable; nowhere rises: structurally not; else
-/// practically not (within the bounds).
+/// practically not (within the bounds). Once `stop` is true, it ends without profiles;
+/// nullptr: never.
 std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
                                  const Uncertainty& uncertainty, const LeastSquares& least_squares,
-                                 int threads);
+                                 int threads, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace catena

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "common/parallel.hpp"
@@ -176,4 +177,19 @@ TEST_CASE("profiles and bootstrap agree with the intervals where all is well") {
         doctest::Approx(1).epsilon(0.35));  // 60 draws of blocks: 9 % by chance, and blocks are few
   }
   CHECK(rows == bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 1));
+
+  // Ctrl-C while they run: nothing half-done, and no further fit.
+  std::atomic<bool> stop = false;
+  std::atomic<int> fits = 0;
+  const LeastSquares stopped_in_third = [&](const Problem& again, const FitOptions& options) {
+    CHECK(options.stop == &stop);
+    if (++fits == 3) stop = true;
+    return fit_least_squares(again, options);
+  };
+  CHECK(bootstrap(problem, result, uncertainty, stopped_in_third, 60, 7, 1, &stop).rows() == 0);
+  CHECK(fits == 3);
+  fits = 0;
+  stop = false;
+  CHECK(profiles_of(problem, result, uncertainty, stopped_in_third, 1, &stop).empty());
+  CHECK(fits == 3);
 }
