@@ -16,7 +16,7 @@ TEST_CASE("catena report writes a page beside the result, or what else is asked 
 
   const ProcessResult plain = run_catena({"report", path});
   CHECK(plain.exit_status == 0);
-  CHECK(plain.output == path + "/report.html: 12 figures, 0.3 MB\n");
+  CHECK(plain.output == path + "/report.html: 16 figures, 0.3 MB\n");
   CHECK(text_of(folder.path() / "report.html").starts_with("<!DOCTYPE html>"));
   std::filesystem::remove(folder.path() / "report.html");
 
@@ -42,7 +42,7 @@ TEST_CASE("catena report: wrong input ends with 2, says why and writes nothing")
     const char* words;
   };
   for (const Row& row :
-       {Row{{path + "/none.json"}, "none.json: cannot be opened; give a result.json"},
+       {Row{{path + "/none.json"}, "none.json: cannot be read (No such file or directory); give a result.json"},
         Row{{path + "/spoilt.json"}, "experiments[0].measured.angle[0] is"},
         Row{{}, "RESULT is required"}, Row{{path + "/good.json", "--pdf"}, "--pdf"},
         Row{{path + "/good.json", "-o", "/proc/none/report.html"}, "/proc/none"}}) {
