@@ -42,7 +42,8 @@ TEST_CASE("catena report: wrong input ends with 2, says why and writes nothing")
     const char* words;
   };
   for (const Row& row :
-       {Row{{path + "/none.json"}, "none.json: cannot be read (No such file or directory); give a result.json"},
+       {Row{{path + "/none.json"},
+            "none.json: cannot be read (No such file or directory); give a result.json"},
         Row{{path + "/spoilt.json"}, "experiments[0].measured.angle[0] is"},
         Row{{}, "RESULT is required"}, Row{{path + "/good.json", "--pdf"}, "--pdf"},
         Row{{path + "/good.json", "-o", "/proc/none/report.html"}, "/proc/none"}}) {
