@@ -85,15 +85,21 @@ Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, co
       cvodes_(CVodeCreate(options.method == Method::kBdf ? CV_BDF : CV_ADAMS, context_.get())) {
   if (!cvodes_) throw std::bad_alloc();
   copy_state(initial, y_.get());
-  const auto silent = [](int, const char*, const char*, char*, void*) {};
-  require(CVodeSetErrHandlerFn(cvodes_.get(), silent, nullptr), "CVodeSetErrHandlerFn");
-  require(CVodeInit(cvodes_.get(), &Integrator::rates, start, y_.get()), "CVodeInit");
-  require(CVodeSetUserData(cvodes_.get(), this), "CVodeSetUserData");
-  require(CVodeWFtolerances(cvodes_.get(), &Integrator::error_weights), "CVodeWFtolerances");
-  require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
-          "CVodeSetNonlinearSolver");
-  if (options_.energy) start_quadratures();
-  if (!directions_.empty()) start_sensitivities();
+  try {
+    const auto silent = [](int, const char*, const char*, char*, void*) {};
+    require(CVodeSetErrHandlerFn(cvodes_.get(), silent, nullptr), "CVodeSetErrHandlerFn");
+    require(CVodeInit(cvodes_.get(), &Integrator::rates, start, y_.get()), "CVodeInit");
+    require(CVodeSetUserData(cvodes_.get(), this), "CVodeSetUserData");
+    require(CVodeWFtolerances(cvodes_.get(), &Integrator::error_weights), "CVodeWFtolerances");
+    require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
+            "CVodeSetNonlinearSolver");
+    if (options_.energy) start_quadratures();
+    if (!directions_.empty()) start_sensitivities();
+  } catch (const std::bad_alloc&) {
+    // CVodeFree then frees vectors that were never made: what CVODES has is given up instead.
+    static_cast<void>(cvodes_.release());
+    throw;
+  }
 }
 
 void Integrator::start_quadratures() {
