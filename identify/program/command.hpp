@@ -18,6 +18,9 @@ namespace catena {
 /// Exit statuses of the programs.
 enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted = 130 };
 
+/// The most `--threads`: more than any machine has, and a thread costs memory.
+constexpr int kMostThreads = 1024;
+
 /// What every command that works on a case takes.
 struct CommonOptions {
   std::filesystem::path case_file;

@@ -33,8 +33,6 @@ namespace {
 
 /// More refits do not make an interval surer: its ends are then known to 2 % of a standard error.
 constexpr int kMostRefits = 100'000;
-/// More than any machine has; a thread costs memory.
-constexpr int kMostThreads = 1024;
 
 struct IdentifyOptions : CommonOptions {
   double time_limit = 0;

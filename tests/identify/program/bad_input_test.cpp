@@ -199,10 +199,10 @@ TEST_CASE("mistakes on the command line") {
        {"catena simulate: --outptu is not an option; did you mean \"--output\"?"}},
       {{"simulate", "case.toml", "other.toml"}, {"other.toml is one argument too many"}},
       {{"check", "text.txt", "--link", "2"}, {"did you mean \"--links\"?"}},
-      {{"identify", "case.toml", "--threads", "0"}, {"--threads: 0 is not a number above 0"}},
+      {{"identify", "case.toml", "--threads", "0"}, {"--threads: Value 0 not in range 1 to 1024"}},
       {{"identify", "case.toml", "--time-limit", "x"}, {"--time-limit: x is not a number above 0"}},
       {{"identify", "case.toml", "--bootstrap", "-1"},
-       {"--bootstrap: -1 is not a number from 0 on"}},
+       {"--bootstrap: Value -1 not in range 0 to 100000"}},
   };
   for (const CommandRow& row : rows) {
     const ProcessResult run = run_catena(row.arguments);
