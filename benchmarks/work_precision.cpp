@@ -17,6 +17,7 @@
 #include <string>
 
 #include "benchmarks/cvode_dense.hpp"
+#include "benchmarks/cvode_expert.hpp"
 #include "benchmarks/peer.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/simulation.hpp"
@@ -90,6 +91,9 @@ int main(int argc, char** argv) {
   add("CVODE, dense", {1e-4, 1e-6, 1e-8}, [&](double x) {
     return catena::benchmark::simulate_cvode_dense(cable, rest_angle, times, x);
   });
+  add("CVODE, expert's O(n) code", {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}, [&](double x) {
+    return catena::benchmark::simulate_cvode_expert(cable, rest_angle, times, x);
+  });
   add("Simbody CPodes", {1e-4, 1e-6, 1e-8},
       [&](double x) { return simulate_simbody(folder, cable, rest_angle, times.size(), x); });
   add("MuJoCo implicit", {1e-4, 5e-5}, [&](double x) {
@@ -105,7 +109,7 @@ int main(int argc, char** argv) {
       const Solution solution = row.run();
       row.seconds.push_back(solution.cpu_seconds);
       row.error = (solution.q - reference).cwiseAbs().maxCoeff();
-      std::fprintf(stderr, "%-16s %-7g error %.2e rad  %.4f s\n", row.method.c_str(), row.setting,
+      std::fprintf(stderr, "%-25s %-7g error %.2e rad  %.4f s\n", row.method.c_str(), row.setting,
                    row.error, solution.cpu_seconds);
     }
   std::printf("method,setting,error_rad,seconds,fastest,slowest\n");
