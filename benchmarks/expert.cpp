@@ -87,7 +87,8 @@ class ExpertOf : public Expert {
     double fx = load * rx, fy = load * ry;
     double below = 0;  // moment of the joint below
     for (int i = N - 1; i >= 0; --i) {
-      const double joint = k[i] * (dq[i] - (i ? dq[i - 1] : 0)) + c[i] * (dv[i] - (i ? dv[i - 1] : 0));
+      const double joint =
+          k[i] * (dq[i] - (i ? dq[i - 1] : 0)) + c[i] * (dv[i] - (i ? dv[i - 1] : 0));
       const double hx = half[i] * above_x[i] + l[i] * force_x[i];
       const double hy = half[i] * above_y[i] + l[i] * force_y[i];
       dr[i] = about_joint[i] * da[i] + joint - below - dq[i] * (sine[i] * hx + cosine[i] * hy) +

@@ -24,7 +24,7 @@ using catena::benchmark::Expert;
 using catena::benchmark::nanoseconds;
 using Eigen::VectorXd;
 
-constexpr double kRestAngle = 0.6;  // rad, of joint 1
+constexpr double kRestAngle = 0.6;               // rad, of joint 1
 constexpr double kNewton[] = {1.0, 1e-3, 1e-6};  // of da, dv, dq: a step of about 1 ms
 
 /// One state for all: the start with rates, and accelerations of their own size.
@@ -56,8 +56,8 @@ void compare_with_expert(const Model& model) {
   const VectorXd p = cable.parameters(model, kRestAngle);
   const Motion motion(n);
   const VectorXd none = VectorXd::Zero(p.size());
-  const catena_point at{0, motion.q.data(), motion.v.data(), motion.a.data(), nullptr, nullptr,
-                        p.data()};
+  const catena_point at{0,       motion.q.data(), motion.v.data(), motion.a.data(),
+                        nullptr, nullptr,         p.data()};
   const catena_point along{0,       motion.dq.data(), motion.dv.data(), motion.da.data(),
                            nullptr, nullptr,          none.data()};
   const double *q = motion.q.data(), *v = motion.v.data(), *a = motion.a.data();
@@ -126,9 +126,9 @@ struct SympyChain {
 
   /// l3, m3, I3, k3, c3 and T3 are of link 3; m_c is the load and g gravity.
   VectorXd parameters(const Cable& cable) const {
-    const std::map<char, double> of_link = {{'l', cable.length},    {'m', cable.mass},
-                                            {'I', cable.inertia},   {'k', cable.stiffness},
-                                            {'c', cable.damping},   {'T', 0.0}};
+    const std::map<char, double> of_link = {{'l', cable.length},  {'m', cable.mass},
+                                            {'I', cable.inertia}, {'k', cable.stiffness},
+                                            {'c', cable.damping}, {'T', 0.0}};
     std::vector<double> p;
     for (const char* const* name = names; *name != nullptr; ++name) {
       const std::string word = *name;
@@ -175,7 +175,6 @@ void compare_with_sympy(const Model& model, const SympyChain& chain) {
 
 int main(int argc, char** argv) {
   std::map<int, Model> models;
-  for (const int n : Model::built_in_links()) models.emplace(n, Model::built_in(n));
   std::map<int, SympyChain> chains;
   for (int i = 1; i + 2 < argc; i += 3) {
     const int n = std::stoi(argv[i + 1]);
@@ -184,6 +183,7 @@ int main(int argc, char** argv) {
     else
       models.emplace(n, Model::load(argv[i + 2]));
   }
+  for (const int n : Model::built_in_links()) models.emplace(n, Model::built_in(n));
   std::printf("links,what,rival,catena_ns,rival_ns,rival_over_catena\n");
   for (const auto& [n, model] : models) compare_with_expert(model);
   for (const auto& [n, chain] : chains) {

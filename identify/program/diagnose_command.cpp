@@ -91,8 +91,7 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
       ->check(CLI::Range(1, 500));
   command->add_option("--refits", options.diagnosis.refits, "candidates to refit in every look")
       ->check(CLI::Range(1, 30));
-  command
-      ->add_option("--threads", options.threads, "threads; 2. Results do not depend on it")
+  command->add_option("--threads", options.threads, "threads; 2. Results do not depend on it")
       ->check(CLI::Range(1, kMostThreads));
   command->callback([&exit_status] { exit_status = diagnose_case(options); });
 }
