@@ -14,19 +14,21 @@ from power import strength
 
 FIELDS = ["kind", "hidden", "strength", "noise_m", "seed", "rate", "links", "amplitudes", "verdict",
           "effects", "members", "right", "farthest_member", "links_used", "fit_ratio",
-          "held_out_ratio", "cpu_seconds"]
+          "held_out_ratio"]
+SECONDS = ["kind", "hidden", "strength", "noise_m", "seed", "cpu_seconds"]  # no machine repeats them
 INDISTINGUISHABLE = 0.5  # times the noise, between refitted predictions
 TIME_LIMIT = 300  # s of CPU
 
 
 def of(trial, strengths, binaries):
+    """The line of a trial, and the CPU seconds of its diagnosis (None where there was none)."""
     row = {"kind": trial.kind, "hidden": "+".join(trial.hidden), "strength": trial.strength,
            "noise_m": trial.noise, "seed": trial.seed, "rate": trial.rate, "links": trial.links}
     effects, amplitudes = [], []
     for name in trial.hidden:
         amplitude = strengths.amplitude(name, trial.strength * trial.noise, trial.links)
         if amplitude is None:
-            return row | {"verdict": "not reached"}
+            return row | {"verdict": "not reached"}, None
         amplitudes.append(f"{amplitude:.6g}")
         effects += strength.arguments(name, amplitude)
     row["amplitudes"] = "+".join(amplitudes)
@@ -37,17 +39,16 @@ def of(trial, strengths, binaries):
              "--rate", str(trial.rate), "--seed", str(trial.seed), "--lost", str(trial.lost),
              "--pixel", str(trial.pixel), *effects], capture_output=True, check=False)
         if made.returncode != 0:
-            return row | {"verdict": "not filmed"}
+            return row | {"verdict": "not filmed"}, None
         pathlib.Path(folder, "truth.toml").unlink()  # the trial itself is the truth
         status, seconds = run(
             [binaries / "bin" / "catena", "diagnose", f"{folder}/case.toml", "--quiet",
              "--threads", "1", "--output", f"{folder}/found"])
-        row["cpu_seconds"] = f"{seconds:.1f}"
         if status != 0:
             out_of_time = status in (-signal.SIGXCPU, -signal.SIGKILL)
-            return row | {"verdict": "out of time" if out_of_time else "failed", "right": "no"}
+            return row | {"verdict": "out of time" if out_of_time else "failed", "right": "no"}, seconds
         found = json.loads(pathlib.Path(folder, "found", "diagnosis.json").read_text())
-    return row | judged(trial, found)
+    return row | judged(trial, found), seconds
 
 
 def run(command):
@@ -71,6 +72,8 @@ def judged(trial, found):
     elif found["verdict"] == "ambiguous":
         swapped = any(named - {u["instead_of"]} | {u["id"]} == truth for u in others)
         right = (as_named or swapped) and farthest < INDISTINGUISHABLE
+    elif found["verdict"] == "partly":
+        right = all(a in truth or any(a == of and b in truth for of, b in forms) for a in named)
     else:
         right = found["verdict"] == ("none" if trial.kind == "quiet" else "unexplained") and \
             trial.kind in ("quiet", "outside")
@@ -94,10 +97,21 @@ def read(file):
         return {key(row): row for row in csv.DictReader(lines)}
 
 
-def append(file, row):
+def append(file, fields, row):
+    """One line; a study that is stopped keeps it."""
     new = not file.exists()
     with file.open("a", newline="") as lines:
-        writer = csv.DictWriter(lines, FIELDS, restval="", lineterminator="\n")
+        writer = csv.DictWriter(lines, fields, restval="", extrasaction="ignore", lineterminator="\n")
         if new:
             writer.writeheader()
         writer.writerow(row)
+
+
+def write(file, fields, rows):
+    """All lines anew, whole or not at all."""
+    temporary = file.with_suffix(".tmp")
+    temporary.unlink(missing_ok=True)
+    for row in rows:
+        append(temporary, fields, row)
+    if rows:
+        temporary.replace(file)

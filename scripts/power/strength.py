@@ -37,16 +37,23 @@ def arguments(name, amplitude):
 
 
 class Strengths:
-    """Amplitudes by effect and residual; measured once, kept in a file."""
+    """Amplitudes by effect and residual; measured once, kept in a file. Without binaries they are only read."""
 
-    def __init__(self, binaries, file):
+    def __init__(self, file, binaries=None):
         self.binaries, self.file, self.lock = binaries, pathlib.Path(file), threading.Lock()
         self.curves, self.locks = {}, {}
-        if self.file.exists():
-            with self.file.open() as lines:
-                for row in csv.DictReader(lines):
-                    self.curves.setdefault(row["effect"], []).append(
-                        (float(row["amplitude"]), float(row["residual_m"])))
+        self.add(self.file)
+
+    def add(self, file):
+        """What another part of the study measured; the same effect has the same curve there."""
+        if not file.exists():
+            return
+        curves = {}
+        with file.open() as lines:
+            for row in csv.DictReader(lines):
+                curves.setdefault(row["effect"], []).append(
+                    (float(row["amplitude"]), float(row["residual_m"])))
+        self.curves |= curves
 
     def amplitude(self, name, residual, links):
         """The amplitude whose recording with so many links leaves so much (m, rms); None if none
@@ -100,7 +107,7 @@ class Strengths:
                 return None
             fit = subprocess.run(
                 [self.binaries / "bin" / "catena", "identify", f"{folder}/case.toml", "--quiet",
-                 "--time-limit", "20", "--output", f"{folder}/fit"], capture_output=True, check=False)
+                 "--output", f"{folder}/fit"], capture_output=True, check=False)
             if fit.returncode != 0:
                 return None
             result = json.loads(pathlib.Path(folder, "fit", "result.json").read_text())
