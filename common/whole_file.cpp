@@ -109,6 +109,10 @@ std::string bytes_of_file(const std::filesystem::path& path) {
       bytes.append(buffer.data(), static_cast<std::size_t>(got));
     else if (errno != EINTR)
       fail();
+    if (bytes.size() > kMostFileBytes)
+      throw InputError(path.string() + ": is larger than " +
+                       std::to_string(kMostFileBytes / 1'000'000) +
+                       " MB, the most that is read of a file; give a part of it");
   }
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/input_error.hpp"
+#include "common/large_work.hpp"
 #include "common/number_text.hpp"
 #include "common/whole_file.hpp"
 #include "generator/derivation/neutral_proof.hpp"
@@ -67,6 +68,18 @@ void require_neutral(const Description& description) {
   }
 }
 
+/// Measured with air_drag_quadratic, the largest of the effects, on one core of 2.5 GHz: in proportion
+/// to the links up to 1600, and to the effects.
+WorkEstimate estimate_of(const Description& description) {
+  const auto effects = static_cast<double>(description.effects.size());
+  WorkEstimate estimate;
+  for (const int links : description.links) {
+    estimate.seconds += links * (0.01 + 0.03 * effects);
+    estimate.bytes += links * (0.1e6 + 0.15e6 * effects);
+  }
+  return estimate;
+}
+
 /// What reports show: many links fill pages, and the equations repeat themselves.
 void print_equations(const Description& description) {
   nlohmann::ordered_json list = nlohmann::json::array();
@@ -105,6 +118,7 @@ void derive(const Options& options) {
     throw InputError(
         "--any-links with --format c: the model for any number of links is C++; leave one away");
   }
+  require_yes(options.model.yes, "deriving", estimate_of(description));
   std::optional<Layout> layout;
   if (options.for_fits) layout = Layout::kLoops;
   if (!options.layout.empty()) {

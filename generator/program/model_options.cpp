@@ -18,6 +18,7 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
                      "description (TOML); without it the plain chain");
   command.add_option("--links", options.links, "link counts, instead of the description's");
   add_effect_option(command, options.effects);
+  command.add_flag("-y,--yes", options.yes, "go on where more than 10 min or 4 GB are needed");
 }
 
 void add_effect_option(CLI::App& command, std::vector<std::string>& effects) {

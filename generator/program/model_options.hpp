@@ -12,6 +12,7 @@ namespace catena {
 
 /// The options that say which models a command is about.
 struct ModelOptions {
+  bool yes = false;  ///< begin work above kMostUnasked (common/large_work.hpp), too
   std::string description;
   std::vector<int> links;
   std::vector<std::string> effects;

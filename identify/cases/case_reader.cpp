@@ -37,11 +37,12 @@ double not_negative(const TomlTable& table, std::string_view key, double absent)
   return value;
 }
 
-int count(const TomlTable& table, std::string_view key, long absent, long least) {
+int count(const TomlTable& table, std::string_view key, long absent, long least,
+          long most = 1'000'000'000) {
   const long value = table.optional_integer(key).value_or(absent);
-  if (value < least || value > 1'000'000'000)
-    table.fail(key, std::to_string(value) + "; must be a whole number of at least " +
-                        std::to_string(least));
+  if (value < least || value > most)
+    table.fail(key, std::to_string(value) + "; must be a whole number from " +
+                        std::to_string(least) + " to " + std::to_string(most));
   return static_cast<int>(value);
 }
 
@@ -316,7 +317,7 @@ OptimiserSpec read_optimiser(const TomlTable& table) {
   optimiser.max_evaluations = count(table, "max_evaluations", optimiser.max_evaluations, 1);
   optimiser.tolerance = optional_positive(table, "tolerance", optimiser.tolerance);
   optimiser.initial_step = optional_positive(table, "initial_step", optimiser.initial_step);
-  optimiser.starts = count(table, "starts", optimiser.starts, 1);
+  optimiser.starts = count(table, "starts", optimiser.starts, 1, kMostFits);
   optimiser.seed = static_cast<unsigned>(count(table, "seed", optimiser.seed, 0));
   optimiser.growing_windows = table.numbers("growing_windows");
   for (std::size_t i = 0; i < optimiser.growing_windows.size(); ++i)
@@ -422,10 +423,7 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   the_case.text = file.source();
   the_case.title = file.optional_text("title").value_or("");
   const TomlTable model = file.table("model");
-  the_case.links = count(model, "links", 0, 1);
-  if (the_case.links > kMostLinks)
-    model.fail("links", std::to_string(the_case.links) + "; at most " + std::to_string(kMostLinks) +
-                            " are possible");
+  the_case.links = count(model, "links", 0, 1, kMostLinks);
   if (const auto description = model.optional_text("description")) {
     the_case.description = directory / *description;
     if (!std::filesystem::is_regular_file(the_case.description))

@@ -61,7 +61,9 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
   std::vector<FitResult> results(starts.size());
   std::mutex mutex;
   const auto begin = std::chrono::steady_clock::now();
-  Progress total{0, spec.max_evaluations * spec.starts, std::numeric_limits<double>::infinity()};
+  const long limit = static_cast<long>(spec.max_evaluations) * spec.starts;
+  Progress total{0, static_cast<int>(std::min<long>(limit, std::numeric_limits<int>::max())),
+                 std::numeric_limits<double>::infinity()};
   in_parallel(starts.size(), threads, [&](std::size_t i) {
     FitOptions own = options;
     own.start = starts[i];

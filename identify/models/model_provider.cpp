@@ -188,6 +188,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   const fs::path sources = work.path() / "model";
   std::vector<std::string> emission = {"--output", sources.string()};
   if (options.for_fits) emission.emplace_back("--for-fits");
+  if (options.large_work) emission.emplace_back("--yes");
   run_derivation(derive, description, links, emission, kDeriving, options.stop);
 
   std::vector<std::string> command = {compiler};

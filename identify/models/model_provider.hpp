@@ -19,7 +19,9 @@ struct ProviderOptions {
   /// Only what fits call (docs/model-table.md): compiled sooner. A plain chain is not compiled.
   bool for_fits = false;
   std::function<void(const std::string&)> notice;  ///< one line before something takes its time
-  const std::atomic<bool>* stop = nullptr;         ///< once it is true, deriving and compiling end
+  bool large_work =
+      true;  ///< derive what takes more than kMostUnasked (common/large_work.hpp), too
+  const std::atomic<bool>* stop = nullptr;  ///< once it is true, deriving and compiling end
 };
 
 /// The model of the file `description` (empty: the plain chain) with `links` links.

@@ -187,9 +187,11 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
   for (int iteration = 0; iteration < 50; ++iteration) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns), by_angle(n), row(unknowns);
-    const auto add = [&](double residual) {
-      normal.noalias() += row * row.transpose();
-      right.noalias() -= row * residual;
+    // Only `count` elements of the row from `begin` on are not zero.
+    const auto add = [&](double residual, Eigen::Index begin, Eigen::Index count) {
+      const auto part = row.segment(begin, count);
+      normal.block(begin, begin, count, count).noalias() += part * part.transpose();
+      right.segment(begin, count).noalias() -= part * residual;
     };
     for (Eigen::Index k = 0; k < used; ++k) {
       const double t = recording.time[static_cast<std::size_t>(k)] - recording.time.front();
@@ -201,7 +203,7 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
         const double simulated = first.value(recording.channels[c], theta, by_angle);
         row.head(n) = by_angle;
         if (!initial.at_rest) row.tail(n) = t * by_angle;
-        add(simulated - measured);
+        add(simulated - measured, 0, unknowns);
       }
     }
     for (Eigen::Index block = 0; block < unknowns; block += n)
@@ -210,7 +212,8 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
         row[block + i] = weak;
         row[block + i - 1] = i > 1 ? -2 * weak : -weak;
         if (i > 1) row[block + i - 2] = weak;
-        add(row.dot(x));
+        const Eigen::Index begin = std::max<Eigen::Index>(i - 2, 0);
+        add(row.dot(x), block + begin, i + 1 - begin);
       }
     if (!find_angles) {  // they are given: only the rates move
       normal.topRows(n).setZero();

@@ -43,6 +43,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
                      "folder for the results; default: CASE_result, here");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.add_flag("--json", options.json, "print the result as JSON instead of tables");
+  command.add_flag("-y,--yes", options.yes, "go on where more than 10 min or 4 GB are needed");
 }
 
 const std::atomic<bool>& interrupted() { return g_interrupted; }
@@ -63,6 +64,7 @@ int report_interruption(const std::string& outcome) {
 Model model_of(const Case& the_case, const CommonOptions& options) {
   ProviderOptions provider;
   provider.stop = &interrupted();
+  provider.large_work = options.yes;
   if (!options.quiet)
     provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
   const Waiting waiting(!options.quiet, [] { return std::string("preparing the model"); });

@@ -27,6 +27,7 @@ struct CommonOptions {
   std::filesystem::path output;  ///< empty: the case's name and "_result", in the working directory
   bool quiet = false;
   bool json = false;  ///< print the result file instead of tables
+  bool yes = false;   ///< begin work above kMostUnasked (common/large_work.hpp), too
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
 

@@ -29,6 +29,7 @@ int diagnose_case(const DiagnoseOptions& options) {
   ProgressLine progress(!options.quiet);
   ProviderOptions provider;
   provider.stop = &interrupted();
+  provider.large_work = options.yes;
   if (!options.quiet)
     provider.notice = [&progress](const std::string& line) {
       progress.clear();

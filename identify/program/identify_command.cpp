@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <thread>
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
+#include "common/large_work.hpp"
 #include "common/most_links.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
@@ -30,9 +32,6 @@
 
 namespace catena {
 namespace {
-
-/// More refits do not make an interval surer: its ends are then known to 2 % of a standard error.
-constexpr int kMostRefits = 100'000;
 
 struct IdentifyOptions : CommonOptions {
   double time_limit = 0;
@@ -99,7 +98,60 @@ int check_case(const Problem& problem, const IdentifyOptions& options) {
   return kExitSuccess;
 }
 
+/// Simulations' worth of time that a fit takes, by experience: of least squares about 10 evaluations
+/// with sensitivities, of which each costs a third of a simulation.
+double simulations_of_a_fit(const Problem& problem) {
+  const auto unknowns = static_cast<double>(problem.unknowns().size());
+  const OptimiserSpec& spec = problem.the_case().optimiser;
+  if (spec.method == FitMethod::kNelderMead)
+    return std::min<double>(40 * unknowns, spec.max_evaluations);
+  const double evaluations = spec.method == FitMethod::kLeastSquares ? 10 : 30;
+  return std::min<double>(evaluations, spec.max_evaluations) * (1 + unknowns / 3);
+}
+
+/// What a bootstrap's refit takes of that: it begins near its end.
+constexpr double kShareOfRefit = 0.3;
+
+/// The time of fits and bootstrap, from that of a simulation, which is put into `start`.
+WorkEstimate estimate_of(const Problem& problem, const IdentifyOptions& options,
+                         Evaluation& start) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const double threads = std::min(options.threads, cores);
+  const double fit = simulations_of_a_fit(problem);
+  const double fits = fit * std::ceil(problem.the_case().optimiser.starts / threads);
+  const double refits = kShareOfRefit * fit * std::ceil(options.bootstrap / threads);
+  WorkEstimate estimate;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto measure = [&] {
+    const std::chrono::duration<double> simulation = std::chrono::steady_clock::now() - begin;
+    const double of_fits = simulation.count() * fits;
+    estimate.seconds = simulation.count() * refits +
+                       (options.time_limit > 0 ? std::min(of_fits, options.time_limit) : of_fits);
+    return simulation.count();
+  };
+  constexpr double kPatience = 1;  // s; a simulation that is shorter is measured whole
+  const auto keep_going = [&] {
+    estimate.or_more = measure() > kPatience && estimate.seconds > kMostUnasked.seconds;
+    return (options.yes || !estimate.or_more) && !interrupted();
+  };
+  start = evaluate(problem, problem.start(), true, false, keep_going);
+  measure();
+  return estimate;
+}
+
 int study_links(const Case& the_case, const IdentifyOptions& options) {
+  WorkEstimate whole;
+  IdentifyOptions single = options;  // a study takes one fit for each number of links
+  single.bootstrap = 0;
+  for (const int links : options.links_study) {
+    Case other = with_links(the_case, links);
+    other.optimiser.starts = 1;
+    Evaluation start;
+    const WorkEstimate one = estimate_of(Problem(other, model_of(other, options)), single, start);
+    whole.seconds += one.seconds;
+    whole.or_more = whole.or_more || one.or_more;
+    require_yes(options.yes, fmt::format("--links-study up to {} links", links), whole);
+  }
   OutputFolder output(output_folder(options), {"links_study.json"});
   std::vector<LinksResult> results;
   {
@@ -122,7 +174,6 @@ int study_links(const Case& the_case, const IdentifyOptions& options) {
 
 /// Before and after, motions and errors of what was found.
 void complete(const Problem& problem, const IdentifyOptions& options, Identification& found) {
-  found.before = evaluate(problem, problem.start(), true, false);
   found.after = evaluate(problem, found.fit.x, true, false);
   for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e)
     found.motions.push_back(motion_of(problem, found.fit.x, e));
@@ -191,8 +242,9 @@ int identify_case(const IdentifyOptions& options) {
 
   std::vector<std::string> names = motion_file_names(problem);
   names.insert(names.end(), {"residuals.csv", "history.csv", "fitted.toml", "result.json"});
-  OutputFolder output(output_folder(options), names);
   Identification found;
+  require_yes(options.yes, "the identification", estimate_of(problem, options, found.before));
+  OutputFolder output(output_folder(options), names);
   {
     ProgressLine line(!options.quiet);
     RunLog log(output.path() / "run.log", run_key(problem), options.resume,
@@ -253,7 +305,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   command
       ->add_option("--bootstrap", options.bootstrap,
                    "so many refits of resampled residuals; at most 100000")
-      ->check(CLI::Range(0, kMostRefits));
+      ->check(CLI::Range(0, kMostFits));
   command
       ->add_option("--links-study", options.links_study,
                    "refit with these numbers of links: 6,12,24")

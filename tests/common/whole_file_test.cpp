@@ -45,6 +45,12 @@ TEST_CASE("a file is read whole") {
   CHECK(failure([&] { read_whole_file(latin); }).find("latin.csv:1: ") != std::string::npos);
 }
 
+TEST_CASE("an endless file is refused") {
+  CHECK(failure([] {
+          read_whole_file("/dev/zero");
+        }).starts_with("/dev/zero: is larger than 500 MB"));
+}
+
 TEST_CASE("within a run a file is read once, unless the run writes it") {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("case.toml", "first");

@@ -99,7 +99,7 @@ TEST_CASE("mistakes in a case to be simulated") {
       {"too many links",
        "links = 2",
        "links = 50000000",
-       {"case.toml:5", "50000000", "at most 10000"}},
+       {"case.toml:5", "50000000", "1 to 10000"}},
       {"held too far away",
        "shape = \"straight\"\nangle = 0.6",
        "shape = \"catenary\"\nheld = {side = 1.0, down = 1.0}",
@@ -109,6 +109,10 @@ TEST_CASE("mistakes in a case to be simulated") {
        "links = 2\ndescription = \"no.toml\"",
        {"case.toml:6", "no.toml", "no such file"}},
       {"no duration", "duration = 1.0", "", {"duration"}},
+      {"more outputs than memory holds",
+       "duration = 1.0\nstep = 0.02",
+       "duration = 1e5\nstep = 0.02",
+       {"keeping the outputs of every simulation.step needs about 16 GB", "--yes"}},
       {"step not positive", "step = 0.02", "step = 0.0", {"case.toml:30", "step"}},
   };
   const testing::TemporaryFolder folder;
@@ -184,6 +188,29 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
   check_refused(folder, "identify", the_case, {"data.csv", "empty"});
 }
 
+TEST_CASE("fits that would take hours are begun with --yes only") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", kData);
+  const std::string whole =
+      replaced(replaced(testing::kFit, "swing/positions.csv", "data.csv"), "fit_until = 0.6\n", "");
+  const std::string starts = whole + "[optimiser]\nmethod = \"nelder_mead\"\nstarts = ";
+  check_refused(folder, "identify", folder.write("case.toml", starts + "2000000000\n"),
+                {"optimiser.starts: 2000000000; must be a whole number from 1 to 100000"});
+  const auto many = folder.write("case.toml", starts + "100000\n");
+  const auto out = folder.path() / "out";
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"identify", many, "--output", out, "--threads", "1"});
+    return run_catena(more);
+  };
+  const ProcessResult refused = run({"--bootstrap", "100000"});
+  CHECK(refused.exit_status == 2);
+  CHECK_MESSAGE(refused.output.find("the identification needs about ") != std::string::npos,
+                refused.output);
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(run({"--time-limit", "0.3"}).exit_status == 0);  // that is the time then
+  CHECK(run({"--time-limit", "0.3", "--bootstrap", "1", "--yes"}).exit_status == 0);
+}
+
 TEST_CASE("mistakes on the command line") {
   struct CommandRow {
     std::vector<std::string> arguments;
@@ -201,6 +228,10 @@ TEST_CASE("mistakes on the command line") {
       {{"check", "text.txt", "--link", "2"}, {"did you mean \"--links\"?"}},
       {{"identify", "case.toml", "--threads", "0"}, {"--threads: Value 0 not in range 1 to 1024"}},
       {{"identify", "case.toml", "--time-limit", "x"}, {"--time-limit: x is not a number above 0"}},
+      {{"derive", "--links", "10000", "--effect", "added_mass", "air_drag_quadratic",
+        "steady_wind"},
+       {"deriving needs about 5.5 GB and 17 min", "--yes"}},
+      {{"certify", "--links", "400"}, {"certifying needs about 13 min", "--yes"}},
       {{"identify", "case.toml", "--bootstrap", "-1"},
        {"--bootstrap: Value -1 not in range 0 to 100000"}},
   };

@@ -71,7 +71,7 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   const pid_t child = fork();
   if (child == 0) {
     execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", out.c_str(), "-q",
-          nullptr);
+          "--yes", nullptr);
     _exit(127);
   }
   usleep(1'500'000);
