@@ -298,7 +298,7 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"data = \"data.csv\"", "data = \"absent.csv\"", "there is no such file"},
       {"fit_until = 2.25", "fit_until = 0.25", "must be after from"},
       {"to = 3.5", "to = 0.5", "must be after from"},
-      {"every = 2", "every = 0", "at least 1"},
+      {"every = 2", "every = 0", "from 1 to 1000000000"},
       {"noise = 0.001", "noise = 0.0", "must be positive"},
       {"metres_per_pixel = 0.002", "", "lengths in px need it"},
       {"frame_rate = 30.0", "", "frames per second"},
