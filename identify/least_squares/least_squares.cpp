@@ -157,21 +157,24 @@ DistanceCost::Box box_of(const Problem& problem) {
 /// weight, that the best step of Gauss and Newton promises.
 double promise_of(const Residuals& residuals, const VectorXd& noise,
                   const SoftConstraints& constraints, const ErrorSpec& error) {
-  VectorXd weight(noise.size());
+  VectorXd root_weight(noise.size());
   double cost = constraints.value.cwiseProduct(constraints.weight).squaredNorm();
   for (Index i = 0; i < noise.size(); ++i) {
     const LossValue loss = loss_of(error, std::pow(residuals.value[i] / noise[i], 2));
-    weight[i] = loss.slope / (noise[i] * noise[i]);
+    root_weight[i] = std::sqrt(loss.slope) / noise[i];
     cost += loss.value;
   }
-  const VectorXd constraint_weight = constraints.weight.cwiseAbs2();
-  const MatrixXd &rows = residuals.jacobian, &constraint_rows = constraints.jacobian;
-  VectorXd gradient = rows.transpose() * weight.cwiseProduct(residuals.value);
-  MatrixXd curvature = rows.transpose() * weight.asDiagonal() * rows;
-  if (constraints.value.size() > 0) {
-    gradient += constraint_rows.transpose() * constraint_weight.cwiseProduct(constraints.value);
-    curvature += constraint_rows.transpose() * constraint_weight.asDiagonal() * constraint_rows;
-  }
+  VectorXd gradient = VectorXd::Zero(residuals.jacobian.cols());
+  MatrixXd lower = MatrixXd::Zero(gradient.size(), gradient.size());
+  const auto add = [&](const MatrixXd& jacobian, const VectorXd& root, const VectorXd& value) {
+    const MatrixXd rows = root.asDiagonal() * jacobian;
+    gradient += rows.transpose() * root.cwiseProduct(value);
+    lower.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+  };
+  add(residuals.jacobian, root_weight, residuals.value);
+  if (constraints.value.size() > 0)
+    add(constraints.jacobian, constraints.weight, constraints.value);
+  const MatrixXd curvature = lower.selfadjointView<Eigen::Lower>();
   const VectorXd scale = curvature.diagonal().unaryExpr(
       [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
   const VectorXd scaled = scale.cwiseProduct(gradient);
