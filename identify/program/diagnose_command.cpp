@@ -2,6 +2,7 @@
 #include "identify/program/diagnose_command.hpp"
 
 #include <iostream>
+#include <mutex>
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
@@ -26,7 +27,12 @@ int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
   const Case the_case = read_case(options.case_file);
   const WorkFolder scratch = scratch_folder();
-  ProgressLine progress(!options.quiet);
+  std::mutex mutex;
+  std::string now = "preparing the model";
+  Waiting progress(!options.quiet, [&] {
+    const std::scoped_lock lock(mutex);
+    return now;
+  });
   ProviderOptions provider;
   provider.stop = &interrupted();
   provider.large_work = options.yes;
@@ -38,8 +44,9 @@ int diagnose_case(const DiagnoseOptions& options) {
   DiagnosisContext context(the_case, options.effects, scratch.path(), fit_least_squares, provider);
   context.stop = &interrupted();
   context.threads = options.threads;
-  context.notice = [&progress](const DiagnosisProgress& now) {
-    progress.show(0, progress_line(now));
+  context.notice = [&](const DiagnosisProgress& news) {
+    const std::scoped_lock lock(mutex);
+    now = progress_line(news);
   };
   OutputFolder output(output_folder(options), kDiagnosisNames);
   show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);

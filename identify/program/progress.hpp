@@ -41,6 +41,8 @@ class Waiting {
   /// `text`: what is going on; asked for every half second, in a thread of its own.
   Waiting(bool wanted, std::function<std::string()> text);
   ~Waiting();
+  /// Takes the line away, for something else to be written. May be called from several threads.
+  void clear() { line_.clear(); }
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 
