@@ -92,29 +92,33 @@ MatrixXd autoregressive_middle(const Residuals& residuals, const MatrixXd& jacob
 MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, const VectorXd& r,
                        double autocorrelation) {
   const Index unknowns = jacobian.cols();
-  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
-  std::vector<std::vector<VectorXd>> scores;  // by experiment and frame
+  std::vector<Index> frames;  // of each experiment
+  for (const ResidualIndex& index : residuals.index) {
+    const auto e = static_cast<std::size_t>(index.experiment);
+    if (frames.size() <= e) frames.resize(e + 1, 0);
+    frames[e] = std::max<Index>(frames[e], index.frame + 1);
+  }
+  std::vector<MatrixXd> sums;  // of each experiment: a frame a row
+  for (const Index count : frames) sums.push_back(MatrixXd::Zero(count, unknowns));
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
-    const auto e = static_cast<std::size_t>(residuals.index[i].experiment);
-    const auto k = static_cast<std::size_t>(residuals.index[i].frame);
-    if (scores.size() <= e) scores.resize(e + 1);
-    if (scores[e].size() <= k) scores[e].resize(k + 1, VectorXd::Zero(unknowns));
-    scores[e][k] += jacobian.row(static_cast<Index>(i)).transpose() * r[static_cast<Index>(i)];
+    const ResidualIndex& index = residuals.index[i];
+    sums[static_cast<std::size_t>(index.experiment)].row(index.frame) +=
+        jacobian.row(static_cast<Index>(i)) * r[static_cast<Index>(i)];
   }
   const double alpha = 4 * autocorrelation * autocorrelation /
                        std::pow((1 - autocorrelation) * (1 + autocorrelation), 2);
-  for (const std::vector<VectorXd>& series : scores) {
-    const auto frames = static_cast<Index>(series.size());
+  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
+  for (const MatrixXd& series : sums) {
+    const Index count = series.rows();
     const Index bandwidth = std::min<Index>(
-        static_cast<Index>(1.1447 * std::cbrt(alpha * static_cast<double>(frames))), frames / 4);
-    for (Index lag = 0; lag <= bandwidth; ++lag) {
+        static_cast<Index>(1.1447 * std::cbrt(alpha * static_cast<double>(count))), count / 4);
+    MatrixXd neighbours = series;  // weighted sums over the frames within the bandwidth
+    for (Index lag = 1; lag <= bandwidth; ++lag) {
       const double weight = 1 - static_cast<double>(lag) / static_cast<double>(bandwidth + 1);
-      MatrixXd sum = MatrixXd::Zero(unknowns, unknowns);
-      for (Index k = lag; k < frames; ++k)
-        sum += series[static_cast<std::size_t>(k)] *
-               series[static_cast<std::size_t>(k - lag)].transpose();
-      middle += lag == 0 ? sum : MatrixXd(weight * (sum + sum.transpose()));
+      neighbours.bottomRows(count - lag) += weight * series.topRows(count - lag);
+      neighbours.topRows(count - lag) += weight * series.bottomRows(count - lag);
     }
+    middle += series.transpose() * neighbours;
   }
   return middle;
 }
