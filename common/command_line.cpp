@@ -34,7 +34,7 @@ CLI::Validator number_that(bool (*is_right)(double), const std::string& rule,
 }
 
 /// "--output", "--quiet", ...
-std::vector<std::string> options_of(const CLI::App& command) {
+std::vector<std::string> names_of_options(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -87,7 +87,7 @@ int status_of(const CLI::App& program, const CLI::ParseError& error) {
     const auto option = std::find_if(words.begin(), words.end(),
                                      [](const std::string& word) { return word[0] == '-'; });
     if (option != words.end())
-      text = *option + " is not an option" + suggestion(*option, options_of(*command));
+      text = *option + " is not an option" + suggestion(*option, names_of_options(*command));
     else if (!words.empty())
       text = words.front() + " is one argument too many";
   } else if (command == &program) {
@@ -101,7 +101,7 @@ void check_first_argument(const CLI::App& program, int argc, const char* const* 
   if (argc < 2) return;
   const std::string word = argv[1];
   if (word.starts_with("--")) {
-    const std::vector<std::string> options = options_of(program);
+    const std::vector<std::string> options = names_of_options(program);
     if (std::find(options.begin(), options.end(), word) == options.end())
       throw InputError(word + " is not an option" + suggestion(word, options));
   }

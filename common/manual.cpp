@@ -11,20 +11,20 @@ namespace catena {
 namespace {
 
 using Commands = std::vector<const CLI::App*>;
-using Options = std::vector<const CLI::Option*>;
+using ShownOptions = std::vector<const CLI::Option*>;
 
 Commands commands_of(const CLI::App& program) {
   return program.get_subcommands(
       [](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-Options options_of(const CLI::App& command) {
+ShownOptions shown_options(const CLI::App& command) {
   return command.get_options(
       [](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
 /// Whether catena-derive does the work: there is nothing but --help.
-bool handed_over(const CLI::App& command) { return options_of(command).size() < 2; }
+bool handed_over(const CLI::App& command) { return shown_options(command).size() < 2; }
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
@@ -55,7 +55,7 @@ void write_footer(std::ostream& page, const std::string& footer) {
 }
 
 void write_options(std::ostream& page, const CLI::App& command) {
-  for (const CLI::Option* option : options_of(command)) {
+  for (const CLI::Option* option : shown_options(command)) {
     if (option == command.get_help_ptr() && command.get_parent()) continue;  // said once is enough
     std::string names;
     for (const std::string& flag : flags_of(*option)) names += (names.empty() ? "" : ", ") + flag;
@@ -122,7 +122,7 @@ std::string bash_completion(const CLI::App& program) {
       continue;
     }
     script << "words=\"";
-    for (const CLI::Option* option : options_of(*command))
+    for (const CLI::Option* option : shown_options(*command))
       for (const std::string& flag : flags_of(*option)) script << flag << " ";
     script << "\" ;;\n";
   }
@@ -160,7 +160,7 @@ std::string zsh_completion(const CLI::App& program) {
       continue;
     }
     script << "    shift words\n    ((CURRENT--))\n    _arguments";
-    for (const CLI::Option* option : options_of(*command)) {
+    for (const CLI::Option* option : shown_options(*command)) {
       for (const std::string& flag : flags_of(*option)) {
         script << " \\\n      '" << flag << "[" << zsh(option->get_description()) << "]";
         if (takes_value(*option)) script << ":" << zsh(option->get_type_name()) << ":_files";

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "common/as_index.hpp"
 #include "generator/certificate/random_point.hpp"
 #include "generator/derivation/chain.hpp"
 
@@ -19,10 +20,8 @@ using Values = std::vector<double>;
 
 constexpr double kGrowth = 10;  // most growth of the entries of N in elimination that is measured
 
-constexpr int kDigits = 50;
+constexpr int kDigitsOfAccuracy = 50;
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // value - exact, rounded once
 double difference(double value, const numeric& exact) {
@@ -99,7 +98,7 @@ class Measurement {
 
   // The largest sum of the sizes of r's terms, over its rows
   double size_of_terms(const catena_point& point) const {
-    Values sum(at(table_.coordinates)), term(at(table_.coordinates));
+    Values sum(as_index(table_.coordinates)), term(as_index(table_.coordinates));
     for (int k = 0; k < table_.terms; ++k) {
       table_.residual_term(table_.context, &point, k, term.data());
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += std::abs(term[i]);
@@ -110,7 +109,7 @@ class Measurement {
   void residual() {
     const catena_point here = point_.at(), along = direction_.at();
     const double size = size_of_terms(here);
-    Values r(at(table_.coordinates)), total(r), term(r), tangent(r);
+    Values r(as_index(table_.coordinates)), total(r), term(r), tangent(r);
     table_.residual(table_.context, &here, r.data());
     for (int k = 0; k < table_.terms; ++k) {
       table_.residual_term(table_.context, &here, k, term.data());
@@ -160,14 +159,15 @@ class Measurement {
   void mass_and_acceleration() {
     const int n = table_.coordinates;
     const catena_point here = point_.at();
-    Values mass(at(n * n));
+    Values mass(as_index(n * n));
     table_.mass_matrix(table_.context, &here, mass.data());
     const double size = largest(mass);
     // M x for one x depends on every entry. The product of the doubles is exact.
     const auto inputs = exact_inputs(table_, point_);
     std::map<std::string, numeric> x;
     for (int j = 0; j < n; ++j) {
-      x["exact_unit_" + full_name_of(chain_.accelerations()[at(j)])] = numeric(direction_.a[at(j)]);
+      x["exact_unit_" + full_name_of(chain_.accelerations()[as_index(j)])] =
+          numeric(direction_.a[as_index(j)]);
     }
     ExactEvaluation product(chain_.definitions(), [&](const std::string& name) -> ex {
       const auto found = x.find(name);
@@ -176,19 +176,20 @@ class Measurement {
     for (int i = 0; i < n; ++i) {
       numeric row = 0;
       for (int j = 0; j < n; ++j) {
-        row = row + numeric(mass[at(i * n + j)]) * numeric(direction_.a[at(j)]);
+        row = row + numeric(mass[as_index(i * n + j)]) * numeric(direction_.a[as_index(j)]);
       }
-      note("mass_matrix", (product.of(mass_[at(i)]) - row).to_double(), size);
+      note("mass_matrix", (product.of(mass_[as_index(i)]) - row).to_double(), size);
     }
     RandomPoint still = point_;
     std::fill(still.a.begin(), still.a.end(), 0.0);
     const catena_point at_rest = still.at();
-    Values h(at(n));
+    Values h(as_index(n));
     table_.bias(table_.context, &here, h.data());
     ExactEvaluation exact_bias(chain_.definitions(), exact_inputs(table_, still));
     const double bias_size = size_of_terms(at_rest);
     for (int i = 0; i < n; ++i) {
-      note("bias", difference(h[at(i)], exact_bias.of(chain_.residual()[at(i)])), bias_size);
+      note("bias", difference(h[as_index(i)], exact_bias.of(chain_.residual()[as_index(i)])),
+           bias_size);
     }
     RandomPoint moving = point_;
     if (table_.acceleration(table_.context, &here, moving.a.data()) != 0) {
@@ -199,7 +200,7 @@ class Measurement {
     ExactEvaluation back(chain_.definitions(), exact_inputs(table_, moving));
     const double solved_size = size_of_terms(solved) + size * largest(moving.a);
     for (int i = 0; i < n; ++i) {
-      note("acceleration", back.of(chain_.residual()[at(i)]).to_double(), solved_size);
+      note("acceleration", back.of(chain_.residual()[as_index(i)]).to_double(), solved_size);
     }
   }
 
@@ -211,7 +212,7 @@ class Measurement {
     // An integrator shortens its step where the pivots of N are small. With cv = 0 N is M.
     for (; elimination_growth(matrix) > kGrowth; matrix = newton_matrix(cv)) cv /= 2;
     const double ca = 1.0, cq = cv * cv, size_of_matrix = largest(matrix);
-    Values work(at(table_.newton_work)), x(at(n));
+    Values work(as_index(table_.newton_work)), x(as_index(n));
     const catena_point here = point_.at();
     if (table_.newton_factor(table_.context, &here, ca, cv, cq, work.data()) != 0) {
       note("newton_solve", std::nan(""), 1);
@@ -226,7 +227,7 @@ class Measurement {
     for (auto* list : {&along.z, &along.u, &along.p}) std::fill(list->begin(), list->end(), 0.0);
     double size_of_x = largest(x);
     const auto scaled = [&](Values& list, double factor) {
-      for (int i = 0; i < n; ++i) list[at(i)] = factor * x[at(i)] / size_of_x;
+      for (int i = 0; i < n; ++i) list[as_index(i)] = factor * x[as_index(i)] / size_of_x;
     };
     scaled(along.q, cq), scaled(along.v, cv), scaled(along.a, ca);
     eliminate_states(along, cv);
@@ -238,11 +239,11 @@ class Measurement {
     table_.newton_solve_transposed(table_.context, work.data(), y.data());
     numeric transposed = 0;
     for (int i = 0; i < n; ++i) {
-      const ex& r = chain_.residual()[at(i)];
+      const ex& r = chain_.residual()[as_index(i)];
       const numeric product = (ahead.of(r) - behind.of(r)) / (2 * step_) * numeric(size_of_x);
-      note("newton_solve", difference(right[at(i)], product), size_of_matrix * size_of_x);
-      transposed =
-          transposed + numeric(y[at(i)]) * product - numeric(left[at(i)]) * numeric(x[at(i)]);
+      note("newton_solve", difference(right[as_index(i)], product), size_of_matrix * size_of_x);
+      transposed = transposed + numeric(y[as_index(i)]) * product -
+                   numeric(left[as_index(i)]) * numeric(x[as_index(i)]);
     }
     note("newton_solve_transposed", transposed.to_double(),
          size_of_matrix * size_of_x * largest(y));
@@ -251,14 +252,14 @@ class Measurement {
   // N with ca = 1 and cq = cv^2, column by column
   Values newton_matrix(double cv) {
     const int n = table_.coordinates;
-    Values matrix(at(n * n));
+    Values matrix(as_index(n * n));
     const catena_point here = point_.at();
     for (int j = 0; j < n; ++j) {
       RandomPoint unit = direction_;
       unit.t = 0;
       for (auto* list : {&unit.q, &unit.v, &unit.a, &unit.z, &unit.u, &unit.p})
         std::fill(list->begin(), list->end(), 0.0);
-      unit.q[at(j)] = cv * cv, unit.v[at(j)] = cv, unit.a[at(j)] = 1;
+      unit.q[as_index(j)] = cv * cv, unit.v[as_index(j)] = cv, unit.a[as_index(j)] = 1;
       eliminate_states(unit, cv);
       const catena_point along_unit = unit.at();
       table_.residual_tangent(table_.context, &here, &along_unit, matrix.data() + j * n);
@@ -273,10 +274,10 @@ class Measurement {
     double met = before;
     for (int j = n - 1; j > 0; --j) {
       for (int k = 0; k < j; ++k) {
-        const double factor = matrix[at(k * n + j)] / matrix[at(j * n + j)];
+        const double factor = matrix[as_index(k * n + j)] / matrix[as_index(j * n + j)];
         for (int i = 0; i < j; ++i) {
-          double& entry = matrix[at(k * n + i)];
-          entry -= factor * matrix[at(j * n + i)];
+          double& entry = matrix[as_index(k * n + i)];
+          entry -= factor * matrix[as_index(j * n + i)];
           met = std::max(met, std::abs(entry));
         }
       }
@@ -288,7 +289,7 @@ class Measurement {
   void eliminate_states(RandomPoint& along, double cv) {
     if (table_.states == 0) return;
     const catena_point here = point_.at();
-    Values moved(at(table_.states)), own(moved);
+    Values moved(as_index(table_.states)), own(moved);
     std::fill(along.z.begin(), along.z.end(), 0.0);
     const catena_point held = along.at();
     table_.state_rate_tangent(table_.context, &here, &held, moved.data());
@@ -303,7 +304,7 @@ class Measurement {
   void states() {
     if (table_.states == 0) return;
     const catena_point here = point_.at(), along = direction_.at();
-    Values rate(at(table_.states)), tangent(rate);
+    Values rate(as_index(table_.states)), tangent(rate);
     table_.state_rate(table_.context, &here, rate.data());
     table_.state_rate_tangent(table_.context, &here, &along, tangent.data());
     const double size = largest(rate) + 1, tangent_size = largest(tangent) + size;
@@ -316,7 +317,7 @@ class Measurement {
 
   void positions() {
     const catena_point here = point_.at(), along = direction_.at();
-    const std::size_t points = at(table_.links + 2);
+    const std::size_t points = as_index(table_.links + 2);
     Values side(points), down(points), dside(points), ddown(points), vside(points), vdown(points);
     table_.positions(table_.context, &here, side.data(), down.data());
     table_.positions_tangent(table_.context, &here, &along, dside.data(), ddown.data());
@@ -343,7 +344,7 @@ class Measurement {
 
   void energy() {
     const catena_point here = point_.at();
-    Values energy(at(table_.energies));
+    Values energy(as_index(table_.energies));
     table_.energy(table_.context, &here, energy.data());
     std::vector<numeric> exact;
     numeric balance = 0;
@@ -385,7 +386,7 @@ class Measurement {
 
   void internal_forces() {
     const catena_point here = point_.at();
-    const std::size_t n = at(table_.links);
+    const std::size_t n = as_index(table_.links);
     Values moment(n), tension(n), curvature(n);
     table_.internal_forces(table_.context, &here, moment.data(), tension.data(), curvature.data());
     const auto compare = [&](const Values& values, const std::vector<ex>& exact, double size) {
@@ -452,7 +453,7 @@ std::vector<FunctionAccuracy> measure_accuracy(const Description& description, i
                                                const catena_model& table, int points,
                                                unsigned seed) {
   const long digits_before = GiNaC::Digits;
-  GiNaC::Digits = kDigits + 20;  // differences with a step of 1e-18 lose digits
+  GiNaC::Digits = kDigitsOfAccuracy + 20;  // differences with a step of 1e-18 lose digits
   Measurement measurement(description, links, table);
   std::mt19937_64 generator(seed);
   for (int k = 0; k < points; ++k) measurement.add_point(generator);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/as_index.hpp"
 #include "generator/certificate/random_point.hpp"
 #include "generator/certificate/twin.hpp"
 #include "generator/derivation/chain.hpp"
@@ -23,11 +24,9 @@ using GiNaC::ex;
 using GiNaC::numeric;
 using Eigenvalues = std::vector<std::complex<double>>;
 
-constexpr int kDigits = 70;
+constexpr int kDigitsOfFrequencies = 70;
 // The differences take about 8 n^2 evaluations in 70 digits: ten seconds for so many coordinates.
 constexpr int kMostCoordinates = 24;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<double> parameters(const Description& description, const catena_model& table,
                                unsigned seed) {
@@ -45,10 +44,10 @@ std::vector<double> parameters(const Description& description, const catena_mode
     const double usual = parameter.default_value;
     const double seeded = random_parameter(parameter, generator);
     if (std::isfinite(usual) && usual != 0 && usual != parameter.neutral) {
-      p[at(i)] = usual;
+      p[as_index(i)] = usual;
     } else {
       const double scale = std::isinf(parameter.neutral) ? 1e3 : 1;
-      p[at(i)] = std::clamp(scale * seeded, parameter.lower, parameter.upper);
+      p[as_index(i)] = std::clamp(scale * seeded, parameter.lower, parameter.upper);
     }
   }
   return p;
@@ -56,10 +55,10 @@ std::vector<double> parameters(const Description& description, const catena_mode
 
 RandomPoint still(const catena_model& table) {
   RandomPoint point;
-  for (auto* list : {&point.q, &point.v, &point.a}) list->assign(at(table.coordinates), 0.0);
-  point.z.assign(at(table.states), 0.0);
-  point.u.assign(at(3 * table.signals), 0.0);
-  point.p.assign(at(table.parameters), 0.0);
+  for (auto* list : {&point.q, &point.v, &point.a}) list->assign(as_index(table.coordinates), 0.0);
+  point.z.assign(as_index(table.states), 0.0);
+  point.u.assign(as_index(3 * table.signals), 0.0);
+  point.p.assign(as_index(table.parameters), 0.0);
   return point;
 }
 
@@ -69,10 +68,10 @@ MatrixXd emitted_stiffness(const catena_model& table, const RandomPoint& point) 
   const catena_point here = point.at();
   RandomPoint along = still(table);
   for (int j = 0; j < table.coordinates; ++j) {
-    along.q[at(j)] = 1;
+    along.q[as_index(j)] = 1;
     const catena_point direction = along.at();
     table.residual_tangent(table.context, &here, &direction, stiffness.col(j).data());
-    along.q[at(j)] = 0;
+    along.q[as_index(j)] = 0;
   }
   return stiffness;
 }
@@ -89,7 +88,7 @@ bool come_to_rest(const catena_model& table, RandomPoint& point) {
     const double length = change.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length)) return false;
     const double part = std::min(1.0, kLongestStep / std::max(length, kShortestStep));
-    for (int i = 0; i < table.coordinates; ++i) point.q[at(i)] -= part * change[i];
+    for (int i = 0; i < table.coordinates; ++i) point.q[as_index(i)] -= part * change[i];
     if (length < kShortestStep) return true;
   }
   return false;
@@ -109,7 +108,8 @@ class FromEnergies {
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j <= i; ++j) {
         const numeric both = energy(velocity({i, j}));
-        m(i, j) = m(j, i) = (both - alone[at(i)] - alone[at(j)] + potential).to_double();
+        m(i, j) = m(j, i) =
+            (both - alone[as_index(i)] - alone[as_index(j)] + potential).to_double();
       }
     }
     return m;
@@ -135,7 +135,7 @@ class FromEnergies {
 
   ExactEvaluation::Inputs velocity(const std::vector<int>& ones) const {
     RandomPoint direction = still(table_);
-    for (const int i : ones) direction.v[at(i)] += 1;
+    for (const int i : ones) direction.v[as_index(i)] += 1;
     return exact_inputs(table_, rest_, direction, 1);
   }
 
@@ -167,8 +167,8 @@ class FromEnergies {
   double mixed(Quantity quantity, std::vector<double> RandomPoint::*x, int i, int j) {
     const auto at_corner = [&](int si, int sj) {
       RandomPoint direction = still(table_);
-      (direction.*x)[at(i)] += si;
-      direction.q[at(j)] += sj;
+      (direction.*x)[as_index(i)] += si;
+      direction.q[as_index(j)] += sj;
       return (this->*quantity)(exact_inputs(table_, rest_, direction, step_));
     };
     const numeric sum = at_corner(1, 1) - at_corner(1, -1) - at_corner(-1, 1) + at_corner(-1, -1);
@@ -212,7 +212,7 @@ RestFrequencies rest_frequencies(const Description& description, int links,
   const Eigenvalues emitted = eigenvalues(mass, emitted_stiffness(table, rest));
 
   const long digits_before = GiNaC::Digits;
-  GiNaC::Digits = kDigits;
+  GiNaC::Digits = kDigitsOfFrequencies;
   Chain chain(description, links);
   FromEnergies from_energies(chain, table, rest);
   Eigenvalues other = eigenvalues(from_energies.mass(), from_energies.stiffness());

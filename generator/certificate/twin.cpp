@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "common/as_index.hpp"
 #include "generator/certificate/random_point.hpp"
 #include "reference/coriolis.hpp"
 #include "reference/gravity.hpp"
@@ -20,9 +21,7 @@ namespace {
 using Real = long double;
 using Vector = std::vector<Real>;
 
-constexpr Real kRounding = std::numeric_limits<double>::epsilon();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr Real kUnitRoundoff = std::numeric_limits<double>::epsilon();
 
 // The parameters of a chain in the order of p: families with one entry per link, load, gravity.
 template <class T>
@@ -36,8 +35,8 @@ reference::Chain<T> reference_chain(const catena_model& table, const std::vector
           family(2),
           family(3),
           family(4),
-          T(p[at(6 * table.links)]),
-          T(p[at(6 * table.links + 1)])};
+          T(p[as_index(6 * table.links)]),
+          T(p[as_index(6 * table.links + 1)])};
 }
 
 class Comparison {
@@ -48,7 +47,7 @@ class Comparison {
     for (std::size_t i = 0; i < values.size(); ++i) {
       worst = std::isnan(values[i]) ? values[i] : std::max(worst, std::abs(values[i] - closed[i]));
     }
-    const double units = worst == 0 ? 0 : static_cast<double>(worst / (kRounding * size));
+    const double units = worst == 0 ? 0 : static_cast<double>(worst / (kUnitRoundoff * size));
     for (FunctionAccuracy& known : result_) {
       if (known.function != what) continue;
       known.worst = std::isnan(units) ? units : std::max(known.worst, units);
@@ -114,7 +113,7 @@ std::vector<FunctionAccuracy> compare_with_twin(const catena_model& table, int p
     const catena_point here = point.at();
     const auto chain = reference_chain<Real>(table, point.p);
     const Vector theta(point.q.begin(), point.q.end()), rate(point.v.begin(), point.v.end());
-    std::vector<double> mass(at(n * n)), term(at(n));
+    std::vector<double> mass(as_index(n * n)), term(as_index(n));
     table.mass_matrix(table.context, &here, mass.data());
     Vector closed_mass;
     for (const Vector& row : reference::mass_matrix(chain, theta)) {
@@ -144,9 +143,9 @@ Frequencies natural_frequencies(const catena_model& table) {
   }
   RandomPoint rest;
   rest.p = cable_parameters(table);
-  for (auto* list : {&rest.q, &rest.v, &rest.a}) list->assign(at(table.coordinates), 0.0);
-  rest.z.assign(at(table.states), 0.0);
-  rest.u.assign(at(3 * table.signals), 0.0);
+  for (auto* list : {&rest.q, &rest.v, &rest.a}) list->assign(as_index(table.coordinates), 0.0);
+  rest.z.assign(as_index(table.states), 0.0);
+  rest.u.assign(as_index(3 * table.signals), 0.0);
   if (std::any_of(rest.p.begin(), rest.p.end(), [](double p) { return !std::isfinite(p); })) {
     result.why_not = "an effect of the model vanishes in a limit only";
     return result;
@@ -158,22 +157,22 @@ Frequencies natural_frequencies(const catena_model& table) {
   RandomPoint along = rest;
   std::fill(along.p.begin(), along.p.end(), 0.0);
   for (int j = 0; j < n; ++j) {
-    along.q[at(j)] = 1;
+    along.q[as_index(j)] = 1;
     const catena_point direction = along.at();
     table.residual_tangent(table.context, &here, &direction, stiffness.col(j).data());
-    along.q[at(j)] = 0;
+    along.q[as_index(j)] = 0;
   }
   const auto chain = reference_chain<double>(table, rest.p);
-  const std::vector<double> hanging(at(n)), flat(at(n), std::acos(-1.0) / 2);
+  const std::vector<double> hanging(as_index(n)), flat(as_index(n), std::acos(-1.0) / 2);
   const auto closed_mass = reference::mass_matrix(chain, hanging);
   auto closed_stiffness = reference::joint_matrix(chain.stiffness);
   const auto slope = reference::gravity(chain, flat);  // sin = 1: the derivative of G at rest
   Eigen::MatrixXd M(n, n), K(n, n);
   for (int i = 0; i < n; ++i) {
-    closed_stiffness[at(i)][at(i)] += slope[at(i)];
+    closed_stiffness[as_index(i)][as_index(i)] += slope[as_index(i)];
     for (int j = 0; j < n; ++j) {
-      M(i, j) = closed_mass[at(i)][at(j)];
-      K(i, j) = closed_stiffness[at(i)][at(j)];
+      M(i, j) = closed_mass[as_index(i)][as_index(j)];
+      K(i, j) = closed_stiffness[as_index(i)][as_index(j)];
     }
   }
   result.applicable = true;

@@ -130,4 +130,8 @@ bool ChainSymbols::is_constant(const GiNaC::ex& expression) const {
   return true;
 }
 
+GiNaC::ex derivative(const GiNaC::ex& expression, const GiNaC::ex& symbol) {
+  return expression.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+}
+
 }  // namespace catena::checking

@@ -44,4 +44,7 @@ struct ChainSymbols {
   GiNaC::exset accelerations_;
 };
 
+/// Partial, by one of the symbols.
+GiNaC::ex derivative(const GiNaC::ex& expression, const GiNaC::ex& symbol);
+
 }  // namespace catena::checking

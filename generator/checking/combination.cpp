@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/checking/combination.hpp"
 
+#include "common/as_index.hpp"
+
 namespace catena::checking {
 namespace {
 
 using GiNaC::ex;
-
-ex derivative(const ex& e, const ex& symbol) { return e.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)); }
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void set(Combination& combination, int equation, const ex& factor) {
   if (!factor.expand().is_zero()) combination.factors[equation] = factor;
@@ -55,12 +53,14 @@ std::vector<Combination> possible_combinations(const ex& hand, const ChainSymbol
   Combination by_torque, by_inertia, by_damping, by_stiffness;
   ex damping_sum = 0, stiffness_sum = 0;
   for (int j = 1; j <= chain.links; ++j) {
-    set(by_torque, j, -derivative(hand, chain.torque[at(j)]));
+    set(by_torque, j, -derivative(hand, chain.torque[as_index(j)]));
     set(by_inertia, j,
-        derivative(derivative(hand, chain.inertia[at(j)]), chain.acceleration[at(j)]));
-    damping_sum += derivative(derivative(hand, chain.damping[at(j)]), chain.rate[at(j)]);
+        derivative(derivative(hand, chain.inertia[as_index(j)]), chain.acceleration[as_index(j)]));
+    damping_sum +=
+        derivative(derivative(hand, chain.damping[as_index(j)]), chain.rate[as_index(j)]);
     set(by_damping, j, damping_sum);
-    stiffness_sum += derivative(derivative(hand, chain.stiffness[at(j)]), chain.angle[at(j)]);
+    stiffness_sum +=
+        derivative(derivative(hand, chain.stiffness[as_index(j)]), chain.angle[as_index(j)]);
     set(by_stiffness, j, stiffness_sum);
   }
   std::vector<Combination> result{by_torque, by_inertia, by_damping, by_stiffness};

@@ -24,8 +24,6 @@ Contributions each(const Contributions& parts, const std::function<ex(const ex&)
   return result;
 }
 
-ex derivative(const ex& e, const ex& symbol) { return e.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)); }
-
 }  // namespace
 
 ex total(const Contributions& parts) {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "common/as_index.hpp"
 #include "generator/checking/shared_tree.hpp"
 
 namespace catena::checking {
@@ -13,8 +14,6 @@ namespace {
 using GiNaC::ex;
 using GiNaC::numeric;
 using Vector = Motion::Vector;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// x of A x = b by elimination, exactly if the numbers are exact; nothing if A is singular.
 std::optional<Vector> solution(std::vector<Vector> a, Vector b) {
@@ -72,7 +71,7 @@ std::optional<Vector> solved(const std::vector<std::vector<ex>>& mass, const std
 
 GiNaC::exmap moving(GiNaC::exmap values, const ChainSymbols& chain, const Vector& accelerations) {
   for (int j = 1; j <= chain.links; ++j)
-    values[chain.acceleration[at(j)]] = accelerations[at(j) - 1];
+    values[chain.acceleration[as_index(j)]] = accelerations[as_index(j) - 1];
   return values;
 }
 
@@ -83,7 +82,7 @@ Motion::Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiN
     : chain_(chain), seed_(seed) {
   Replacement replaced(given);
   GiNaC::exmap no_accelerations;
-  for (int i = 1; i <= chain.links; ++i) no_accelerations[chain.acceleration[at(i)]] = 0;
+  for (int i = 1; i <= chain.links; ++i) no_accelerations[chain.acceleration[as_index(i)]] = 0;
   Replacement at_rest(no_accelerations);
   for (int i = 1; i <= chain.links; ++i) {
     system_.mass.emplace_back();
@@ -130,7 +129,7 @@ std::optional<bool> Motion::is_obeyed(const ex& h) {
   const std::optional<ex> rational = exact_ ? (*exact_)(h) : std::nullopt;
   if (!rational) return std::nullopt;
   ExactForm::Degrees known;
-  for (int j = 1; j <= chain_.links; ++j) known[chain_.acceleration[at(j)]] = solution_;
+  for (int j = 1; j <= chain_.links; ++j) known[chain_.acceleration[as_index(j)]] = solution_;
   const std::optional<int> bits = bits_for(exact_->degree(*rational, known));
   if (!bits) return std::nullopt;
   std::optional<Evaluation>& here = point(*bits);
@@ -161,14 +160,14 @@ std::map<int, numeric> Motion::factors(const Vector& slope, const GiNaC::exmap& 
   const std::optional<std::vector<Vector>> mass = values_of(system_.mass, evaluate);
   const std::optional<Vector> f = mass ? solution(*mass, slope) : std::nullopt;
   for (int j = 1; f && j <= chain_.links; ++j)
-    if (GiNaC::abs((*f)[at(j) - 1]) > closeness()) result[j] = (*f)[at(j) - 1];
+    if (GiNaC::abs((*f)[as_index(j) - 1]) > closeness()) result[j] = (*f)[as_index(j) - 1];
   return result;
 }
 
 std::optional<Vector> acceleration_factors(const ex& h, const ChainSymbols& chain,
                                            const GiNaC::exmap& values) {
   GiNaC::exmap numbers = values;
-  for (int j = 1; j <= chain.links; ++j) numbers.erase(chain.acceleration[at(j)]);
+  for (int j = 1; j <= chain.links; ++j) numbers.erase(chain.acceleration[as_index(j)]);
   Evaluation evaluate(numbers);
   for (const ex& part : transcendental_parts({h})) {
     const std::optional<numeric> value = evaluate(part);
@@ -179,7 +178,8 @@ std::optional<Vector> acceleration_factors(const ex& h, const ChainSymbols& chai
     const ex left = Replacement(numbers)(h).expand();  // only accelerations
     Vector result;
     for (int j = 1; j <= chain.links; ++j) {
-      const ex factor = left.diff(GiNaC::ex_to<GiNaC::symbol>(chain.acceleration[at(j)])).evalf();
+      const ex factor =
+          left.diff(GiNaC::ex_to<GiNaC::symbol>(chain.acceleration[as_index(j)])).evalf();
       if (!GiNaC::is_a<numeric>(factor)) return std::nullopt;
       result.push_back(GiNaC::ex_to<numeric>(factor));
     }

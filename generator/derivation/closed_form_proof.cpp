@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/closed_form_proof.hpp"
 
-#include <sstream>
-
 #include "generator/derivation/chain.hpp"
+#include "generator/derivation/entry_comparison.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/derivation/written_out.hpp"
 #include "reference/coriolis.hpp"
@@ -38,28 +37,8 @@ struct WriteOutDifferences : GiNaC::map_function {
 
 ex difference(const ex& model, const ex& closed_form) {
   WriteOutDifferences write_out;
-  const ex plain = (model - write_out(closed_form)).expand();
-  return plain.is_zero() ? plain : without_sine_squares(plain);
+  return model - write_out(closed_form);
 }
-
-class Comparison {
- public:
-  explicit Comparison(const std::string& what) { proof_.what = what; }
-  void entry(const std::string& place, const ex& model, const ex& closed_form) {
-    ++proof_.entries;
-    if (!proof_.equal) return;
-    const ex rest = difference(model, closed_form);
-    if (rest.is_zero()) return;
-    proof_.equal = false;
-    std::ostringstream out;
-    out << proof_.what << place << ": the model has " << rest << " more";
-    proof_.difference = out.str();
-  }
-  Proof proof() const { return proof_; }
-
- private:
-  Proof proof_;
-};
 
 std::vector<ex> family(Chain& chain, const char* name) {
   std::vector<ex> symbols;
@@ -96,17 +75,17 @@ std::vector<Proof> compare_with_closed_form(const ChainSymbols& s, const ChainIn
   const size_t n = s.theta.size();
   const auto index = [](size_t i) { return "(" + std::to_string(i + 1) + ")"; };
 
-  Comparison mass("M");
+  EntryComparison mass("M");
   const auto M = reference::mass_matrix(chain, s.theta);
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = 0; j < n; ++j) {
       mass.entry("(" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ")",
-                 model.mass_matrix[i * n + j], M[i][j]);
+                 difference(model.mass_matrix[i * n + j], M[i][j]));
     }
   }
   const auto compare = [&](const char* what, const std::vector<ex>& a, const std::vector<ex>& b) {
-    Comparison comparison(what);
-    for (size_t i = 0; i < n; ++i) comparison.entry(index(i), a[i], b[i]);
+    EntryComparison comparison(what);
+    for (size_t i = 0; i < n; ++i) comparison.entry(index(i), difference(a[i], b[i]));
     return comparison.proof();
   };
   const auto product = [&](const std::vector<ex>& joint, const std::vector<ex>& x) {

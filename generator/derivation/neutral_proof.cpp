@@ -2,12 +2,12 @@
 #include "generator/derivation/neutral_proof.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/effect_expression.hpp"
+#include "generator/derivation/entry_comparison.hpp"
 #include "generator/derivation/written_out.hpp"
 
 namespace catena {
@@ -54,31 +54,6 @@ class AtNeutral {
   GiNaC::exmap shared_;
 };
 
-class Comparison {
- public:
-  Comparison(const std::string& what, AtNeutral& model, WrittenOut& plain)
-      : model_(model), plain_(plain) {
-    proof_.what = what;
-  }
-  void entry(const std::string& place, const ex& model, const ex& plain) {
-    ++proof_.entries;
-    if (!proof_.equal) return;
-    ex rest = (model_.of(model) - plain_.of(plain)).expand();
-    if (!rest.is_zero()) rest = without_sine_squares(rest);
-    if (rest.is_zero()) return;
-    proof_.equal = false;
-    std::ostringstream out;
-    out << proof_.what << place << ": the model has " << rest << " more";
-    proof_.difference = out.str();
-  }
-  Proof proof() const { return proof_; }
-
- private:
-  AtNeutral& model_;
-  WrittenOut& plain_;
-  Proof proof_;
-};
-
 ex sum_of(const std::vector<ex>& parts) {
   ex sum = 0;
   for (const ex& part : parts) sum += part;
@@ -112,38 +87,44 @@ NeutralProofs prove_neutral(const Description& description, int links) {
   Chain model(description, links), plain(plain_chain(), links);
   AtNeutral at_neutral(description, model, plain);
   WrittenOut written_out(plain.definitions());
+  const auto difference = [&](const ex& of_model, const ex& of_plain) {
+    return at_neutral.of(of_model) - written_out.of(of_plain);
+  };
 
-  Comparison residual("residual", at_neutral, written_out);
+  EntryComparison residual("residual");
   for (std::size_t i = 0; i < model.residual().size(); ++i) {
-    residual.entry("(" + std::to_string(i + 1) + ")", model.residual()[i], plain.residual()[i]);
+    residual.entry("(" + std::to_string(i + 1) + ")",
+                   difference(model.residual()[i], plain.residual()[i]));
   }
   result.proofs.push_back(residual.proof());
 
-  Comparison energies("energies and powers", at_neutral, written_out);
+  EntryComparison energies("energies and powers");
   for (const EnergyItem& item : model.energies()) {
     ex expected = 0;
     for (const EnergyItem& other : plain.energies()) {
       if (other.name == item.name && other.kind == item.kind) expected = sum_of(other.parts);
     }
-    energies.entry(" of " + item.name, sum_of(item.parts), expected);
+    energies.entry(" of " + item.name, difference(sum_of(item.parts), expected));
   }
   result.proofs.push_back(energies.proof());
 
-  Comparison forces("joint moments and tensions", at_neutral, written_out);
+  EntryComparison forces("joint moments and tensions");
   for (std::size_t i = 0; i < static_cast<std::size_t>(links); ++i) {
-    forces.entry(" of joint " + std::to_string(i + 1), model.moments()[i], plain.moments()[i]);
-    forces.entry(" of link " + std::to_string(i + 1), model.tensions()[i], plain.tensions()[i]);
+    forces.entry(" of joint " + std::to_string(i + 1),
+                 difference(model.moments()[i], plain.moments()[i]));
+    forces.entry(" of link " + std::to_string(i + 1),
+                 difference(model.tensions()[i], plain.tensions()[i]));
   }
   result.proofs.push_back(forces.proof());
 
   if (model.sensor().given) {
     const Chain::Sensor& ours = model.sensor();
     const Chain::Sensor& none = plain.sensor();
-    Comparison sensor("what sensors report", at_neutral, written_out);
-    sensor.entry(" of side", ours.side, none.side);
-    sensor.entry(" of down", ours.down, none.down);
-    sensor.entry(" of angles", ours.angle, none.angle);
-    sensor.entry(" of time", ours.clock, none.clock);
+    EntryComparison sensor("what sensors report");
+    sensor.entry(" of side", difference(ours.side, none.side));
+    sensor.entry(" of down", difference(ours.down, none.down));
+    sensor.entry(" of angles", difference(ours.angle, none.angle));
+    sensor.entry(" of time", difference(ours.clock, none.clock));
     result.proofs.push_back(sensor.proof());
   }
   return result;

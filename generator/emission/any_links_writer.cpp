@@ -133,7 +133,7 @@ std::string families_text(const std::string& type, const std::string& name,
   return out.str();
 }
 
-std::string header_text(const Description& description, const ModelFunctions& model) {
+std::string any_links_header_text(const Description& description, const ModelFunctions& model) {
   const std::string name = any_links_name(description);
   const TableFamilies table = table_families(description);
   const auto truth = [](bool value) { return value ? "true" : "false"; };
@@ -198,7 +198,7 @@ std::string header_text(const Description& description, const ModelFunctions& mo
   return out.str();
 }
 
-std::string source_text(const Description& description, const ModelFunctions& model) {
+std::string any_links_source_text(const Description& description, const ModelFunctions& model) {
   const std::string name = any_links_name(description);
   TableText table;
   table.size = "sizeof(catena_model)";
@@ -238,8 +238,8 @@ std::map<std::string, std::string> emit_any_links(const Description& description
   const std::string name = any_links_name(description);
   try {
     const ModelFunctions model = functions_for_any_links(description);
-    return {{name + ".hpp", header_text(description, model)},
-            {name + ".cpp", source_text(description, model)}};
+    return {{name + ".hpp", any_links_header_text(description, model)},
+            {name + ".cpp", any_links_source_text(description, model)}};
   } catch (const std::logic_error& error) {
     if (description.effects.empty()) throw;
     refuse(description, error.what());

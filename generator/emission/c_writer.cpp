@@ -391,7 +391,7 @@ std::string function_text(const ModelFunctions& model, const Function& function)
          after(function) + "}\n";
 }
 
-std::string source_text(const Description& description, const ModelFunctions& functions) {
+std::string c_source_text(const Description& description, const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
   out << kCBanner << "#include \"" << s.name
@@ -424,7 +424,7 @@ std::string source_text(const Description& description, const ModelFunctions& fu
   return out.str();
 }
 
-std::string header_text(const ModelSummary& s) {
+std::string c_header_text(const ModelSummary& s) {
   std::ostringstream out;
   out << kCBanner << "#ifndef CATENA_MODEL_" << s.name << "\n#define CATENA_MODEL_" << s.name
       << "\n\n#include \"catena_model.h\"\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
@@ -440,8 +440,8 @@ EmittedModel emit_c_model(const Description& description, int links, Layout layo
   const ModelFunctions functions = model_functions(description, links, layout);
   const std::string name = functions.summary.name;
   return {functions.summary,
-          {{name + ".c", source_text(description, functions)},
-           {name + ".h", header_text(functions.summary)}}};
+          {{name + ".c", c_source_text(description, functions)},
+           {name + ".h", c_header_text(functions.summary)}}};
 }
 
 }  // namespace catena

@@ -10,8 +10,8 @@ using GiNaC::numeric;
 
 namespace {
 
-Factor cosine(int i, int j = 0) { return {Role::kCosine, i, j}; }
-Factor sine(int i, int j = 0) { return {Role::kSine, i, j}; }
+MonomialFactor cosine(int i, int j = 0) { return {Role::kCosine, i, j}; }
+MonomialFactor sine(int i, int j = 0) { return {Role::kSine, i, j}; }
 
 std::vector<Powers> monomials(const MonomialSum& sum) {
   std::vector<Powers> all;
@@ -25,7 +25,7 @@ numeric coefficient(const MonomialSum& sum, const Powers& powers) {
 }
 
 // Takes one power of a factor away; false if there is none.
-bool take(Powers& powers, const Factor& factor) {
+bool take(Powers& powers, const MonomialFactor& factor) {
   const auto found = powers.find(factor);
   if (found == powers.end() || found->second < 1) return false;
   if (--found->second == 0) powers.erase(found);

@@ -31,18 +31,18 @@ enum class Role {
   kTorque,
 };
 
-struct Factor {
+struct MonomialFactor {
   Role role = Role::kOther;
   int first = 0, second = 0;  ///< links; for kOther the rank of the family and the link
   int number = -1;            ///< of the symbol, where it is one
 
-  bool operator<(const Factor& other) const {
+  bool operator<(const MonomialFactor& other) const {
     return std::tie(role, first, second) < std::tie(other.role, other.first, other.second);
   }
   bool is_coefficient() const { return role >= Role::kMass; }
 };
 
-using Powers = std::map<Factor, int>;
+using Powers = std::map<MonomialFactor, int>;
 using MonomialSum = std::map<Powers, GiNaC::numeric>;  ///< coefficients are never zero
 
 /// Adds a monomial.

@@ -75,7 +75,7 @@ class LatexTerms {
   }
 
  private:
-  Factor factor_of(int number) const {
+  MonomialFactor factor_of(int number) const {
     static const std::map<std::string, Role> roles = {{"gravity", Role::kGravity},
                                                       {"length", Role::kLength},
                                                       {"cosine", Role::kCosine},
@@ -245,7 +245,7 @@ class LatexTerms {
     return "\\frac{" + (above.empty() ? "1" : above) + "}{" + below + "}";
   }
 
-  std::string factor_text(const Factor& factor, int power) const {
+  std::string factor_text(const MonomialFactor& factor, int power) const {
     const auto difference = [&] {
       return "(\\theta_{" + std::to_string(factor.first) + "} - \\theta_{" +
              std::to_string(factor.second) + "})";

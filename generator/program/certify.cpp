@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CertifyOptions {
   ModelOptions model;
   std::string folder = "generated";
   std::string format = "c++";
@@ -69,14 +69,14 @@ Json certificate_on_file(const std::filesystem::path& path) {
 
 /// Measured with air_drag_quadratic on one core of 2.5 GHz: 20 s for 40 links, 77 s for 80; a third
 /// to a half of it without. The exact evaluation, with rational numbers, takes most.
-WorkEstimate estimate_of(const Description& description) {
+WorkEstimate certificate_estimate(const Description& description) {
   const double by_square = description.effects.empty() ? 0.005 : 0.012;
   WorkEstimate estimate;
   for (const int links : description.links) estimate.seconds += by_square * links * links;
   return estimate;
 }
 
-bool certify(const Options& options, const Description& description, int links) {
+bool certify(const CertifyOptions& options, const Description& description, int links) {
   const Language language = language_of(options.format);
   const EmittedFiles files = emit_files(
       description, {links}, false, [](const ModelSummary&, double) {}, std::nullopt, language);
@@ -103,7 +103,7 @@ bool certify(const Options& options, const Description& description, int links) 
 }
 
 // What the models have in common: their look-up, the list for CMake, the one for any number.
-bool certify_library(const Options& options, const Description& description) {
+bool certify_library(const CertifyOptions& options, const Description& description) {
   const EmittedFiles files =
       emit_files(description, description.links, true, [](const ModelSummary&, double) {});
   bool same = true;
@@ -123,7 +123,7 @@ bool certify_library(const Options& options, const Description& description) {
 }  // namespace
 
 void add_certify_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CertifyOptions>();
   CLI::App* command =
       app.add_subcommand("certify", "Compare emitted models with their certificates");
   add_model_options(*command, options->model);
@@ -142,7 +142,7 @@ void add_certify_command(CLI::App& app, int& status) {
       throw InputError(
           "--library with --format c: the look-up of the models is C++; leave one away");
     }
-    require_yes(options->model.yes, "certifying", estimate_of(description));
+    require_yes(options->model.yes, "certifying", certificate_estimate(description));
     for (const int n : description.links) {
       if (!certify(*options, description, n)) status = 1;
     }

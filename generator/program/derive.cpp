@@ -21,7 +21,7 @@ namespace catena {
 
 namespace {
 
-struct Options {
+struct DeriveOptions {
   ModelOptions model;
   std::string output = "generated";
   bool library = false;
@@ -33,7 +33,7 @@ struct Options {
   std::string layout;  // empty: by the number of links
 };
 
-void write_latex(const Options& options, const Description& description) {
+void write_latex(const DeriveOptions& options, const Description& description) {
   for (const int n : description.links) {
     if (n > kMostLatexLinks) {
       throw InputError("--latex with " + std::to_string(n) + " links: at most " +
@@ -90,7 +90,7 @@ void print_equations(const Description& description) {
   std::printf("%s\n", nlohmann::ordered_json{{"links", links}, {"equations", list}}.dump().c_str());
 }
 
-void derive(const Options& options) {
+void derive(const DeriveOptions& options) {
   const Description description = description_of(options.model, !options.any_links);
   require_neutral(description);
   if (options.equations) {
@@ -139,7 +139,7 @@ void derive(const Options& options) {
 }  // namespace
 
 void add_derive_command(CLI::App& app, int& status) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DeriveOptions>();
   CLI::App* command =
       app.add_subcommand("derive", "Derive a model's equations and write them as C++");
   add_model_options(*command, options->model);

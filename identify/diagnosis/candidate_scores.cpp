@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kElsewhere = 0.2;      // relative distance of two shapes that are not neighbours
+constexpr double kNotNeighbours = 0.2;  // relative distance of two shapes that are not neighbours
 constexpr double kMovesTheData = 0.33;  // of the noise: a step large enough for a slope
 
 constexpr const char* kOtherWayRound = "would have to act the other way round";
@@ -43,7 +43,7 @@ void take_best(Explanation& explanation, std::vector<ScoredStart>& scores) {
   explanation.start = best.start;
   for (const ScoredStart& other : scores)
     if (explanation.other_start.empty() && other.shape.size() > 0 &&
-        (other.shape - best.shape).norm() > kElsewhere * best.shape.norm())
+        (other.shape - best.shape).norm() > kNotNeighbours * best.shape.norm())
       explanation.other_start = other.start;
 }
 

@@ -22,16 +22,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index kFewestFrames = 30;
+constexpr Index kFewestFramesOfMoment = 30;
 constexpr Index kMostTerms = 6;            // polynomials along the cable
 constexpr Index kMostCoefficients = 1500;  // their matrix is dense
 constexpr double kFramesPerKnot = 10;
 constexpr double kClosestKnots = 0.05;  // s
 constexpr double kEndKnots =
     2;  // distances of knots: nearer to an end only one side holds a spline
-constexpr double kSmoothing = 1e-6;      // of the mean diagonal: decides where nothing was seen
-constexpr double kHighestFrequency = 8;  // Hz, of a harmonic dependence
-constexpr Index kEventShare = 10;        // an event takes a tenth of the time
+constexpr double kSmoothing = 1e-6;     // of the mean diagonal: decides where nothing was seen
+constexpr double kHighestHarmonic = 8;  // Hz, of a harmonic dependence
+constexpr Index kEventShare = 10;       // an event takes a tenth of the time
 
 /// The simulated motion at the frames of one experiment.
 struct Path {
@@ -294,7 +294,7 @@ void depend_on_motion(const Path& path, Index worst, const VectorXd& y,
 Dependence harmonic(const Path& path, double span, const VectorXd& y) {
   MatrixXd pair(path.frames(), 2);
   double best = 0, at_frequency = 0;
-  for (double f = 1 / span; f < kHighestFrequency; f += 0.25 / span) {
+  for (double f = 1 / span; f < kHighestHarmonic; f += 0.25 / span) {
     for (Index k = 0; k < path.frames(); ++k) {
       const double phase = 2 * std::numbers::pi * f * path.at(k);
       pair.row(k) << std::sin(phase), std::cos(phase);
@@ -337,7 +337,7 @@ MissingMoment missing_moment(const FittedModel& model, const std::vector<double>
   missing.experiment = static_cast<int>(e);
   const Experiment& experiment = model.problem->experiments()[e];
   const MatrixXd residual = model.predicted[e] - experiment.recording.measured;
-  if (residual.cols() < kFewestFrames) return missing;
+  if (residual.cols() < kFewestFramesOfMoment) return missing;
   const std::optional<Path> path = path_of(model, missing.experiment);
   if (!path) return missing;
   const MatrixXd shapes = angle_shapes(*path);

@@ -10,8 +10,8 @@
 namespace catena {
 namespace {
 
-constexpr std::size_t kBlocks = 12;  // fewer could not be beyond chance of 1 in 1000
-constexpr std::size_t kRankSums = kBlocks * (kBlocks + 1) / 2 + 1;
+constexpr std::size_t kRankedBlocks = 12;  // fewer could not be beyond chance of 1 in 1000
+constexpr std::size_t kRankSums = kRankedBlocks * (kRankedBlocks + 1) / 2 + 1;
 
 /// Of every held-out frame: by how much less `model` leaves.
 std::vector<double> leads(const FittedModel& model, const FittedModel& other,
@@ -34,7 +34,7 @@ std::vector<double> leads(const FittedModel& model, const FittedModel& other,
 double chance_of(std::size_t rank_sum) {
   std::array<double, kRankSums> probability{};
   probability[0] = 1;
-  for (std::size_t rank = 1; rank <= kBlocks; ++rank)
+  for (std::size_t rank = 1; rank <= kRankedBlocks; ++rank)
     for (std::size_t sum = kRankSums; sum-- > 0;)
       probability[sum] = (probability[sum] + (sum >= rank ? probability[sum - rank] : 0)) / 2;
   double chance = 0;
@@ -47,14 +47,14 @@ double chance_of(std::size_t rank_sum) {
 double chance_of_lead(const FittedModel& model, const FittedModel& other,
                       const std::vector<double>& sigmas) {
   const std::vector<double> lead = leads(model, other, sigmas);
-  const std::size_t length = lead.size() / kBlocks;
+  const std::size_t length = lead.size() / kRankedBlocks;
   if (length < 2) return 1;
-  std::array<double, kBlocks> blocks{};
-  for (std::size_t k = 0; k < kBlocks * length; ++k) blocks[k / length] += lead[k];
+  std::array<double, kRankedBlocks> blocks{};
+  for (std::size_t k = 0; k < kRankedBlocks * length; ++k) blocks[k / length] += lead[k];
   std::sort(blocks.begin(), blocks.end(),
             [](double a, double b) { return std::abs(a) < std::abs(b); });
   std::size_t rank_sum = 0;
-  for (std::size_t rank = 1; rank <= kBlocks; ++rank)
+  for (std::size_t rank = 1; rank <= kRankedBlocks; ++rank)
     if (blocks[rank - 1] > 0) rank_sum += rank;
   return chance_of(rank_sum);
 }

@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSmallerStart = 0.25;             // of the amplitudes that the score says
-constexpr double kElsewhere[] = {3.0, 1.0 / 3.0};  // times the amplitudes found
+constexpr double kSmallerStart = 0.25;                   // of the amplitudes that the score says
+constexpr double kOtherAmplitudes[] = {3.0, 1.0 / 3.0};  // times the amplitudes found
 
 const Candidate& candidate_of(const CandidateSearch& search, const Explanation& explanation) {
   return search.context.library()[static_cast<std::size_t>(explanation.candidate)];
@@ -88,7 +88,7 @@ void refit_from_elsewhere(const CandidateSearch& search, Explanation& explanatio
   const Candidate& candidate = candidate_of(search, explanation);
   const std::shared_ptr<const Problem> problem = explanation.model.problem;
   const VectorXd x = explanation.model.x;
-  for (const double factor : kElsewhere)
+  for (const double factor : kOtherAmplitudes)
     fit_from(search, explanation, problem, scaled(candidate, *problem, x, factor));
 }
 

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr Index kFewestFrames = 8;
+constexpr Index kFewestFramesOfPlaces = 8;
 constexpr double kClearlyLargest = 1.3;  // over the rms of all points
 constexpr double kBySpeed = 1.25;        // ratio of the rms at high and at low speed
 constexpr double kByTime = 1.5;          // ratio of the rms after and before a moment
@@ -128,7 +128,7 @@ ResidualPlaces residual_places(const FittedModel& model, const std::vector<doubl
   while (e + 1 < model.fit_residual.size() && model.fit_residual[e].cols() == 0) ++e;
   const Experiment& experiment = model.problem->experiments()[e];
   const MatrixXd& residual = model.fit_residual[e];
-  if (residual.cols() < kFewestFrames) return places;
+  if (residual.cols() < kFewestFramesOfPlaces) return places;
   by_point(experiment, residual, places);
   by_speed(experiment, residual, model.predicted[e], places);
   by_time(experiment, residual, places);

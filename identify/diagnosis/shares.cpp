@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kResamples = 400;
-constexpr Index kBlocks = 12;  // of a recording: fewer would say too little of their scatter
+constexpr Index kScatterBlocks = 12;  // of a recording: fewer would say too little of their scatter
 // Half the width of an interval in standard deviations of the bootstrap: Student's t of eleven degrees
 // of freedom, times sqrt(12 / 11) for the mean that the blocks share. Percentiles of so few blocks
 // cover 83 to 88 % only.
@@ -108,13 +108,13 @@ std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
   };
   const VectorXd estimate = shares(misfits(VectorXd::Ones(frames)));
 
-  const Index length = std::max<Index>(1, frames / kBlocks);
+  const Index length = std::max<Index>(1, frames / kScatterBlocks);
   std::mt19937_64 random(seed);
   VectorXd sum = VectorXd::Zero(estimate.size()), squares = sum;
   int count = 0;
   for (int resample = 0; resample < kResamples; ++resample) {
     VectorXd times = VectorXd::Zero(frames);
-    for (Index block = 0; block < kBlocks; ++block) {
+    for (Index block = 0; block < kScatterBlocks; ++block) {
       const auto begin = static_cast<Index>(random() % static_cast<std::uint64_t>(frames));
       for (Index k = 0; k < length; ++k) times[(begin + k) % frames] += 1;
     }

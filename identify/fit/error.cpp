@@ -2,9 +2,9 @@
 #include "identify/fit/error.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "common/special_values.hpp"
 #include "identify/fit/loss.hpp"
 
 namespace catena {
@@ -34,7 +34,6 @@ void for_each_seen(const Problem& problem, const Evaluation& evaluation, Part pa
   }
 }
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kLeastNoise = 1e-12;  // m or rad: perfect data leave nothing to weigh by
 
 /// Of every residual, its channel's place in a list of the channels of all recordings that have

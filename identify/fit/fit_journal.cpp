@@ -4,12 +4,12 @@
 #include <time.h>
 
 #include <cmath>
-#include <limits>
+
+#include "common/special_values.hpp"
 
 namespace catena {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFailuresKept = 100;
 
 double cpu_now() {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/median.hpp"
+#include "common/special_values.hpp"
 
 namespace catena {
 namespace {
@@ -14,7 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Robust standard deviations from what the neighbours say: 1 of 10^9 values of normal noise.
 constexpr double kOutlier = 6;
 

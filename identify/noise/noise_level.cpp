@@ -2,17 +2,15 @@
 #include "identify/noise/noise_level.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "common/median.hpp"
+#include "common/special_values.hpp"
 
 namespace catena {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double binomial(int n, int k) {
   double value = 1;

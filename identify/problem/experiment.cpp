@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kFewestFrames = 8;  // of a window: fewer say nothing beyond their own start
+constexpr Index kFewestFramesOfWindow = 8;  // of a window: fewer say nothing beyond their own start
 
 double cable_length(const Case& the_case) {
   if (the_case.cable.link_lengths.empty()) return the_case.cable.length;
@@ -47,14 +47,14 @@ Recording part_of(const Recording& whole, Index first, Index last, bool fitted) 
   return part;
 }
 
-/// Refuses a window in which kFewestFrames frames of the usual distance do not fit.
+/// Refuses a window in which kFewestFramesOfWindow frames of the usual distance do not fit.
 void check_window(const ExperimentSpec& spec, const Recording& whole) {
   const auto frames = static_cast<double>(whole.time.size());
   const double step = (whole.time.back() - whole.time.front()) / std::max(frames - 1, 1.0);
-  if (spec.window > (kFewestFrames - 1) * step) return;
+  if (spec.window > (kFewestFramesOfWindow - 1) * step) return;
   throw InputError(spec.where + ": window: " + shortest_number(spec.window) +
-                   " s; a window needs at least " + std::to_string(kFewestFrames) +
-                   " frames, which take " + number_text(kFewestFrames * step) +
+                   " s; a window needs at least " + std::to_string(kFewestFramesOfWindow) +
+                   " frames, which take " + number_text(kFewestFramesOfWindow * step) +
                    " s here; give a longer one");
 }
 
@@ -71,7 +71,7 @@ std::vector<Experiment> windows_of(const ExperimentSpec& spec, const Recording& 
     const double end = time(0) + (number + 1) * spec.window;
     last = first + 1;
     while (last < frames && time(last) < end - 1e-9) ++last;
-    if (last - first < kFewestFrames) continue;
+    if (last - first < kFewestFramesOfWindow) continue;
     Experiment& window = windows.emplace_back();
     window.spec = spec;
     window.spec.window = kNotGiven;

@@ -21,7 +21,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
 }
 
-std::vector<std::string> split(const std::string& line, char separator) {
+std::vector<std::string> split_fields(const std::string& line, char separator) {
   std::vector<std::string> fields;
   std::size_t begin = 0;
   for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
@@ -75,7 +75,7 @@ Table read_table(const std::filesystem::path& path) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
     if (trimmed(line).empty()) continue;
     if (table.names.empty()) separator = separator_of(line);
-    const std::vector<std::string> fields = split(line, separator);
+    const std::vector<std::string> fields = split_fields(line, separator);
     const std::string where = table.file + ":" + std::to_string(number);
     if (table.names.empty()) {
       const auto is_number = [&](const std::string& field) {

@@ -31,7 +31,7 @@ std::vector<std::string> read_lines(const std::filesystem::path& path) {
   return lines;
 }
 
-std::vector<std::string> split(const std::string& line, char separator) {
+std::vector<std::string> split_cells(const std::string& line, char separator) {
   std::vector<std::string> cells;
   std::istringstream in(line);
   for (std::string cell; std::getline(in, cell, separator);) {
@@ -57,7 +57,7 @@ double to_number(std::string text, bool decimal_comma, const std::filesystem::pa
 /// Seconds from a number or h:mm:ss:cc.
 double to_time(const std::string& text, const std::filesystem::path& file, int line) {
   if (text.find(':') == std::string::npos) return to_number(text, true, file, line);
-  const std::vector<std::string> parts = split(text, ':');
+  const std::vector<std::string> parts = split_cells(text, ':');
   if (parts.size() != 4) fail(file, line, "\"" + text + "\" is no time h:mm:ss:cc");
   const auto part = [&](std::size_t i) { return to_number(parts[i], false, file, line); };
   return 3600 * part(0) + 60 * part(1) + part(2) + 0.01 * part(3);
@@ -69,8 +69,8 @@ Table import_tracker(const std::filesystem::path& path) {
   const char separator = lines[1].find('\t') != std::string::npos  ? '\t'
                          : lines[1].find(';') != std::string::npos ? ';'
                                                                    : ',';
-  std::vector<std::string> tracks = split(lines[0], separator),
-                           columns = split(lines[1], separator);
+  std::vector<std::string> tracks = split_cells(lines[0], separator),
+                           columns = split_cells(lines[1], separator);
   if (columns.empty() || columns[0] != "t")
     fail(path, 2, "the second line of an export of Tracker begins with t");
   if (tracks.size() == 1) tracks = {"", tracks[0]};  // one track: its name stands alone
@@ -89,7 +89,7 @@ Table import_tracker(const std::filesystem::path& path) {
   table.columns.resize(used.size());
   for (std::size_t l = 2; l < lines.size(); ++l) {
     if (lines[l].empty()) continue;
-    std::vector<std::string> cells = split(lines[l], separator);
+    std::vector<std::string> cells = split_cells(lines[l], separator);
     cells.resize(std::max(cells.size(), columns.size()));
     for (std::size_t i = 0; i < used.size(); ++i)
       table.columns[i].push_back(
@@ -154,7 +154,7 @@ Table import_deeplabcut(const std::filesystem::path& path, double likelihood_flo
   std::vector<std::string> parts, coordinates;
   std::size_t first = 0;
   for (; first < lines.size(); ++first) {
-    const std::vector<std::string> cells = split(lines[first], ',');
+    const std::vector<std::string> cells = split_cells(lines[first], ',');
     if (cells.empty()) continue;
     if (cells[0] == "bodyparts") parts = cells;
     if (cells[0] == "coords") {
@@ -180,7 +180,7 @@ Table import_deeplabcut(const std::filesystem::path& path, double likelihood_flo
   for (std::size_t l = first; l < lines.size(); ++l) {
     if (lines[l].empty()) continue;
     const int number = static_cast<int>(l) + 1;
-    const std::vector<std::string> cells = split(lines[l], ',');
+    const std::vector<std::string> cells = split_cells(lines[l], ',');
     if (cells.size() != coordinates.size())
       fail(path, number,
            std::to_string(cells.size()) + " fields; " + std::to_string(coordinates.size()) +

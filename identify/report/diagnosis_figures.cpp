@@ -14,9 +14,9 @@
 namespace catena::report {
 namespace {
 
-void add(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
-         const std::string& kind = "", const std::string& variant = "",
-         const std::string& experiment = "") {
+void add_diagnosis_figure(std::vector<ReportFigure>& figures, const std::string& family,
+                          Figure figure, const std::string& kind = "",
+                          const std::string& variant = "", const std::string& experiment = "") {
   figures.push_back({std::move(figure), "diagnosis", family, experiment, kind, variant});
 }
 
@@ -54,7 +54,7 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   if (held_out) figure.series.push_back(std::move(validate));
   figure.rules.push_back({false, 0, ""});
   if (!std::isnan(diagnosis.noise)) figure.rules.push_back({false, 1e3 * diagnosis.noise, "noise"});
-  add(figures, "gap", std::move(figure));
+  add_diagnosis_figure(figures, "gap", std::move(figure));
 }
 
 /// One row for each share, its interval as a line; the held-out part a little below.
@@ -95,7 +95,7 @@ void add_shares(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) 
   figure.rules = {{true, 0, ""}, {true, 100, ""}};
   for (Series* series : {&fitted, &fitted_lines, &held_out, &held_out_lines})
     if (!series->x.empty()) figure.series.push_back(std::move(*series));
-  add(figures, "shares", std::move(figure));
+  add_diagnosis_figure(figures, "shares", std::move(figure));
 }
 
 void add_scores(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
@@ -127,7 +127,7 @@ void add_scores(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) 
     figure.rules.push_back({true, 100, ""});
     if (!admissible.x.empty()) figure.series.push_back(std::move(admissible));
     if (!refused.x.empty()) figure.series.push_back(std::move(refused));
-    add(figures, "scores", std::move(figure), "Round", name_of(diagnosis, k));
+    add_diagnosis_figure(figures, "scores", std::move(figure), "Round", name_of(diagnosis, k));
   }
 }
 
@@ -183,7 +183,7 @@ class BeforeAfter {
 
  private:
   void put(const std::string& family, Figure figure) {
-    add(figures_, family, std::move(figure), "Change", change_, experiment_.name);
+    add_diagnosis_figure(figures_, family, std::move(figure), "Change", change_, experiment_.name);
   }
 
   std::string quantity() const { return after_.angles ? "size of residual" : "distance"; }
@@ -305,7 +305,7 @@ void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& fi
   map.scale = {"missing force", force.unit};
   map.is_signed = true;
   figure.heat_map = std::move(map);
-  add(figures, "missing_force", std::move(figure));
+  add_diagnosis_figure(figures, "missing_force", std::move(figure));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace catena::report {
 namespace {
 
-void add(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
-         const std::string& parameter = "") {
+void add_fit_figure(std::vector<ReportFigure>& figures, const std::string& family, Figure figure,
+                    const std::string& parameter = "") {
   const std::string kind = parameter.empty() ? "" : "Parameter";
   figures.push_back({std::move(figure), "fit", family, "", kind, parameter});
 }
@@ -59,7 +59,7 @@ void add_history(const Result& result, std::vector<ReportFigure>& figures) {
     figure.series.push_back({"this step", history.step, history.error, Mark::kPoints, 1});
   }
   figure.series.push_back({"best so far", history.step, least, Mark::kLine, 0});
-  add(figures, "error_by_step", std::move(figure));
+  add_fit_figure(figures, "error_by_step", std::move(figure));
 
   const auto free = free_parameters(result);
   for (std::size_t k = 0; k < std::min(free.size(), history.parameters.size()); ++k) {
@@ -68,7 +68,7 @@ void add_history(const Result& result, std::vector<ReportFigure>& figures) {
     path.x = {"step", "1"};
     path.y = {free[k]->name, readable_unit(free[k]->unit), spans_decade(history.parameters[k])};
     path.series.push_back({free[k]->name, history.step, history.parameters[k], Mark::kLine, 1});
-    add(figures, "parameter_by_step", std::move(path), free[k]->name);
+    add_fit_figure(figures, "parameter_by_step", std::move(path), free[k]->name);
   }
 }
 
@@ -96,7 +96,7 @@ void add_waterfall(const Result& result, std::vector<ReportFigure>& figures) {
   figure.x = {"rank of the start", "1"};
   figure.y = {"error", result.measure ? result.measure->unit : "", spans_decade(errors)};
   figure.series.push_back({"starts", rank, errors, Mark::kLineWithPoints, 1});
-  add(figures, "waterfall", std::move(figure));
+  add_fit_figure(figures, "waterfall", std::move(figure));
 }
 
 void add_profiles(const Result& result, std::vector<ReportFigure>& figures) {
@@ -123,7 +123,7 @@ void add_profiles(const Result& result, std::vector<ReportFigure>& figures) {
     if (known && std::isfinite(parameter->value)) {
       figure.rules.push_back({true, parameter->value, "estimate"});
     }
-    add(figures, "profile", std::move(figure), profile.parameter);
+    add_fit_figure(figures, "profile", std::move(figure), profile.parameter);
   }
 }
 
@@ -144,7 +144,7 @@ void add_correlation(const Result& result, std::vector<ReportFigure>& figures) {
   map.is_signed = true;
   map.maximum = 1;
   figure.heat_map = std::move(map);
-  add(figures, "correlation", std::move(figure));
+  add_fit_figure(figures, "correlation", std::move(figure));
 }
 
 void add_links_study(const Result& result, std::vector<ReportFigure>& figures) {
@@ -160,7 +160,7 @@ void add_links_study(const Result& result, std::vector<ReportFigure>& figures) {
   figure.x = {"links", "1", true};
   figure.y = {"error", result.measure ? result.measure->unit : "", spans_decade(errors)};
   figure.series.push_back({"refitted", links, errors, Mark::kLineWithPoints, 1});
-  add(figures, "error_by_links", std::move(figure));
+  add_fit_figure(figures, "error_by_links", std::move(figure));
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ void mark_held_out(const Experiment& experiment, const Row& time, Figure& figure
   }
 }
 
-void add(std::vector<ReportFigure>& figures, const Experiment& experiment,
-         const std::string& family, const std::string& point, Figure figure) {
+void add_motion_figure(std::vector<ReportFigure>& figures, const Experiment& experiment,
+                       const std::string& family, const std::string& point, Figure figure) {
   figures.push_back({std::move(figure), "motion", family, experiment.name, "Point", point});
 }
 
@@ -49,7 +49,7 @@ void add_measured(const Experiment& experiment, const std::string& quantity,
       figure.series.push_back({"simulated", time, predicted[p], Mark::kLine, 1});
     }
     mark_held_out(experiment, time, figure);
-    add(figures, experiment, "position_" + quantity, name, std::move(figure));
+    add_motion_figure(figures, experiment, "position_" + quantity, name, std::move(figure));
   }
 }
 
@@ -65,7 +65,7 @@ void add_simulated(const Experiment& experiment, const std::string& quantity,
     figure.x = {"time", "s"};
     figure.y = {quantity, unit};
     figure.series.push_back({"simulated", experiment.trajectory.time, rows[p], Mark::kLine, 1});
-    add(figures, experiment, "position_" + quantity, name, std::move(figure));
+    add_motion_figure(figures, experiment, "position_" + quantity, name, std::move(figure));
   }
 }
 

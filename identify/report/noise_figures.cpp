@@ -14,7 +14,7 @@
 namespace catena::report {
 namespace {
 
-constexpr std::size_t kFewest = 20;  // values, for either figure
+constexpr std::size_t kFewestValues = 20;  // values, for either figure
 constexpr std::size_t kMostLags = 60;
 constexpr std::size_t kQuantiles = 200;
 constexpr double kTwoSided = 1.959963984540054;  // of the normal distribution, 95 %
@@ -82,7 +82,7 @@ Figure autocorrelation_of(const std::string& point, const std::vector<Channel>& 
   figure.y = {"autocorrelation", "1"};
   for (const Channel& channel : channels) {
     const double size = static_cast<double>(seen(channel.fitted).size());
-    if (size < kFewest) continue;
+    if (size < kFewestValues) continue;
     Series series{
         channel.name, {}, autocorrelation(channel.fitted), Mark::kLineWithPoints, channel.colour};
     for (std::size_t lag = 0; lag < series.y.size(); ++lag)
@@ -107,7 +107,7 @@ Figure quantiles_of(const std::string& point, const std::string& unit,
   figure.y = {"residual", unit};
   for (const Channel& channel : channels) {
     Row sorted = seen(channel.fitted);
-    if (sorted.size() < kFewest) continue;
+    if (sorted.size() < kFewestValues) continue;
     std::sort(sorted.begin(), sorted.end());
     const std::size_t shown = std::min(kQuantiles, sorted.size());
     Series series{channel.name, {}, {}, Mark::kPoints, channel.colour};

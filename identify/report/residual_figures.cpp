@@ -14,8 +14,8 @@
 namespace catena::report {
 namespace {
 
-void add(std::vector<ReportFigure>& figures, const Experiment& experiment,
-         const std::string& family, const std::string& point, Figure figure) {
+void add_residual_figure(std::vector<ReportFigure>& figures, const Experiment& experiment,
+                         const std::string& family, const std::string& point, Figure figure) {
   if (!std::isnan(experiment.fit_until) && figure.x.label == "time") {
     figure.rules.push_back({true, experiment.fit_until, "held out"});
   }
@@ -41,7 +41,8 @@ void add_by_point(const Experiment& experiment, const Residuals& residuals,
       figure.series.push_back({"down", residuals.time, residuals.down[p], Mark::kLine, 2});
       figure.series.push_back({"radial", residuals.time, residuals.radial[p], Mark::kLine, 3});
     }
-    add(figures, experiment, "residuals", residuals.points[p].name, std::move(figure));
+    add_residual_figure(figures, experiment, "residuals", residuals.points[p].name,
+                        std::move(figure));
   }
 }
 
@@ -67,7 +68,7 @@ void add_error_over_time(const Experiment& experiment, const Residuals& residual
   figure.series.push_back({last > 0 ? "mean of all points" : residuals.points[0].name,
                            residuals.time, mean_over_points(residuals.size, residuals.time.size()),
                            Mark::kLine, 0});
-  add(figures, experiment, "error_over_time", "", std::move(figure));
+  add_residual_figure(figures, experiment, "error_over_time", "", std::move(figure));
 }
 
 void add_map(const Experiment& experiment, const Residuals& residuals,
@@ -82,7 +83,7 @@ void add_map(const Experiment& experiment, const Residuals& residuals,
   map.value = residuals.size;
   map.scale = {residuals.angles ? "size of residual" : "distance", residuals.unit};
   figure.heat_map = std::move(map);
-  add(figures, experiment, "residual_map", "", std::move(figure));
+  add_residual_figure(figures, experiment, "residual_map", "", std::move(figure));
 }
 
 /// Up to a little above the last frequency that stands out: a thousandth of the largest amplitude.
@@ -126,7 +127,7 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
       figure.series.push_back(
           {"simulated", simulated.frequency, simulated.amplitude, Mark::kLine, 1});
     }
-    add(figures, experiment, "spectrum_" + quantity, name, std::move(figure));
+    add_residual_figure(figures, experiment, "spectrum_" + quantity, name, std::move(figure));
   }
 }
 

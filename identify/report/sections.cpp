@@ -129,7 +129,7 @@ Html formula_html(const std::string& title, const std::string& latex) {
 
 Html group_html(const EquationGroup& group) {
   Html html;
-  for (const Formula& formula : group.formulas)
+  for (const results::Formula& formula : group.formulas)
     if (!formula.latex.empty()) html += formula_html(formula.what, formula.latex);
   return html.empty() ? html : element("h3", {}, group.heading) + html;
 }

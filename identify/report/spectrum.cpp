@@ -11,7 +11,7 @@
 namespace catena::report {
 namespace {
 
-constexpr std::size_t kFewest = 16;
+constexpr std::size_t kFewestSamples = 16;
 
 double median_step(const std::vector<double>& time) {
   std::vector<double> steps;
@@ -31,7 +31,7 @@ Spectrum amplitude_spectrum(const std::vector<double>& time, const std::vector<d
     t.push_back(time[k]);
     y.push_back(value[k]);
   }
-  if (t.size() < kFewest) return {};
+  if (t.size() < kFewestSamples) return {};
   const double step = median_step(time);
   if (!(step > 0)) return {};
   const auto count = static_cast<std::size_t>(std::floor((t.back() - t.front()) / step + 1e-6)) + 1;

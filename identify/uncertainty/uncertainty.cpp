@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/number_text.hpp"
+#include "common/special_values.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/loss.hpp"
 
@@ -19,7 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 95 % two-sided
 
 /// d(unknown)/d(scaled unknown).
