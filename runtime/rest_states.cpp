@@ -9,6 +9,7 @@
 
 #include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -189,8 +190,7 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
       model.residual_tangent(at, along, stiffness.col(j).data());
       direction[j] = 0.0;
     }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(stiffness);
-    Eigen::VectorXd step = -factors.solve(residual);
+    const Eigen::VectorXd step = -solve_square(stiffness, residual);
     if (!step.allFinite()) {
       result.status = Status::kSingular;
       result.message = "the stiffness of the chain at rest is singular: no isolated equilibrium";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/certificate/rest_frequencies.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -14,6 +13,7 @@
 #include "generator/certificate/random_point.hpp"
 #include "generator/certificate/twin.hpp"
 #include "generator/derivation/chain.hpp"
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -84,7 +84,7 @@ bool come_to_rest(const catena_model& table, RandomPoint& point) {
     VectorXd r(table.coordinates);
     const catena_point here = point.at();
     table.residual(table.context, &here, r.data());
-    const VectorXd change = emitted_stiffness(table, point).partialPivLu().solve(r);
+    const VectorXd change = solve_square(emitted_stiffness(table, point), r);
     const double length = change.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(length)) return false;
     const double part = std::min(1.0, kLongestStep / std::max(length, kShortestStep));
@@ -181,10 +181,8 @@ class FromEnergies {
   numeric step_;
 };
 
-Eigenvalues eigenvalues(const MatrixXd& mass, const MatrixXd& stiffness) {
-  const MatrixXd matrix = mass.llt().solve(stiffness);
-  const Eigen::EigenSolver<MatrixXd> solver(matrix, false);
-  Eigenvalues values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+Eigenvalues sorted_eigenvalues(const MatrixXd& mass, const MatrixXd& stiffness) {
+  Eigenvalues values = eigenvalues(solve_positive_definite(mass, stiffness));
   std::sort(values.begin(), values.end(),
             [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
   return values;
@@ -209,13 +207,13 @@ RestFrequencies rest_frequencies(const Description& description, int links,
   MatrixXd mass(table.coordinates, table.coordinates);
   const catena_point here = rest.at();
   table.mass_matrix(table.context, &here, mass.data());
-  const Eigenvalues emitted = eigenvalues(mass, emitted_stiffness(table, rest));
+  const Eigenvalues emitted = sorted_eigenvalues(mass, emitted_stiffness(table, rest));
 
   const long digits_before = GiNaC::Digits;
   GiNaC::Digits = kDigitsOfFrequencies;
   Chain chain(description, links);
   FromEnergies from_energies(chain, table, rest);
-  Eigenvalues other = eigenvalues(from_energies.mass(), from_energies.stiffness());
+  Eigenvalues other = sorted_eigenvalues(from_energies.mass(), from_energies.stiffness());
   GiNaC::Digits = digits_before;
 
   result.lowest = std::sqrt(std::abs(emitted.front()));

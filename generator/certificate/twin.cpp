@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/certificate/twin.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "common/as_index.hpp"
 #include "generator/certificate/random_point.hpp"
+#include "linear_algebra/dense.hpp"
 #include "reference/coriolis.hpp"
 #include "reference/gravity.hpp"
 #include "reference/joint_matrix.hpp"
@@ -71,10 +71,9 @@ Vector product(const reference::Matrix<Real>& matrix, const Vector& x) {
 }
 
 std::vector<double> square_roots(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass,
-                                                                         Eigen::EigenvaluesOnly);
   std::vector<double> roots;
-  for (const double value : solver.eigenvalues()) roots.push_back(std::sqrt(value));
+  for (const double value : generalised_eigenvalues(stiffness, mass))
+    roots.push_back(std::sqrt(value));
   return roots;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
 #include <ginac/ginac.h>
+
+#include <string>
 
 #include "generator/derivation/closed_form_proof.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/final_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "identify/diagnosis/compare.hpp"
 #include "identify/diagnosis/diagnosis.hpp"
 #include "identify/diagnosis/variant.hpp"
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 
@@ -24,7 +24,7 @@ VectorXd standard_errors(const FittedModel& model, const std::vector<double>& si
     if (scale[j] == 0) scale[j] = 1;
     jacobian.col(j) /= scale[j];
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(jacobian.transpose() * jacobian);
+  const EigenPairs eigen = symmetric_eigenpairs(jacobian.transpose() * jacobian);
   std::vector<MatrixXd> weighted;
   for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
     if (model.fit_residual[e].cols() > 0) weighted.push_back(model.fit_residual[e] / sigmas[e]);
@@ -36,8 +36,8 @@ VectorXd standard_errors(const FittedModel& model, const std::vector<double>& si
   for (Index j = 0; j < errors.size(); ++j) {
     double sum = 0;
     for (Index k = 0; k < scale.size(); ++k) {
-      const double share = eigen.eigenvectors()(j, k), value = eigen.eigenvalues()[k];
-      if (value > 1e-13 * eigen.eigenvalues()[scale.size() - 1])
+      const double share = eigen.vectors(j, k), value = eigen.values[k];
+      if (value > 1e-13 * eigen.values[scale.size() - 1])
         sum += share * share / value;
       else if (std::abs(share) > 1e-6)
         sum = std::numeric_limits<double>::infinity();

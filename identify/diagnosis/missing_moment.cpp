@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +11,7 @@
 
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/problem/initial_state.hpp"
+#include "linear_algebra/dense.hpp"
 #include "runtime/positions.hpp"
 
 namespace catena {
@@ -190,8 +190,8 @@ Difference fit_difference(const Path& path, const MatrixXd& shapes, const Knots&
     }
   }
   smooth(normal, terms);
-  const Eigen::LDLT<MatrixXd> factor(normal);
-  return {factor.solve(right), factor.solve(right_noise)};
+  const SymmetricFactors factors(normal);
+  return {factors.solve(right), factors.solve(right_noise)};
 }
 
 /// Without the frames near the ends, where second derivatives of splines mean little.
@@ -258,7 +258,7 @@ double explained(const VectorXd& y, const MatrixXd& columns) {
       columns.transpose() * columns +
       1e-12 * columns.squaredNorm() * MatrixXd::Identity(columns.cols(), columns.cols());
   const VectorXd right = columns.transpose() * y;
-  return y.squaredNorm() > 0 ? right.dot(normal.ldlt().solve(right)) / y.squaredNorm() : 0;
+  return y.squaredNorm() > 0 ? right.dot(solve_symmetric(normal, right)) / y.squaredNorm() : 0;
 }
 
 using Dependence = MissingMoment::Dependence;

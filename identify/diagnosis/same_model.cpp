@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/same_model.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <tuple>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -84,8 +85,7 @@ Span span_of(const Candidate& candidate, const Model& all, const VectorXd& param
 }
 
 bool contains(const MatrixXd& space, const MatrixXd& columns) {
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(space);
-  return (space * qr.solve(columns) - columns).colwise().norm().maxCoeff() < kEqual;
+  return (space * least_squares(space, columns) - columns).colwise().norm().maxCoeff() < kEqual;
 }
 
 bool same(const Span& a, const Span& b) {

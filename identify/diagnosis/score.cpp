@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/score.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 
@@ -19,22 +20,20 @@ namespace {
 constexpr double kNothingSurvives = 1e-6;
 
 /// Q: orthonormal columns that span those of the Jacobian, each taken with size one.
-MatrixXd orthogonal_basis(const MatrixXd& jacobian) {
+MatrixXd basis_of(const MatrixXd& jacobian) {
   MatrixXd scaled = jacobian;
   for (Index j = 0; j < scaled.cols(); ++j) {
     const double size = scaled.col(j).norm();
     if (size > 0) scaled.col(j) /= size;
   }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
-  qr.setThreshold(1e-10);
-  return qr.householderQ() * MatrixXd::Identity(scaled.rows(), qr.rank());
+  return orthonormal_basis(scaled, 1e-10);
 }
 
 }  // namespace
 
 ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian)
     : residual_(std::move(residual)), orthogonal_(residual_.size(), 0) {
-  if (jacobian.cols() > 0) orthogonal_ = orthogonal_basis(jacobian);
+  if (jacobian.cols() > 0) orthogonal_ = basis_of(jacobian);
   residual_ = project(residual_);
   squares_ = residual_.squaredNorm();
 }
@@ -106,9 +105,9 @@ Score ScoreTest::score(const std::vector<int>& columns) const {
             gram(static_cast<Index>(i), static_cast<Index>(used[static_cast<std::size_t>(b)]));
     }
     if (!usable) continue;
-    const Eigen::LDLT<MatrixXd> factor(matrix);
-    if (factor.rcond() < 1e-10) continue;  // two columns that say the same
-    VectorXd step = factor.solve(right);
+    const SymmetricFactors factors(matrix);
+    if (factors.reciprocal_condition() < 1e-10) continue;  // two columns that say the same
+    VectorXd step = factors.solve(right);
     bool allowed = true, beyond = false;
     for (Index a = 0; a < k && allowed; ++a) {
       const Kept& kept = column(used[static_cast<std::size_t>(a)]);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/least_squares/distance_cost.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -127,17 +128,16 @@ bool DistanceCost::Evaluate(double const* const*, double* residuals, double** ja
     const VectorXd scale = curvature_.diagonal().cwiseSqrt().unaryExpr(
         [](double size) { return size > 0 ? size : 1.0; });
     const VectorXd inverse = scale.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> scaled(inverse.asDiagonal() * curvature_ *
-                                                         inverse.asDiagonal());
-    const double least = kNoCurvature * scaled.eigenvalues().maxCoeff();
-    const VectorXd root = scaled.eigenvalues().unaryExpr(
+    const EigenPairs scaled =
+        symmetric_eigenpairs(inverse.asDiagonal() * curvature_ * inverse.asDiagonal());
+    const double least = kNoCurvature * scaled.values.maxCoeff();
+    const VectorXd root = scaled.values.unaryExpr(
         [&](double value) { return value > least ? std::sqrt(value) : 0.0; });
-    const VectorXd turned = scaled.eigenvectors().transpose() * inverse.asDiagonal() * gradient_;
+    const VectorXd turned = scaled.vectors.transpose() * inverse.asDiagonal() * gradient_;
     for (Index j = 0; j < unknowns; ++j) r[j] = root[j] > 0 ? turned[j] / root[j] : 0;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> rows(
         jacobians[0], unknowns + 1, unknowns);
-    rows.topRows(unknowns) =
-        root.asDiagonal() * scaled.eigenvectors().transpose() * scale.asDiagonal();
+    rows.topRows(unknowns) = root.asDiagonal() * scaled.vectors.transpose() * scale.asDiagonal();
     rows.row(unknowns).setZero();
   }
   r[unknowns] = std::sqrt(std::max(0.0, squares - r.squaredNorm()));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/least_squares/linearised_distances.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -33,7 +34,7 @@ VectorXd bounded_step(const VectorXd& gradient, const MatrixXd& curvature, const
     for (const Index j : free) step[j] = 0;
     if (!free.empty()) {
       const VectorXd left = gradient + curvature * step;
-      const VectorXd moved = -curvature(free, free).ldlt().solve(left(free));
+      const VectorXd moved = -solve_symmetric(curvature(free, free), left(free));
       if (!moved.allFinite()) return VectorXd::Zero(unknowns);
       bool outside = false;
       for (std::size_t i = 0; i < free.size(); ++i) {

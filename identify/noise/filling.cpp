@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/noise/filling.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <vector>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 
@@ -69,7 +70,7 @@ const VectorXd& Filler::weights_for(unsigned seen) {
       matrix(a, n + power) = matrix(n + power, a) =
           std::pow(static_cast<double>(i - kReach) / kReach, power);
   }
-  const VectorXd solved = matrix.fullPivLu().solve(right);
+  const VectorXd solved = solve_nearly_singular(matrix, right);
   place->second = VectorXd::Zero(2 * kReach + 1);
   for (Index a = 0; a < n; ++a) place->second[at[static_cast<std::size_t>(a)]] = solved[a];
   return place->second;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/noise/prediction_filter.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 
@@ -61,7 +62,7 @@ PredictionFilter PredictionFilters::filter_of(unsigned known) const {
   }
   PredictionFilter filter{VectorXd::Zero(lags_), 1};
   if (n == 0) return filter;
-  const VectorXd solved = matrix.ldlt().solve(right);
+  const VectorXd solved = solve_symmetric(matrix, right);
   for (Index a = 0; a < n; ++a)
     filter.coefficients[lags[static_cast<std::size_t>(a)] - 1] = solved[a];
   filter.deviation = std::sqrt(std::max(1e-6, 1 - solved.dot(right)));

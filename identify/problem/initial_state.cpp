@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/initial_state.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "common/impossible_value.hpp"
 #include "common/input_error.hpp"
 #include "identify/problem/parameter_map.hpp"
+#include "linear_algebra/dense.hpp"
 #include "runtime/rest_states.hpp"
 
 namespace catena {
@@ -222,15 +222,14 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
       right.head(n).setZero();
     }
     normal.diagonal().array() += 1e-12 * (1 + normal.diagonal().maxCoeff());
-    Eigen::VectorXd step = normal.ldlt().solve(right);
+    Eigen::VectorXd step = solve_symmetric(normal, right);
     const double largest = step.head(n).cwiseAbs().maxCoeff();
     if (largest > 0.5) step *= 0.5 / largest;  // rad: stay where the linearisation means something
     x += step;
     if (step.norm() < 1e-12 * (1 + x.norm())) break;
   }
   const auto coefficients = [&](Shape shape, int terms, const Eigen::VectorXd& values) {
-    const Eigen::VectorXd fitted =
-        shape_basis(shape, links, terms, lengths).colPivHouseholderQr().solve(values);
+    const Eigen::VectorXd fitted = least_squares(shape_basis(shape, links, terms, lengths), values);
     return std::vector<double>(fitted.begin(), fitted.end());
   };
   if (find_angles) initial.coefficients = coefficients(initial.shape, initial.terms, x.head(n));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/plausibility.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "identify/recordings/release.hpp"
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -321,10 +321,10 @@ class Check {
       places.row(k) = place(p, k).transpose();
     }
     if (places.hasNaN()) return {kNotGiven, kNotGiven};
-    const Eigen::MatrixXd fitted = powers.colPivHouseholderQr().solve(places);
+    const Eigen::MatrixXd fitted = least_squares(powers, places);
     const double variance =
         (places - powers * fitted).squaredNorm() / static_cast<double>(2 * (count - 3));
-    const double slope = (powers.transpose() * powers).inverse()(1, 1);
+    const double slope = inverse(powers.transpose() * powers)(1, 1);
     return {fitted.row(1).norm(), 2 * std::sqrt(variance * slope)};
   }
 

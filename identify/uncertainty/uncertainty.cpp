@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/uncertainty/uncertainty.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "common/special_values.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/loss.hpp"
+#include "linear_algebra/dense.hpp"
 
 namespace catena {
 namespace {
@@ -121,23 +120,6 @@ MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, con
     middle += series.transpose() * neighbours;
   }
   return middle;
-}
-
-/// Singular values, descending, and the right singular vectors that belong to them.
-struct SingularDirections {
-  VectorXd values;
-  MatrixXd vectors;
-};
-
-/// Of a matrix with at least as many rows as columns, by way of the triangle R of J = QR, which has
-/// the same ones and is small. Eigen's BDCSVD of J itself is slow to compile.
-SingularDirections singular_directions(const MatrixXd& matrix) {
-  const MatrixXd triangle = Eigen::HouseholderQR<MatrixXd>(matrix)
-                                .matrixQR()
-                                .topRows(matrix.cols())
-                                .triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(triangle, Eigen::ComputeFullV);
-  return {svd.singularValues(), svd.matrixV()};
 }
 
 /// Under a robust loss, residuals that err as least squares of them would: with psi = r rho'(r^2),
