@@ -18,7 +18,7 @@
 
 #include <array>
 
-#include "any_links.hpp"
+#include "any_links_table.hpp"
 #include "batch.hpp"
 #include "dense.hpp"
 #include "quasiseparable.hpp"
@@ -1770,7 +1770,7 @@ struct Chain {
 #pragma GCC diagnostic pop
 
 /// The table of a chain, in double precision. Its id and what it lists are to be filled in:
-/// names take memory (AnyLinksModel of any_links.hpp does it). Its context is `chain`, which is
+/// names take memory (AnyLinksModel of any_links_table.hpp does it). Its context is `chain`, which is
 /// to live as long as the table.
 catena_model table(const Chain& chain);
 

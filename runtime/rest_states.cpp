@@ -9,7 +9,7 @@
 
 #include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

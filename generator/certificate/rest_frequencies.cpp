@@ -13,7 +13,7 @@
 #include "generator/certificate/random_point.hpp"
 #include "generator/certificate/twin.hpp"
 #include "generator/derivation/chain.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

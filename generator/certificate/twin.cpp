@@ -9,7 +9,7 @@
 
 #include "common/as_index.hpp"
 #include "generator/certificate/random_point.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "reference/coriolis.hpp"
 #include "reference/gravity.hpp"
 #include "reference/joint_matrix.hpp"

@@ -169,7 +169,8 @@ std::string any_links_header_text(const Description& description, const ModelFun
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(model)
-      << "#pragma once\n\n#include <array>\n\n#include \"any_links.hpp\"\n#include \"batch.hpp\"\n"
+      << "#pragma once\n\n#include <array>\n\n#include \"any_links_table.hpp\"\n#include "
+         "\"batch.hpp\"\n"
          "#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n#include \"scalar.hpp\"\n"
          "#include \"semiseparable.hpp\"\n\nnamespace catena::"
       << name << " {\n\n/// The fewest links.\ninline constexpr int kFewestLinks = " << kFewest
@@ -191,7 +192,8 @@ std::string any_links_header_text(const Description& description, const ModelFun
       << functions_text(model, NumberOfLinks::kAny)
       << "};\n\n#pragma GCC diagnostic pop\n\n"
          "/// The table of a chain, in double precision. Its id and what it lists are to be filled "
-         "in:\n/// names take memory (AnyLinksModel of any_links.hpp does it). Its context is "
+         "in:\n/// names take memory (AnyLinksModel of any_links_table.hpp does it). Its context "
+         "is "
          "`chain`, which is\n/// to live as long as the table.\ncatena_model table(const Chain& "
          "chain);\n\n}  // namespace catena::"
       << name << "\n";

@@ -109,7 +109,7 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
                         std::optional<Layout> layout, Language language, FunctionSet set) {
   const bool c = language == Language::kC;
   EmittedFiles files = support_text();
-  files.erase("any_links.hpp");
+  files.erase("any_links_table.hpp");
   if (set == FunctionSet::kAll) files.erase("any_nonzero.hpp");
   if (c) files = {{"catena_model.h", files.at("catena_model.h")}};
   std::vector<std::string> names;

@@ -3,7 +3,7 @@
 // The functions of a model as data: expressions, statements, loops, arrays. They are built once from
 // a derivation (function_body.hpp) and printed for each language (statement_text.hpp). Whatever
 // depends on the number of links n is affine in n, so that one program may stand for every n
-// (any_links.hpp).
+// (any_links_table.hpp).
 #pragma once
 
 #include <functional>

@@ -110,7 +110,7 @@ bool certify_library(const CertifyOptions& options, const Description& descripti
   const std::string any_links = any_links_name(description);
   for (const std::string& name :
        {std::string("models.hpp"), std::string("models.cpp"), std::string("CMakeLists.txt"),
-        std::string("any_links.hpp"), any_links + ".hpp", any_links + ".cpp"}) {
+        std::string("any_links_table.hpp"), any_links + ".hpp", any_links + ".cpp"}) {
     if (!files.contains(name)) continue;
     const auto text = text_of(std::filesystem::path(options.folder) / name);
     if (text && *text == files.at(name)) continue;

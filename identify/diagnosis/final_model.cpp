@@ -9,7 +9,7 @@
 #include "identify/diagnosis/compare.hpp"
 #include "identify/diagnosis/diagnosis.hpp"
 #include "identify/diagnosis/variant.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 

@@ -11,7 +11,7 @@
 
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/problem/initial_state.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "runtime/positions.hpp"
 
 namespace catena {

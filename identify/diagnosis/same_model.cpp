@@ -6,7 +6,7 @@
 #include <random>
 #include <tuple>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

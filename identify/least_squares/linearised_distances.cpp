@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

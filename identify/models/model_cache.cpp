@@ -9,13 +9,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "common/sha256.hpp"
 #include "common/whole_file.hpp"
+#include "identify/models/process.hpp"
 
 namespace catena {
 namespace {
@@ -25,11 +25,6 @@ namespace fs = std::filesystem;
 constexpr const char* kLibrary = "model.so";
 constexpr const char* kChecksum = "model.so.sha256";
 constexpr const char* kWork = "work-";
-
-const char* environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value && *value ? value : nullptr;
-}
 
 /// Whether an entry holds what was written when it was made.
 bool is_whole(const fs::path& entry) {
@@ -113,11 +108,12 @@ void require_trusted(const fs::path& cache) {
 }  // namespace
 
 fs::path ModelCache::default_folder() {
-  if (const char* chosen = environment("CATENA_CACHE")) return chosen;
+  if (const char* chosen = environment_variable("CATENA_CACHE")) return chosen;
   // The specification of this variable wants relative paths to be ignored.
-  if (const char* base = environment("XDG_CACHE_HOME"); base && fs::path(base).is_absolute())
+  if (const char* base = environment_variable("XDG_CACHE_HOME");
+      base && fs::path(base).is_absolute())
     return fs::path(base) / "catena";
-  if (const char* home = environment("HOME")) return fs::path(home) / ".cache" / "catena";
+  if (const char* home = environment_variable("HOME")) return fs::path(home) / ".cache" / "catena";
   const passwd* account = getpwuid(geteuid());
   if (!account || !account->pw_dir || !*account->pw_dir)
     throw ModelError(

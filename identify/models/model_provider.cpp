@@ -21,11 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value && *value ? value : nullptr;
-}
-
 constexpr const char* kDeriving = "deriving the model";
 
 bool has_fused_multiply_add() {
@@ -41,7 +36,7 @@ bool has_fused_multiply_add() {
 bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 0; }
 
 fs::path find_in_path(const std::string& name) {
-  std::istringstream folders(environment("PATH") ? std::getenv("PATH") : "");
+  std::istringstream folders(environment_variable("PATH") ? std::getenv("PATH") : "");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (!folder.empty() && can_run(fs::path(folder) / name)) return fs::path(folder) / name;
   return {};
@@ -155,7 +150,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       options.derive_program.empty() ? find_derive_program() : options.derive_program;
   if (!can_run(derive)) throw ModelError(derive.string() + ": is no program that can be run");
   std::string compiler = options.compiler;
-  if (compiler.empty()) compiler = environment("CXX") ? environment("CXX") : "c++";
+  if (compiler.empty())
+    compiler = environment_variable("CXX") ? environment_variable("CXX") : "c++";
   std::vector<std::string> flags = {
       "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   // For this processor alone takes the compiler half the time.

@@ -26,4 +26,7 @@ ProcessResult run_process(const std::vector<std::string>& command,
 /// The folder of the running program.
 std::filesystem::path program_directory();
 
+/// Its value; nullptr where it is not set, or empty.
+const char* environment_variable(const char* name);
+
 }  // namespace catena

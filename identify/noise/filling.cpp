@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 

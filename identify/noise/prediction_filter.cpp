@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 

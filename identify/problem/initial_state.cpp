@@ -7,7 +7,7 @@
 #include "common/impossible_value.hpp"
 #include "common/input_error.hpp"
 #include "identify/problem/parameter_map.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 #include "runtime/rest_states.hpp"
 
 namespace catena {

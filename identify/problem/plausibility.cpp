@@ -9,7 +9,7 @@
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "identify/recordings/release.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

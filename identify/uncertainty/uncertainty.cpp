@@ -10,7 +10,7 @@
 #include "common/special_values.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/loss.hpp"
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace catena {
 namespace {

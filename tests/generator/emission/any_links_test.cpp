@@ -2,14 +2,13 @@
 //
 // The model with effects for any number of links against the one derived for 12: the same table and
 // the same bits.
-#include "any_links.hpp"
-
 #include <doctest/doctest.h>
 
 #include <random>
 #include <string>
 #include <vector>
 
+#include "any_links_table.hpp"
 #include "catena_model.h"
 #include "chain_joint_hysteresis_support_series_scale_12.hpp"
 #include "chain_joint_hysteresis_support_series_scale_any.hpp"

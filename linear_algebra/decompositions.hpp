@@ -5,11 +5,10 @@
 // throws, and what cannot be solved gives values that are not finite.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <memory>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace catena {
 
@@ -20,7 +19,8 @@ Eigen::VectorXd solve_square(const Eigen::MatrixXd& matrix, const Eigen::VectorX
 Eigen::VectorXd solve_nearly_singular(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 /// X of A X = B, A n x n symmetric and positive definite, B n x m, by Cholesky's decomposition.
-Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
+Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& matrix,
+                                        const Eigen::MatrixXd& right);
 
 /// A = P' L D L' P of an n x n symmetric, semidefinite matrix.
 ///
@@ -77,7 +77,8 @@ struct EigenPairs {
 EigenPairs symmetric_eigenpairs(const Eigen::MatrixXd& matrix);
 
 /// The values w, ascending, of K x = w M x, K symmetric, M symmetric and positive definite.
-Eigen::VectorXd generalised_eigenvalues(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+Eigen::VectorXd generalised_eigenvalues(const Eigen::MatrixXd& stiffness,
+                                        const Eigen::MatrixXd& mass);
 
 /// Of a square matrix, in no order.
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);

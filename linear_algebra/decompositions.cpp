@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linear_algebra/dense.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 #include <Eigen/Dense>
 
