@@ -63,7 +63,8 @@ TEST_CASE("least squares") {
   CHECK(difference(least_squares(powers, places), vector({7.0 / 6, 1.5})) < kRounding);
   MatrixXd both(3, 2);
   both << places, 2 * places;
-  CHECK(difference(least_squares(powers, both), matrix({{7.0 / 6, 7.0 / 3}, {1.5, 3}})) < kRounding);
+  CHECK(difference(least_squares(powers, both), matrix({{7.0 / 6, 7.0 / 3}, {1.5, 3}})) <
+        kRounding);
 }
 
 TEST_CASE("an orthonormal basis leaves out columns that depend on others") {
