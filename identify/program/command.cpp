@@ -37,10 +37,12 @@ std::string suffix_of(const Problem& problem, int experiment) {
 
 }  // namespace
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_common_options(CLI::App& command, CommonOptions& options,
+                        const std::string& default_ending) {
+  options.default_ending = default_ending;
   command.add_option("CASE", options.case_file, "case file (TOML, kind = \"case\")")->required();
   command.add_option("-o,--output", options.output,
-                     "folder for the results; default: CASE_result, here");
+                     "folder for the results; default: CASE" + default_ending + ", here");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.add_flag("--json", options.json, "print the result as JSON instead of tables");
   command.add_flag("-y,--yes", options.yes, "go on where more than 10 min or 4 GB are needed");
@@ -79,7 +81,7 @@ void show_warnings(const Problem& problem, const CommonOptions& options) {
 
 std::filesystem::path output_folder(const CommonOptions& options) {
   if (!options.output.empty()) return options.output;
-  return options.case_file.stem().string() + "_result";
+  return options.case_file.stem().string() + options.default_ending;
 }
 
 void write_output(OutputFolder& output, const OutputFiles& files) {

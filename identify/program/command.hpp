@@ -24,12 +24,14 @@ constexpr int kMostThreads = 1024;
 /// What every command that works on a case takes.
 struct CommonOptions {
   std::filesystem::path case_file;
-  std::filesystem::path output;  ///< empty: the case's name and "_result", in the working directory
+  std::filesystem::path output;  ///< empty: the case's name and `default_ending`, here
+  std::string default_ending;    ///< "_result": no command replaces what another one wrote
   bool quiet = false;
   bool json = false;  ///< print the result file instead of tables
   bool yes = false;   ///< begin work above kMostUnasked (common/large_work.hpp), too
 };
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(CLI::App& command, CommonOptions& options,
+                        const std::string& default_ending);
 
 /// True once the user pressed Ctrl-C. The second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();

@@ -88,7 +88,7 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
       "prints the verdict first: none, named, ambiguous, partly or unexplained (exit\n"
       "status 0 for all five), and writes found/diagnosis.json, diagnosed.toml (the\n"
       "case with the effect), model.toml and the emitted code in found/model.");
-  add_common_options(*command, options);
+  add_common_options(*command, options, "_diagnosis");
   command
       ->add_option("--effect", options.effects,
                    "an effect file of your own to look for; repeatable")

@@ -299,7 +299,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       "history.csv, residuals.csv, positions.csv, angles.csv, forces.csv,\nenergy.csv and "
       "run.log.\n"
       "Ctrl-C ends with the best so far.");
-  add_common_options(*command, options);
+  add_common_options(*command, options, "_result");
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
   command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
   command

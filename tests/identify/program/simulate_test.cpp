@@ -50,6 +50,21 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);
 }
 
+TEST_CASE("without --output no command replaces what another one wrote") {
+  const testing::TemporaryFolder folder;
+  folder.write("swing.toml", testing::kSwing);
+  const std::string program = tests::build_folder() / "bin" / "catena";
+  const ProcessResult run =
+      run_process({"env", "-C", folder.path(), program, "simulate", "swing.toml"});
+  CHECK_MESSAGE(run.exit_status == 0, run.errors);
+  CHECK(std::filesystem::exists(folder.path() / "swing_simulation" / "result.json"));
+  for (const char* command : {"diagnose", "identify"}) {
+    const std::string help = run_catena({command, "--help"}).output;
+    CHECK(help.find("CASE_simulation") == std::string::npos);
+    CHECK((help.find("CASE_diagnosis") == std::string::npos) == (command[0] == 'i'));
+  }
+}
+
 TEST_CASE("a simulation that fails says which state and when, exits with 1 and writes nothing") {
   const testing::TemporaryFolder folder;
   const auto the_case = folder.write(
