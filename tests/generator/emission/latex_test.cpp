@@ -124,8 +124,8 @@ TEST_CASE("the derived equations one by one, those of the effects last") {
 }
 
 TEST_CASE("sines and cosines are put together without changing the value") {
-  const auto c = [](int i) { return Factor{Role::kCosine, i, 0}; };
-  const auto s = [](int i) { return Factor{Role::kSine, i, 0}; };
+  const auto c = [](int i) { return MonomialFactor{Role::kCosine, i, 0}; };
+  const auto s = [](int i) { return MonomialFactor{Role::kSine, i, 0}; };
   struct Case {
     MonomialSum before, after;
   };
@@ -136,15 +136,15 @@ TEST_CASE("sines and cosines are put together without changing the value") {
       {{{{{c(1), 2}, {c(2), 2}}, 1},
         {{{c(1), 1}, {c(2), 1}, {s(1), 1}, {s(2), 1}}, 2},
         {{{s(1), 2}, {s(2), 2}}, 1}},
-       {{{{Factor{Role::kCosine, 1, 2}, 2}}, 1}}},
+       {{{{MonomialFactor{Role::kCosine, 1, 2}, 2}}, 1}}},
       // s1 c2 - c1 s2 = sin(1 - 2); the other way round it is its negative
       {{{{{c(1), 1}, {s(2), 1}}, 3}, {{{s(1), 1}, {c(2), 1}}, -3}},
-       {{{{Factor{Role::kSine, 1, 2}, 1}}, -3}}},
+       {{{{MonomialFactor{Role::kSine, 1, 2}, 1}}, -3}}},
       // s1 c2 + c1 s2 stays
       {{{{{c(1), 1}, {s(2), 1}}, 1}, {{{s(1), 1}, {c(2), 1}}, 1}},
        {{{{c(1), 1}, {s(2), 1}}, 1}, {{{s(1), 1}, {c(2), 1}}, 1}}},
       // 2 - 2 c1
-      {{{{}, 2}, {{{c(1), 1}}, -2}}, {{{{Factor{Role::kVersine, 1, 0}, 1}}, 2}}},
+      {{{{}, 2}, {{{c(1), 1}}, -2}}, {{{{MonomialFactor{Role::kVersine, 1, 0}, 1}}, 2}}},
       // 3 s1^2 + c1^2 = 2 s1^2 + 1
       {{{{{s(1), 2}}, 3}, {{{c(1), 2}}, 1}}, {{{{s(1), 2}}, 2}, {{}, 1}}},
   };
