@@ -7,7 +7,7 @@ namespace catena {
 
 /// Counts and places are int in the tables of models; containers ask for std::size_t.
 ///
-///     const double angle = angles[as_index(link)];
+///     const std::size_t place = as_index(3);
 constexpr std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace catena
