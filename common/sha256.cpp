@@ -82,7 +82,7 @@ std::string sha256_hex(std::string_view message) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  return sha256_hex(bytes_of_file(file));
+  return sha256_hex(bytes_of_file(file, std::string::npos));  // a result may be of any size
 }
 
 }  // namespace catena

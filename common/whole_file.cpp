@@ -92,7 +92,7 @@ void require_utf8(std::string_view text, const std::string& what) {
   }
 }
 
-std::string bytes_of_file(const std::filesystem::path& path) {
+std::string bytes_of_file(const std::filesystem::path& path, std::size_t most) {
   // A stream does not tell a failure to read from the end of the file.
   const auto fail = [&] {
     const std::error_code error(errno, std::generic_category());
@@ -109,9 +109,8 @@ std::string bytes_of_file(const std::filesystem::path& path) {
       bytes.append(buffer.data(), static_cast<std::size_t>(got));
     else if (errno != EINTR)
       fail();
-    if (bytes.size() > kMostFileBytes)
-      throw InputError(path.string() + ": is larger than " +
-                       std::to_string(kMostFileBytes / 1'000'000) +
+    if (bytes.size() > most)
+      throw InputError(path.string() + ": is larger than " + std::to_string(most / 1'000'000) +
                        " MB, the most that is read of a file; give a part of it");
   }
   return bytes;

@@ -7,13 +7,13 @@
 
 namespace catena {
 
-/// The most bytes of a file that is read: a recording of ten million frames of three markers. Without
+/// The most bytes of an input file: a recording of ten million frames of three markers. Without
 /// a limit, an endless file (/dev/zero) would take all memory.
 inline constexpr std::size_t kMostFileBytes = 500'000'000;
 
 /// The bytes of a file as they are. Throws std::filesystem::filesystem_error naming the path if they
-/// cannot be read, all of them, and InputError if they are more than kMostFileBytes.
-std::string bytes_of_file(const std::filesystem::path& path);
+/// cannot be read, all of them, and InputError if they are more than `most`.
+std::string bytes_of_file(const std::filesystem::path& path, std::size_t most = kMostFileBytes);
 
 /// The text of a file (UTF-8; a byte order mark is left out). Throws InputError naming the path if
 /// it is missing, a folder or cannot be read, and the line where a byte is not UTF-8.

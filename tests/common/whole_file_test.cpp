@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "common/sha256.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -49,6 +50,13 @@ TEST_CASE("an endless file is refused") {
   CHECK(failure([] {
           read_whole_file("/dev/zero");
         }).starts_with("/dev/zero: is larger than 500 MB"));
+}
+
+TEST_CASE("a result larger than an input may be has a checksum") {
+  const testing::TemporaryFolder folder;
+  const auto result = folder.write("positions.csv", "");
+  std::filesystem::resize_file(result, kMostFileBytes + 1);
+  CHECK(sha256_of_file(result).size() == 64);
 }
 
 TEST_CASE("within a run a file is read once, unless the run writes it") {
