@@ -294,7 +294,9 @@ void depend_on_motion(const Path& path, Index worst, const VectorXd& y,
 Dependence harmonic(const Path& path, double span, const VectorXd& y) {
   MatrixXd pair(path.frames(), 2);
   double best = 0, at_frequency = 0;
-  for (double f = 1 / span; f < kHighestHarmonic; f += 0.25 / span) {
+  const auto end = static_cast<int>(std::ceil(4 * span * kHighestHarmonic));
+  for (int quarters = 4; quarters < end; ++quarters) {
+    const double f = 0.25 * quarters / span;
     for (Index k = 0; k < path.frames(); ++k) {
       const double phase = 2 * std::numbers::pi * f * path.at(k);
       pair.row(k) << std::sin(phase), std::cos(phase);

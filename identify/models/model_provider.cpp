@@ -36,7 +36,8 @@ bool has_fused_multiply_add() {
 bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 0; }
 
 fs::path find_in_path(const std::string& name) {
-  std::istringstream folders(environment_variable("PATH") ? std::getenv("PATH") : "");
+  const char* path = environment_variable("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (!folder.empty() && can_run(fs::path(folder) / name)) return fs::path(folder) / name;
   return {};

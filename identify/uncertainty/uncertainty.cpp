@@ -98,6 +98,7 @@ MatrixXd robust_middle(const Residuals& residuals, const MatrixXd& jacobian, con
     frames[e] = std::max<Index>(frames[e], index.frame + 1);
   }
   std::vector<MatrixXd> sums;  // of each experiment: a frame a row
+  sums.reserve(frames.size());
   for (const Index count : frames) sums.push_back(MatrixXd::Zero(count, unknowns));
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
     const ResidualIndex& index = residuals.index[i];
