@@ -8,14 +8,15 @@
  *     zdot                   = f(t, q, v, z, u, p)
  *
  * q     coordinates: the absolute angle of each link from the downward vertical (rad), positive
- *       towards +side; further coordinates of effects follow
+ *       towards +side; further coordinates of effects follow. In space: the components side, then
+ *       down, then across of a vector along each link, of any length but zero (docs/model.md)
  * v, a  first and second time derivatives of q
  * z     extra states of effects (hysteresis and the like)
  * u     signals: functions of time given by data; for signal k, u[3k] is its value, u[3k+1] its
  *       first and u[3k+2] its second time derivative
  * p     parameters, in the order of the parameter table
  * side, down   the two Cartesian components: side is horizontal, down along gravity; origin at the
- *       nominal fixed point
+ *       nominal fixed point. In space a third, across, horizontal too: side x down = across
  *
  * SI units throughout. No function allocates, keeps state, or writes anything but its outputs; all
  * may be called from several threads. Pointers must be valid for the counts declared here; arrays
@@ -160,7 +161,7 @@ typedef struct catena_model {
   /* per joint: moment[links] (N m, acting on link i from link i-1's side, positive towards +theta),
      per link: tension[links] (N, at its upper end, positive pulls), curvature[links] (rad/m) at
      joint i: its change of angle over the distance between the middles of its links; at joint 1,
-     the clamp, over half of link 1 */
+     the clamp, over half of link 1. In space moments and curvatures are sizes, not negative. */
   void (*internal_forces)(const void* context, const catena_point* at, double* moment,
                           double* tension, double* curvature);
   /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)
@@ -173,6 +174,12 @@ typedef struct catena_model {
      unless observes */
   double (*clock)(const void* context, double t, const double* p);
   double (*clock_tangent)(const void* context, double t, const double* p, const double* dp);
+  /* In space, the third component of positions, of positions_tangent and of velocities; null in the
+     plane. */
+  void (*positions_across)(const void* context, const catena_point* at, double* across);
+  void (*positions_across_tangent)(const void* context, const catena_point* at,
+                                   const catena_point* along, double* dacross);
+  void (*velocities_across)(const void* context, const catena_point* at, double* across_rate);
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -323,6 +323,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
   };
   return model;
 }

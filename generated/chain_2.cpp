@@ -253,6 +253,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
   };
   return model;
 }

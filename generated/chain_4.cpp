@@ -267,6 +267,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
   };
   return model;
 }

@@ -659,6 +659,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
   };
   return model;
 }

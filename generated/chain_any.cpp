@@ -230,6 +230,9 @@ catena_model table(const Chain& chain) {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      nullptr,
   };
 }
 

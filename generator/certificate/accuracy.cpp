@@ -49,8 +49,6 @@ class Measurement {
       if (item.kind != EnergyItem::kStored) continue;
       for (const ex& part : item.parts) stored_rate_.push_back(chain_.rate(part));
     }
-    for (const ex& side : chain_.side()) velocity_.push_back(chain_.rate(side));
-    for (const ex& down : chain_.down()) velocity_.push_back(chain_.rate(down));
   }
 
   void add_point(std::mt19937_64& generator) {
@@ -318,27 +316,33 @@ class Measurement {
   void positions() {
     const catena_point here = point_.at(), along = direction_.at();
     const std::size_t points = as_index(table_.links + 2);
-    Values side(points), down(points), dside(points), ddown(points), vside(points), vdown(points);
-    table_.positions(table_.context, &here, side.data(), down.data());
-    table_.positions_tangent(table_.context, &here, &along, dside.data(), ddown.data());
-    table_.velocities(table_.context, &here, vside.data(), vdown.data());
-    double size = 0, speed = 0, change = 0;
-    for (std::size_t i = 0; i < points; ++i) {
-      const std::size_t above = i == 0 ? 0 : i - 1;
-      const auto jump = [&](const Values& list) {
-        return i == 0 ? std::abs(list[0]) : std::abs(list[i] - list[above]);
-      };
-      size += jump(side) + jump(down);
-      speed += jump(vside) + jump(vdown);
-      change += jump(dside) + jump(ddown);
+    std::vector<Values> place(chain_.axes().size(), Values(points)), change(place), velocity(place);
+    const void* context = table_.context;
+    table_.positions(context, &here, place[kSide].data(), place[kDown].data());
+    table_.positions_tangent(context, &here, &along, change[kSide].data(), change[kDown].data());
+    table_.velocities(context, &here, velocity[kSide].data(), velocity[kDown].data());
+    if (place.size() > kAcross) {
+      table_.positions_across(context, &here, place[kAcross].data());
+      table_.positions_across_tangent(context, &here, &along, change[kAcross].data());
+      table_.velocities_across(context, &here, velocity[kAcross].data());
     }
-    for (std::size_t i = 0; i < points; ++i) {
-      note("positions", difference(side[i], here_->of(chain_.side()[i])), size);
-      note("positions", difference(down[i], here_->of(chain_.down()[i])), size);
-      note("positions_tangent", difference(dside[i], slope(chain_.side()[i])), change + size);
-      note("positions_tangent", difference(ddown[i], slope(chain_.down()[i])), change + size);
-      note("velocities", difference(vside[i], here_->of(velocity_[i])), speed);
-      note("velocities", difference(vdown[i], here_->of(velocity_[points + i])), speed);
+    const auto size_of = [&](const std::vector<Values>& lists) {
+      double size = 0;
+      for (const Values& list : lists) {
+        size += std::abs(list[0]);
+        for (std::size_t i = 1; i < points; ++i) size += std::abs(list[i] - list[i - 1]);
+      }
+      return size;
+    };
+    const double size = size_of(place), size_of_change = size_of(change), speed = size_of(velocity);
+    for (const Axis axis : chain_.axes()) {
+      for (std::size_t i = 0; i < points; ++i) {
+        const ex& position = chain_.position(axis)[i];
+        note("positions", difference(place[axis][i], here_->of(position)), size);
+        note("positions_tangent", difference(change[axis][i], slope(position)),
+             size_of_change + size);
+        note("velocities", difference(velocity[axis][i], here_->of(chain_.rate(position))), speed);
+      }
     }
   }
 
@@ -440,7 +444,7 @@ class Measurement {
   const catena_model& table_;
   Chain chain_;
   std::unique_ptr<Differential> inertial_;
-  std::vector<ex> mass_, stored_rate_, velocity_;
+  std::vector<ex> mass_, stored_rate_;
   RandomPoint point_, direction_;
   numeric step_;
   std::unique_ptr<ExactEvaluation> here_, ahead_, behind_;

@@ -18,6 +18,7 @@
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/closed_form_proof.hpp"
 #include "generator/derivation/neutral_proof.hpp"
+#include "generator/derivation/space_proof.hpp"
 
 namespace catena {
 namespace {
@@ -69,10 +70,16 @@ Json proofs(const Description& description, int links, const Json& summary, Json
   const auto add = [&](const std::string& what, bool proved) {
     list.push_back({{"what", what}, {"proved", proved}});
   };
-  for (const Proof& proof : prove_closed_form(links)) {
-    add(proof.what + (description.effects.empty() ? "" : " of the plain chain") +
-            " = closed form, " + std::to_string(proof.entries) + " entries",
-        proof.equal);
+  const auto add_all = [&](const std::vector<Proof>& proofs, const std::string& with) {
+    for (const Proof& proof : proofs)
+      add(proof.what + with + ", " + std::to_string(proof.entries) + " entries", proof.equal);
+  };
+  if (description.space == Space::kThreeDimensional) {
+    add_all(prove_space_closed_form(links), " = closed form in space");
+    add_all(prove_plane_in_space(links), " in any vertical plane = closed form");
+  } else {
+    const std::string whose = description.effects.empty() ? "" : " of the plain chain";
+    add_all(prove_closed_form(links), whose + " = closed form");
   }
   const NeutralProofs neutral = prove_neutral(description, links);
   for (const Proof& proof : neutral.proofs) {

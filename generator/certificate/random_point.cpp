@@ -59,8 +59,16 @@ RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) 
   RandomPoint point;
   point.t = uniform(generator, 0, 2);
   point.q = uniform_list(table.coordinates, 1.5, generator);
-  // Further coordinates (strains) are small compared with 1.
-  for (int i = table.links; i < table.coordinates; ++i) point.q[static_cast<std::size_t>(i)] /= 5;
+  if (table.positions_across == nullptr) {
+    // Further coordinates (strains) are small compared with 1.
+    for (int i = table.links; i < table.coordinates; ++i) point.q[static_cast<std::size_t>(i)] /= 5;
+  } else {
+    // Links that hang more or less: where one folds back on another, bending has no derivative.
+    for (int i = table.links; i < 2 * table.links; ++i) {
+      double& down = point.q[static_cast<std::size_t>(i)];
+      down = 1 + down / 5;
+    }
+  }
   point.v = uniform_list(table.coordinates, 3, generator);
   point.a = uniform_list(table.coordinates, 5, generator);
   // Extra states (slips) stay within the range that motions reach. Outside of it Newton matrices,

@@ -21,21 +21,51 @@ std::string rate_family(const std::string& family) {
   return family + velocity;
 }
 
+// A component, as names of families end: "joint" + "_side".
+std::string ending(Axis axis) {
+  return axis == kSide ? "_side" : axis == kDown ? "_down" : "_across";
+}
+
+bool is_joint_position(const std::string& family) {
+  return family == "joint_side" || family == "joint_down" || family == "joint_across";
+}
+
 // The family of the generalised force of a variable, by its name in mechanics.
 std::string force_family(const std::string& family) {
-  if (family == "joint_side") return "cut_force_side";
-  if (family == "joint_down") return "cut_force_down";
+  if (is_joint_position(family)) return "cut_force" + family.substr(std::string("joint").size());
   if (family == "joint_angle") return "joint_moment";
   return family + "_force";
 }
 
 // A cut force is counted by the link below the cut.
 int force_index(const Symbol& variable) {
-  const bool joint = variable.family == "joint_side" || variable.family == "joint_down";
-  return joint ? variable.index + 1 : variable.index;
+  return is_joint_position(variable.family) ? variable.index + 1 : variable.index;
+}
+
+// Values, in as many digits as GiNaC is told to use.
+ex value_of_squared_angle(const ex& cosine) { return GiNaC::pow(GiNaC::acos(cosine), 2).evalf(); }
+ex value_of_angle_over_sine(const ex& cosine) {
+  return (GiNaC::acos(cosine) / GiNaC::sqrt(1 - GiNaC::pow(cosine, 2))).evalf();
+}
+ex value_of_inverse_square_root(const ex& x) { return GiNaC::pow(x, -kHalf).evalf(); }
+
+ex derivative_of_squared_angle(const ex& cosine, unsigned) { return -2 * angle_over_sine(cosine); }
+ex derivative_of_angle_over_sine(const ex& cosine, unsigned) {
+  return angle_over_sine_slope(cosine);
+}
+ex derivative_of_inverse_square_root(const ex& x, unsigned) {
+  return -kHalf * GiNaC::pow(inverse_square_root(x), 3);
 }
 
 }  // namespace
+
+REGISTER_FUNCTION(squared_angle,
+                  evalf_func(value_of_squared_angle).derivative_func(derivative_of_squared_angle))
+REGISTER_FUNCTION(angle_over_sine, evalf_func(value_of_angle_over_sine)
+                                       .derivative_func(derivative_of_angle_over_sine))
+REGISTER_FUNCTION(angle_over_sine_slope, dummy())
+REGISTER_FUNCTION(inverse_square_root, evalf_func(value_of_inverse_square_root)
+                                           .derivative_func(derivative_of_inverse_square_root))
 
 Chain::Chain(const Description& description, int links, const std::string& only_term,
              EffectForces effect_forces)
@@ -44,6 +74,8 @@ Chain::Chain(const Description& description, int links, const std::string& only_
       only_term_(only_term),
       time_(definitions_, rate_family),
       forces_(effect_forces) {
+  if (!in_plane() && !description_.effects.empty())
+    throw std::invalid_argument("a chain in space has no effects");
   make_inputs();
   make_kinematics();
   add_chain_terms();
@@ -58,42 +90,33 @@ Chain::Chain(const Description& description, int links, const std::string& only_
 }
 
 std::vector<std::string> Chain::term_names(const Description& description) {
-  std::vector<std::string> names{"kinetic", "gravity", "elastic", "friction", "torque"};
+  std::vector<std::string> names{"kinetic", "gravity", "elastic", "friction"};
+  if (description.space == Space::kPlane) names.emplace_back("torque");
   for (const Effect& effect : description.effects) {
     if (!effect.forces.empty() || !effect.scalars.empty()) names.push_back(effect.id);
   }
   return names;
 }
 
-void Chain::make_inputs() {
-  const auto per_link = [&](const char* family) {
-    std::vector<ex> symbols(1);
-    for (Link i = 1; i <= links_; ++i) symbols.push_back(definitions_.input(family, i));
-    return symbols;
-  };
-  const auto add_coordinate = [&](const ex& q, const ex& v, const ex& a) {
-    coordinates_.push_back(q);
-    rates_.push_back(v);
-    accelerations_.push_back(a);
-    variables_.insert(definitions_.number_of(q));
-    variable_of_rate_[definitions_.number_of(v)] = definitions_.number_of(q);
-    time_.set(q, v);
-    time_.set(v, a);
-  };
-  length_ = per_link("length");
-  mass_ = per_link("mass");
-  inertia_ = per_link("inertia");
-  stiffness_ = per_link("stiffness");
-  damping_ = per_link("damping");
-  torque_ = per_link("torque");
-  load_mass_ = definitions_.input("load_mass");
-  gravity_ = definitions_.input("gravity");
-  time_symbol_ = definitions_.input("time");
-  time_.set(time_symbol_, 1);
+void Chain::add_coordinate(const ex& q, const ex& v, const ex& a) {
+  coordinates_.push_back(q);
+  rates_.push_back(v);
+  accelerations_.push_back(a);
+  variables_.insert(definitions_.number_of(q));
+  variable_of_rate_[definitions_.number_of(v)] = definitions_.number_of(q);
+  time_.set(q, v);
+  time_.set(v, a);
+}
 
-  theta_ = per_link("theta");
-  theta_dot_ = per_link("theta_dot");
-  theta_ddot_ = per_link("theta_ddot");
+// The coordinates of the plane: the angle of each link.
+void Chain::add_angles() {
+  for (auto* family : {&theta_, &theta_dot_, &theta_ddot_}) family->resize(1);
+  const auto make = [&](const char* name, std::vector<ex>& family) {
+    for (Link i = 1; i <= links_; ++i) family.push_back(definitions_.input(name, i));
+  };
+  make("theta", theta_);
+  make("theta_dot", theta_dot_);
+  make("theta_ddot", theta_ddot_);
   sine_.resize(1);
   cosine_.resize(1);
   for (Link i = 1; i <= links_; ++i) {
@@ -102,6 +125,58 @@ void Chain::make_inputs() {
     cosine_.push_back(definitions_.define("cosine", i, GiNaC::cos(theta_[i])));
     time_.set(sine_[i], cosine_[i] * theta_dot_[i]);
     time_.set(cosine_[i], -sine_[i] * theta_dot_[i]);
+  }
+  direction_ = {sine_, cosine_};
+}
+
+// The coordinates of space: the components of one vector for each link, made a unit vector. Entry 0 is
+// the clamp, from where the first link hangs straight down.
+void Chain::add_directions() {
+  for (const Axis axis : axes()) direction_.push_back({axis == kDown ? ex(1) : ex(0)});
+  direction_square_.resize(1);
+  for (const Axis axis : axes()) {
+    const std::string name = "direction" + ending(axis);
+    for (Link i = 1; i <= links_; ++i)
+      add_coordinate(definitions_.input(name, i), definitions_.input(name + "_dot", i),
+                     definitions_.input(name + "_ddot", i));
+  }
+  for (Link i = 1; i <= links_; ++i) {
+    ex square = 0;
+    const auto component = [&](Axis axis) {
+      return definitions_.input("direction" + ending(axis), i);
+    };
+    for (const Axis axis : axes()) square += component(axis) * component(axis);
+    direction_square_.push_back(define_variable("direction_square", i, square));
+    const ex scale =
+        definitions_.define("direction_scale", i, inverse_square_root(direction_square_[i]));
+    variables_.insert(definitions_.number_of(scale));
+    for (const Axis axis : axes())
+      direction_[axis].push_back(
+          define_variable("unit" + ending(axis), i, scale * component(axis)));
+  }
+}
+
+void Chain::make_inputs() {
+  const auto per_link = [&](const char* family) {
+    std::vector<ex> symbols(1);
+    for (Link i = 1; i <= links_; ++i) symbols.push_back(definitions_.input(family, i));
+    return symbols;
+  };
+  length_ = per_link("length");
+  mass_ = per_link("mass");
+  inertia_ = per_link("inertia");
+  stiffness_ = per_link("stiffness");
+  damping_ = per_link("damping");
+  if (in_plane()) torque_ = per_link("torque");
+  load_mass_ = definitions_.input("load_mass");
+  gravity_ = definitions_.input("gravity");
+  time_symbol_ = definitions_.input("time");
+  time_.set(time_symbol_, 1);
+
+  if (in_plane()) {
+    add_angles();
+  } else {
+    add_directions();
   }
   for (const Effect& effect : description_.effects) {
     for (const Coordinate& coordinate : effect.coordinates) {
@@ -150,15 +225,15 @@ ex Chain::define_variable(const std::string& family, int index, const ex& value)
 
 // (2.24)-(2.27), with the changes that effects make
 void Chain::make_kinematics() {
-  ex support_side = 0, support_down = 0;
+  ex support[3];
   for (const Effect& effect : description_.effects) {
-    support_side += evaluate(effect, effect.support.side, kShape, Place::kLoad, 0, "m");
-    support_down += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
+    support[kSide] += evaluate(effect, effect.support.side, kShape, Place::kLoad, 0, "m");
+    support[kDown] += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
   }
-  joint_side_.push_back(define_variable("joint_side", 0, support_side));
-  joint_down_.push_back(define_variable("joint_down", 0, support_down));
-  const auto vector = [&] { return std::vector<ex>(1); };
-  reach_ = centre_side_ = centre_down_ = middle_side_ = middle_down_ = joint_angle_ = vector();
+  for (const Axis axis : axes())
+    joint_.push_back({define_variable("joint" + ending(axis), 0, support[axis])});
+  centre_ = middle_ = Points(joint_.size(), std::vector<ex>(1));
+  reach_ = joint_angle_ = std::vector<ex>(1);
   arc_ = hanging_depth_ = {ex(0)};
 
   for (Link i = 1; i <= links_; ++i) {
@@ -169,30 +244,35 @@ void Chain::make_kinematics() {
     const ex offset = kinematic(&Kinematics::centre_offset, "m", Place::kLink, i);
     arc_.push_back(definitions_.define("arc", i, arc_[i - 1] + length_[i]));
     // from the upper to the lower end of the link
-    const ex span_side = define_variable("span_side", i, reach_[i] * sine_[i]);
-    const ex span_down = define_variable("span_down", i, reach_[i] * cosine_[i]);
-    middle_side_.push_back(
-        define_variable("centre_side", i, joint_side_[i - 1] + kHalf * span_side));
-    middle_down_.push_back(
-        define_variable("centre_down", i, joint_down_[i - 1] + kHalf * span_down));
-    const auto shifted = [&](const char* family, const ex& middle, const ex& direction) {
-      return offset.is_zero() ? middle : define_variable(family, i, middle + offset * direction);
-    };
-    centre_side_.push_back(shifted("mass_centre_side", middle_side_[i], sine_[i]));
-    centre_down_.push_back(shifted("mass_centre_down", middle_down_[i], cosine_[i]));
-    joint_side_.push_back(define_variable("joint_side", i, joint_side_[i - 1] + span_side));
-    joint_down_.push_back(define_variable("joint_down", i, joint_down_[i - 1] + span_down));
+    ex span[3];
+    for (const Axis axis : axes())
+      span[axis] = define_variable("span" + ending(axis), i, reach_[i] * direction_[axis][i]);
+    for (const Axis axis : axes())
+      middle_[axis].push_back(
+          define_variable("centre" + ending(axis), i, joint_[axis][i - 1] + kHalf * span[axis]));
+    for (const Axis axis : axes()) {
+      const ex& middle = middle_[axis][i];
+      centre_[axis].push_back(offset.is_zero()
+                                  ? middle
+                                  : define_variable("mass_centre" + ending(axis), i,
+                                                    middle + offset * direction_[axis][i]));
+    }
+    for (const Axis axis : axes())
+      joint_[axis].push_back(
+          define_variable("joint" + ending(axis), i, joint_[axis][i - 1] + span[axis]));
+    if (!in_plane()) continue;
     ex rest = kinematic(&Kinematics::rest_angle, "rad", Place::kJoint, i);
     if (i == 1) rest += kinematic(&Kinematics::pivot_rest_angle, "rad", Place::kPivot, i);
     const ex above = i == 1 ? ex(0) : theta_[i - 1];
     joint_angle_.push_back(define_variable("joint_angle", i, theta_[i] - above - rest));
   }
   const ex load_offset = kinematic(&Kinematics::load_offset, "m", Place::kLoad, 0);
-  load_side_ = joint_side_[links_];
-  load_down_ = joint_down_[links_];
-  if (!load_offset.is_zero()) {
-    load_side_ = define_variable("load_side", kNoIndex, load_side_ + load_offset * sine_[links_]);
-    load_down_ = define_variable("load_down", kNoIndex, load_down_ + load_offset * cosine_[links_]);
+  for (const Axis axis : axes()) {
+    const ex& end = joint_[axis][links_];
+    load_.push_back(load_offset.is_zero()
+                        ? end
+                        : define_variable("load" + ending(axis), kNoIndex,
+                                          end + load_offset * direction_[axis][links_]));
   }
   load_mass_ += kinematic(&Kinematics::load_mass, "kg", Place::kLoad, 0);
   load_inertia_ = kinematic(&Kinematics::load_inertia, "kg m^2", Place::kLoad, 0);
@@ -201,12 +281,8 @@ void Chain::make_kinematics() {
       tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
 
-  for (Link i = 0; i <= links_; ++i) {
-    point_side_.push_back(joint_side_[i]);
-    point_down_.push_back(joint_down_[i]);
-  }
-  point_side_.push_back(load_side_);
-  point_down_.push_back(load_down_);
+  point_ = joint_;
+  for (const Axis axis : axes()) point_[axis].push_back(load_[axis]);
 }
 
 void Chain::add_generalised_force(const ex& variable, const ex& force) {
@@ -302,48 +378,101 @@ void Chain::add_force(const std::string& item, const std::vector<Component>& com
   if (!power.is_zero()) add_energy(item, EnergyItem::kSupplied, power);
 }
 
+ex Chain::speed_squared(const std::vector<ex>& position) {
+  ex sum = 0;
+  for (const ex& component : position) {
+    const ex velocity = time_.of(component);
+    sum += velocity * velocity;
+  }
+  return sum;
+}
+
 void Chain::add_chain_terms() {
+  const auto at = [&](const Points& points, Link k) {
+    std::vector<ex> position;
+    for (const Axis axis : axes()) position.push_back(points[axis][k]);
+    return position;
+  };
+  const auto turning = [&](Link k) {
+    return in_plane() ? theta_dot_[k] * theta_dot_[k] : speed_squared(at(direction_, k));
+  };
   hanging_depth_.resize(1);
   for (Link k = 1; k <= links_; ++k) {
     if (wanted("kinetic")) {
-      const ex v_side = time_.of(centre_side_[k]), v_down = time_.of(centre_down_[k]);
-      add_kinetic("kinetic", kHalf * mass_[k] * (v_side * v_side + v_down * v_down) +
-                                 kHalf * inertia_[k] * theta_dot_[k] * theta_dot_[k]);
+      add_kinetic("kinetic", kHalf * mass_[k] * speed_squared(at(centre_, k)) +
+                                 kHalf * inertia_[k] * turning(k));
+      if (!in_plane()) {
+        const ex rate = time_.of(direction_square_[k]);
+        add_kinetic("kinetic",
+                    (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate / 8);
+      }
     }
     hanging_depth_.push_back(
         definitions_.define("hanging_depth", k, hanging_depth_[k - 1] + length_[k]));
     if (wanted("gravity")) {
       const ex height = hanging_depth_[k - 1] + length_[k] * kHalf -
-                        (cos_tilt_ * centre_down_[k] + sin_tilt_ * centre_side_[k]);
+                        (cos_tilt_ * centre_[kDown][k] + sin_tilt_ * centre_[kSide][k]);
       add_potential("gravity", mass_[k] * gravity_ * height);
     }
-    if (wanted("elastic")) {
-      add_potential("joint_elastic", kHalf * stiffness_[k] * joint_angle_[k] * joint_angle_[k]);
-    }
-    if (wanted("friction")) {
-      const ex rate = time_.of(joint_angle_[k]);
-      add_dissipation("joint_damping", kHalf * damping_[k] * rate * rate);
-    }
-    if (wanted("torque")) add_force("torque", {{theta_[k], torque_[k]}});
+    add_joint_terms(k);
+    if (in_plane() && wanted("torque")) add_force("torque", {{theta_[k], torque_[k]}});
   }
   if (wanted("kinetic")) {
-    const ex v_side = time_.of(load_side_), v_down = time_.of(load_down_);
-    const ex turning = theta_dot_[links_];
-    add_kinetic("kinetic", kHalf * load_mass_ * (v_side * v_side + v_down * v_down) +
-                               kHalf * load_inertia_ * turning * turning);
+    add_kinetic("kinetic", kHalf * load_mass_ * speed_squared(load_) +
+                               kHalf * load_inertia_ * turning(links_));
   }
   if (wanted("gravity")) {
-    const ex height = hanging_depth_[links_] - (cos_tilt_ * load_down_ + sin_tilt_ * load_side_);
+    const ex height =
+        hanging_depth_[links_] - (cos_tilt_ * load_[kDown] + sin_tilt_ * load_[kSide]);
     add_potential("gravity", load_mass_ * gravity_ * height);
   }
+}
+
+// Bending and damping of joint k. In space the section is isotropic: the moment is about the normal of
+// the plane of the two links, and the angular velocity of a link is e x edot.
+void Chain::add_joint_terms(Link k) {
+  ex squared, rate_squared = 0;
+  if (in_plane()) {
+    const ex rate = time_.of(joint_angle_[k]);
+    squared = joint_angle_[k] * joint_angle_[k];
+    rate_squared = rate * rate;
+  } else {
+    ex cosine = 0;
+    for (const Axis axis : axes()) cosine += direction_[axis][k - 1] * direction_[axis][k];
+    const ex joint_cosine = define_variable("joint_cosine", k, cosine);
+    squared = squared_angle(joint_cosine);
+    ex moment_squared = 0;
+    for (const auto& axes_of_plane :
+         {std::pair{kSide, kDown}, {kDown, kAcross}, {kAcross, kSide}}) {
+      const Axis b = axes_of_plane.first, c = axes_of_plane.second;
+      const auto cross = [&](Link i, const ex& x_b, const ex& x_c) {
+        return direction_[b][i] * x_c - direction_[c][i] * x_b;
+      };
+      const auto turning = [&](Link i) {
+        return cross(i, time_.of(direction_[b][i]), time_.of(direction_[c][i]));
+      };
+      const ex rate = turning(k) - turning(k - 1);
+      rate_squared += rate * rate;
+      const ex moment =
+          definitions_.define("joint_moment" + ending(Axis(3 - b - c)), k,
+                              stiffness_[k] * angle_over_sine(joint_cosine) *
+                                      cross(k - 1, direction_[b][k], direction_[c][k]) +
+                                  damping_[k] * rate);
+      moment_squared += moment * moment;
+    }
+    moments_.push_back(definitions_.named(GiNaC::sqrt(moment_squared), "moment", k));
+    curvatures_.push_back(definitions_.named(GiNaC::sqrt(squared) / spacing(k), "curvature", k));
+  }
+  if (wanted("elastic")) add_potential("joint_elastic", kHalf * stiffness_[k] * squared);
+  if (wanted("friction")) add_dissipation("joint_damping", kHalf * damping_[k] * rate_squared);
 }
 
 // The length of cable that bends in joint i.
 ex Chain::spacing(Link i) const { return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2; }
 
 void Chain::pull_back() {
-  std::vector<ex> cut_side(static_cast<size_t>(links_) + 2), cut_down(cut_side);
-  std::vector<ex> moment(cut_side);
+  std::vector<ex> moment(static_cast<size_t>(links_) + 2);
+  Points cut(joint_.size(), moment);
   const auto keep = [&](std::vector<ex>& where, const ex& variable, int index) {
     const auto found = generalised_force_.find(definitions_.number_of(variable));
     where[static_cast<size_t>(index)] = found == generalised_force_.end() ? ex(0) : found->second;
@@ -375,24 +504,31 @@ void Chain::pull_back() {
     residual_.push_back(definitions_.named(generalised_force_of(definitions_.number_of(q)),
                                            "residual_" + symbol.family, symbol.index));
   }
+  if (!in_plane()) {
+    direction_force_ = Points(direction_.size(), moment);
+    for (const Axis axis : axes())
+      for (Link i = 1; i <= links_; ++i) keep(direction_force_[axis], direction_[axis][i], i);
+  }
   for (Link i = 1; i <= links_; ++i) {
-    keep(cut_side, joint_side_[i - 1], i);
-    keep(cut_down, joint_down_[i - 1], i);
+    ex tension = 0;
+    for (const Axis axis : axes()) {
+      keep(cut[axis], joint_[axis][i - 1], i);
+      tension += cut[axis][i] * direction_[axis][i];
+    }
+    tensions_.push_back(definitions_.named(-tension, "tension", i));
+    if (!in_plane()) continue;
     keep(moment, joint_angle_[i], i);
     const ex above = i == 1 ? ex(0) : theta_[i - 1];
     curvatures_.push_back(definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
-    tensions_.push_back(
-        definitions_.named(-(cut_side[i] * sine_[i] + cut_down[i] * cosine_[i]), "tension", i));
     moments_.push_back(definitions_.named(-moment[i], "moment", i));
   }
-  support_force_side_ = cut_side[1];
-  support_force_down_ = cut_down[1];
+  for (const Axis axis : axes()) support_force_.push_back(cut[axis][1]);
 }
 
 // The force that moves the support does work.
 void Chain::add_support_power() {
-  const ex power = support_force_side_ * time_.of(joint_side_[0]) +
-                   support_force_down_ * time_.of(joint_down_[0]);
+  ex power = 0;
+  for (const Axis axis : axes()) power += support_force_[axis] * time_.of(joint_[axis][0]);
   if (!power.is_zero()) add_energy("support", EnergyItem::kSupplied, power);
 }
 

@@ -16,6 +16,16 @@
 // through the definitions of y to the coordinates, from the free end to the support. The
 // generalised force of the position of a joint is the cut force: the force of the upper part of the
 // chain on the part below the joint.
+//
+// In space the coordinates are the three components of one vector q_i for each link, and the link's
+// direction, from its upper to its lower end, is e_i = q_i / |q_i|. T, V and D are written in e_i, edot_i,
+// so q_i has no constraint. Its length moves nothing; to give it equations of its own, T has
+//
+//     1/8 (I_i + m_i l_i^2 / 4) (d|q_i|^2 / dt)^2
+//
+// besides, which vanishes while |q_i| = 1. Of these equations, what is perpendicular to q_i is the chain's
+// with the constraints |q_i| = 1 and their multipliers, and what is along q_i says that |q_i|^2 has no
+// acceleration. |q_i| may drift by rounding and errors of steps; the motion does not see it.
 #pragma once
 
 #include <ginac/ginac.h>
@@ -30,6 +40,17 @@
 #include "generator/derivation/effect_expression.hpp"
 
 namespace catena {
+
+/// The components of positions. The plane has the first two.
+enum Axis { kSide, kDown, kAcross };
+
+/// The square of the angle between two unit vectors, as a function of its cosine c, and minus half of
+/// its derivative: the angle over its sine, and the slope of that. All are smooth at c = 1.
+DECLARE_FUNCTION_1P(squared_angle)
+DECLARE_FUNCTION_1P(angle_over_sine)
+DECLARE_FUNCTION_1P(angle_over_sine_slope)
+/// x^(-1/2).
+DECLARE_FUNCTION_1P(inverse_square_root)
 
 /// A stored energy (J) or a power (W), as the model table lists it.
 struct EnergyItem {
@@ -46,6 +67,7 @@ class Chain {
  public:
   /// Derives the equations. `only_term` is empty for all terms; otherwise it names the only one
   /// that is kept: "kinetic", "gravity", "elastic", "friction", "torque" or the id of an effect.
+  /// Throws std::invalid_argument for effects in space.
   Chain(const Description& description, int links, const std::string& only_term = "",
         EffectForces effect_forces = EffectForces::kMerged);
 
@@ -61,13 +83,17 @@ class Chain {
   const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }
   const std::vector<GiNaC::ex>& rates() const { return rates_; }
   const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
+  /// In space: the generalised force of the unit vector of link i, [axis][i], i = 1 ... n.
+  const std::vector<std::vector<GiNaC::ex>>& direction_forces() const { return direction_force_; }
   /// Extra states of effects and their rates, in the same order.
   const std::vector<GiNaC::ex>& states() const { return states_; }
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
 
-  /// side, down of the support (0), the far end of each link (1..n) and the load (n + 1)
-  const std::vector<GiNaC::ex>& side() const { return point_side_; }
-  const std::vector<GiNaC::ex>& down() const { return point_down_; }
+  /// Where the support (0), the far end of each link (1..n) and the load (n + 1) are.
+  const std::vector<GiNaC::ex>& position(Axis axis) const { return point_[axis]; }
+  std::vector<Axis> axes() const {
+    return in_plane() ? std::vector{kSide, kDown} : std::vector{kSide, kDown, kAcross};
+  }
   GiNaC::ex rate(const GiNaC::ex& expression) { return time_.of(expression); }
 
   const std::vector<EnergyItem>& energies() const { return energies_; }
@@ -93,10 +119,19 @@ class Chain {
  private:
   using ex = GiNaC::ex;
   using Link = int;
+  using Points = std::vector<std::vector<ex>>;  // [axis][link or joint]
+
+  bool in_plane() const { return description_.space == Space::kPlane; }
+  /// The square of the velocity of a point that has these components.
+  ex speed_squared(const std::vector<ex>& position);
 
   void make_inputs();
   void make_kinematics();
+  void add_angles();
+  void add_directions();
+  void add_coordinate(const ex& q, const ex& v, const ex& a);
   void add_chain_terms();
+  void add_joint_terms(Link k);
   void add_effect_terms(const Effect& effect);
   void add_sensors();
   void add_support_power();
@@ -138,20 +173,25 @@ class Chain {
   std::vector<ex> length_, mass_, inertia_, stiffness_, damping_, torque_;
   ex load_mass_, gravity_, time_symbol_;
   ex load_inertia_;
-  std::vector<ex> reach_;                      ///< length of link i with its extension
-  std::vector<ex> joint_side_, joint_down_;    ///< far end of link i; 0 is the support
-  std::vector<ex> centre_side_, centre_down_;  ///< mass centre of link i
-  std::vector<ex> middle_side_, middle_down_;  ///< middle of link i, where effects act
+  std::vector<ex> reach_;             ///< length of link i with its extension
+  Points direction_;                  ///< of link i, towards the free end: a unit vector
+  std::vector<ex> direction_square_;  ///< in space: |q_i|^2
+  Points direction_force_;
+  Points joint_;   ///< far end of link i; 0 is the support
+  Points centre_;  ///< mass centre of link i
+  Points middle_;  ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
-  ex load_side_, load_down_, cos_tilt_, sin_tilt_;
+  std::vector<ex> load_;  ///< by axis
+  ex cos_tilt_, sin_tilt_;
   std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
 
   std::vector<ex> coordinates_, rates_, accelerations_, residual_, states_, state_rates_;
-  std::vector<ex> point_side_, point_down_, moments_, tensions_, curvatures_;
+  Points point_;
+  std::vector<ex> moments_, tensions_, curvatures_;
   std::vector<EnergyItem> energies_;
   EnergyFunctions energy_functions_;
   Sensor sensor_;
-  ex support_force_side_, support_force_down_;  ///< what the support exerts on the chain, N
+  std::vector<ex> support_force_;  ///< what the support exerts on the chain, N, by axis
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y

@@ -70,8 +70,8 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     }
     if (motion) add_angle(i);
     if (motion && place == Place::kLinkCentre) {
-      add_point(middle_side_[i], middle_down_[i]);
-      add_directions(middle_side_[i], middle_down_[i], i);
+      add_point(middle_[kSide][i], middle_[kDown][i]);
+      add_directions(middle_[kSide][i], middle_[kDown][i], i);
     }
   } else if (place == Place::kJoint || place == Place::kPivot) {
     add("stiffness", stiffness_[i], "N m/rad");
@@ -79,7 +79,7 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     add("arc", arc_[i - 1], "m");
     add("spacing", spacing(i), "m");
     if (motion) {
-      add_point(joint_side_[i - 1], joint_down_[i - 1]);
+      add_point(joint_[kSide][i - 1], joint_[kDown][i - 1]);
       add("joint_angle", joint_angle_[i], "rad");
       add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
       for (const ExtraState& state : effect.states) {
@@ -90,8 +90,8 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
   } else if (place == Place::kLoad && motion) {
     add("load_mass", load_mass_, "kg");
     add_angle(links_);
-    add_point(load_side_, load_down_);
-    add_directions(load_side_, load_down_, links_);
+    add_point(load_[kSide], load_[kDown]);
+    add_directions(load_[kSide], load_[kDown], links_);
   }
   return context;
 }
@@ -155,13 +155,13 @@ void Chain::add_effect_terms(const Effect& effect) {
         down += -normal * sine_[link] + tangential * cosine_[link];
       }
       const bool centre = force.at == Place::kLinkCentre, load = force.at == Place::kLoad;
-      add_force(effect.id, {{centre ? middle_side_[i]
-                             : load ? load_side_
-                                    : joint_side_[i - 1],
+      add_force(effect.id, {{centre ? middle_[kSide][i]
+                             : load ? load_[kSide]
+                                    : joint_[kSide][i - 1],
                              side},
-                            {centre ? middle_down_[i]
-                             : load ? load_down_
-                                    : joint_down_[i - 1],
+                            {centre ? middle_[kDown][i]
+                             : load ? load_[kDown]
+                                    : joint_[kDown][i - 1],
                              down}});
     });
   }

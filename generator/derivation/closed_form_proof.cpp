@@ -16,25 +16,6 @@ using GiNaC::ex;
 
 namespace {
 
-// cos(a - b) -> cos a cos b + sin a sin b, for arguments that are symbols or differences of two.
-struct WriteOutDifferences : GiNaC::map_function {
-  ex operator()(const ex& e) override {
-    const bool sine = GiNaC::is_the_function<GiNaC::sin_SERIAL>(e);
-    if ((sine || GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) &&
-        GiNaC::is_a<GiNaC::add>(e.op(0))) {
-      ex a = 0, b = 0;
-      for (size_t i = 0; i < e.op(0).nops(); ++i) {
-        const ex term = e.op(0).op(i);
-        (GiNaC::is_a<GiNaC::symbol>(term) ? a : b) =
-            GiNaC::is_a<GiNaC::symbol>(term) ? term : -term;
-      }
-      return sine ? GiNaC::sin(a) * GiNaC::cos(b) - GiNaC::cos(a) * GiNaC::sin(b)
-                  : GiNaC::cos(a) * GiNaC::cos(b) + GiNaC::sin(a) * GiNaC::sin(b);
-    }
-    return e.map(*this);
-  }
-};
-
 ex difference(const ex& model, const ex& closed_form) {
   WriteOutDifferences write_out;
   return model - write_out(closed_form);

@@ -7,11 +7,13 @@ using GiNaC::ex;
 
 namespace {
 
-struct OneSquare : GiNaC::map_function {
+struct NoSquares : GiNaC::map_function {
   ex operator()(const ex& e) override {
-    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).is_equal(2) &&
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::posint) &&
         GiNaC::is_the_function<GiNaC::sin_SERIAL>(e.op(0))) {
-      return 1 - GiNaC::pow(GiNaC::cos(e.op(0).op(0)), 2);
+      const int exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int();
+      const ex square = 1 - GiNaC::pow(GiNaC::cos(e.op(0).op(0)), 2);
+      return GiNaC::pow(square, exponent / 2) * GiNaC::pow(e.op(0), exponent % 2);
     }
     return e.map(*this);
   }
@@ -22,7 +24,9 @@ struct OneSquare : GiNaC::map_function {
 ex WrittenOut::of(const ex& expression) {
   GiNaC::exmap values;
   for (const int number : definitions_.symbols_of(expression)) {
-    if (!definitions_[number].is_input) values[definitions_[number].symbol] = of_symbol(number);
+    const Symbol& symbol = definitions_[number];
+    if (!symbol.is_input && !kept_.contains(symbol.family))
+      values[definitions_[number].symbol] = of_symbol(number);
   }
   return expression.subs(values, GiNaC::subs_options::no_pattern).expand();
 }
@@ -34,9 +38,23 @@ ex WrittenOut::of_symbol(int number) {
   return known_[number] = of(value);
 }
 
+ex WriteOutDifferences::operator()(const ex& e) {
+  const bool sine = GiNaC::is_the_function<GiNaC::sin_SERIAL>(e);
+  if ((sine || GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) && GiNaC::is_a<GiNaC::add>(e.op(0))) {
+    ex a = 0, b = 0;
+    for (size_t i = 0; i < e.op(0).nops(); ++i) {
+      const ex term = e.op(0).op(i);
+      (GiNaC::is_a<GiNaC::symbol>(term) ? a : b) = GiNaC::is_a<GiNaC::symbol>(term) ? term : -term;
+    }
+    return sine ? GiNaC::sin(a) * GiNaC::cos(b) - GiNaC::cos(a) * GiNaC::sin(b)
+                : GiNaC::cos(a) * GiNaC::cos(b) + GiNaC::sin(a) * GiNaC::sin(b);
+  }
+  return e.map(*this);
+}
+
 ex without_sine_squares(const ex& expression) {
-  OneSquare one_square;
-  return one_square(expression).expand();
+  NoSquares no_squares;
+  return no_squares(expression).expand();
 }
 
 }  // namespace catena

@@ -72,7 +72,7 @@ std::string obstacle(const Description& description) {
 }
 
 [[noreturn]] void refuse(const Description& description, const std::string& why) {
-  std::string effects;
+  std::string effects = description.space == Space::kPlane ? "" : "space = \"3d\"";
   for (const Effect& effect : description.effects) {
     Description alone = description;
     alone.effects = {effect};
@@ -168,8 +168,9 @@ std::string any_links_header_text(const Description& description, const ModelFun
       << ".\n// Arguments, shapes, units and signs: catena_model.h. T is any scalar type, see "
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
-      << structure_text(model)
-      << "#pragma once\n\n#include <array>\n\n#include \"any_links_table.hpp\"\n#include "
+      << structure_text(model) << "#pragma once\n\n#include <array>\n\n"
+      << space_include(model)
+      << "#include \"any_links_table.hpp\"\n#include "
          "\"batch.hpp\"\n"
          "#include \"dense.hpp\"\n#include \"quasiseparable.hpp\"\n#include \"scalar.hpp\"\n"
          "#include \"semiseparable.hpp\"\n\nnamespace catena::"
@@ -243,7 +244,7 @@ std::map<std::string, std::string> emit_any_links(const Description& description
     return {{name + ".hpp", any_links_header_text(description, model)},
             {name + ".cpp", any_links_source_text(description, model)}};
   } catch (const std::logic_error& error) {
-    if (description.effects.empty()) throw;
+    if (is_plain_chain(description)) throw;
     refuse(description, error.what());
   }
 }

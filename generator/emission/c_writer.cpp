@@ -28,6 +28,38 @@ static void sines_and_cosines(const double* angle, double* sine, double* cosine)
 }
 )";
 
+// Those of generator/emission/support/angle_over_sine.hpp, which says more.
+const char* const kAngleOverSine = R"(
+static double inverse_square_root(double x) { return 1.0 / sqrt(x); }
+
+static double squared_angle(double cosine) {
+  const double rest = 1.0 - cosine;
+  double sum = 1.0;
+  if (!(rest < 1.0 / 64.0)) return acos(cosine) * acos(cosine);
+  for (int k = 12; k > 0; --k)
+    sum = 1.0 + (double)(k * k) / ((k + 1) * (2 * k + 1)) * rest * sum;
+  return 2.0 * rest * sum;
+}
+
+static double angle_over_sine(double cosine) {
+  const double rest = 1.0 - cosine;
+  double sum = 1.0;
+  if (!(rest < 1.0 / 64.0)) return acos(cosine) / sqrt(rest * (1.0 + cosine));
+  for (int k = 12; k > 0; --k) sum = 1.0 + (double)k / (2 * k + 1) * rest * sum;
+  return sum;
+}
+
+static double angle_over_sine_slope(double cosine) {
+  const double rest = 1.0 - cosine;
+  double sum = 1.0;
+  if (!(rest < 1.0 / 8.0))
+    return (cosine * angle_over_sine(cosine) - 1.0) / (rest * (1.0 + cosine));
+  for (int k = 16; k > 0; --k)
+    sum = 1.0 + (double)((k + 1) * (k + 1)) / (k * (2 * k + 3)) * rest * sum;
+  return -sum / 3.0;
+}
+)";
+
 // A_ij = row_i . column_j for j < i, symmetric, positive definite: rows are eliminated from the
 // last up.
 const char* const kSemiseparable = R"(
@@ -402,7 +434,9 @@ std::string c_source_text(const Description& description, const ModelFunctions& 
   // A single link has rank 0, an array at least one entry.
   if (functions.mass.kind == MatrixForm::kSymmetricSemiseparable)
     out << ",\n  kRank = " << std::max(functions.mass.lower_rank, 1);
-  out << "\n};\n" << kSinesAndCosines << matrices_text(functions);
+  out << "\n};\n"
+      << (functions.space == Space::kPlane ? kSinesAndCosines : kAngleOverSine)
+      << matrices_text(functions);
   for (const Function& function : functions.functions) {
     if (function.in_table || function.name != functions.accelerations)
       out << function_text(functions, function);

@@ -87,6 +87,12 @@ std::string cmake_list(const std::vector<std::string>& names) {
   return out.str();
 }
 
+EmittedFiles support_for(const Description& description) {
+  EmittedFiles files = support_text();
+  if (description.space == Space::kPlane) files.erase("angle_over_sine.hpp");
+  return files;
+}
+
 }  // namespace
 
 Layout layout_for(int links) {
@@ -98,7 +104,7 @@ std::string summary_name(const std::string& model, Language language) {
 }
 
 EmittedFiles emit_any_links_files(const Description& description) {
-  EmittedFiles files = support_text();
+  EmittedFiles files = support_for(description);
   files.erase("any_nonzero.hpp");
   files.merge(emit_any_links(description));
   return files;
@@ -108,7 +114,7 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
                         std::optional<Layout> layout, Language language, FunctionSet set) {
   const bool c = language == Language::kC;
-  EmittedFiles files = support_text();
+  EmittedFiles files = support_for(description);
   files.erase("any_links_table.hpp");
   if (set == FunctionSet::kAll) files.erase("any_nonzero.hpp");
   if (c) files = {{"catena_model.h", files.at("catena_model.h")}};

@@ -12,10 +12,10 @@ using GiNaC::ex;
 void FunctionBuilder::residual() {
   const auto r = chain_.residual();
   add("residual", "r(t, q, v, a, z, u, p), the inverse dynamics.", {at(), result("r")},
-      body(from_one("r", r), at_));
+      body(from_coordinates("r", r), at_));
   const auto dr = each(r, [&](const ex& e) { return tangent_.of(e); });
   add("residual_tangent", "Derivative of r along `along`.", {at(), along(), change("dr")},
-      body(from_one("dr", dr), at_and_along_));
+      body(from_coordinates("dr", dr), at_and_along_));
 }
 
 // Each term of r from a derivation that has this term alone.
@@ -24,7 +24,7 @@ void FunctionBuilder::terms() {
                             const std::vector<ex>& values) {
     result_.terms.push_back(name);
     add_inner("term_" + name, "The term " + name + " of r alone.", {at(), result("r")},
-              function_body(definitions, from_one("r", values), at_, layout_));
+              function_body(definitions, from_coordinates("r", values), at_, layout_));
   };
   for (const std::string& name : Chain::term_names(description_)) {
     Chain chain(description_, links_, name);
@@ -61,10 +61,16 @@ void FunctionBuilder::state_rates() {
 // The gradient of weight . r + rate_weight . zdot.
 void FunctionBuilder::adjoint() {
   WeightedGradient gradient(definitions_, "adjoint_");
+  Inputs inputs = at_;
+  // A family of weights for each family of coordinates or states.
   const auto add_all = [&](const std::vector<ex>& values, const std::string& weight) {
-    for (size_t i = 0; i < values.size(); ++i) {
-      const int link = static_cast<int>(i) + 1;
-      gradient.add(values[i], definitions_.input(weight, link), link);
+    for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+      const int link = i % links_ + 1;
+      const long family = i / links_;
+      const std::string name = weight + (family == 0 ? "" : "_" + std::to_string(family + 1));
+      gradient.add(values[static_cast<size_t>(i)], definitions_.input(name, link), link);
+      inputs[name] =
+          Input{InputKind::kArray, Type::kScalar, name, {"", weight + "s", {}}, family * links_};
     }
   };
   add_all(chain_.residual(), "weight");
@@ -84,9 +90,6 @@ void FunctionBuilder::adjoint() {
       }
     }
   }
-  Inputs inputs = at_;
-  for (const std::string weight : {"weight", "rate_weight"})
-    inputs[weight] = Input{InputKind::kArray, Type::kScalar, weight, {"", weight + "s", {}}, {}};
   add("residual_adjoint",
       "Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.",
       {at(), numbers("weights"), maybe_unused(numbers("rate_weights")), result("dq"), result("dv"),

@@ -68,6 +68,7 @@ ModelFunctions FunctionBuilder::build() {
   result_.uses_time = s.signals > 0 || std::any_of(used.begin(), used.end(), [&](int number) {
                         return definitions_[number].family == "time";
                       });
+  result_.space = description_.space;
   if (has_all()) result_.energies = chain_.energies();
   for (const Function& function : result_.functions) {
     if (!function.statements.empty())

@@ -41,6 +41,7 @@ class FunctionBuilder {
   void sensor();
 
   // what they share
+  bool in_space() const { return description_.space == Space::kThreeDimensional; }
   bool has_all() const { return result_.set == FunctionSet::kAll; }
   void seed_tangent();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
@@ -95,6 +96,21 @@ class FunctionBuilder {
     for (size_t i = 0; i < values.size(); ++i) {
       outputs.push_back(
           {{"", array, {}}, static_cast<int>(i) + 1, ArrayPlace{{}, true, -1}, values[i]});
+    }
+    return outputs;
+  }
+
+  /// Of values that belong to the coordinates, in their order: a part of the array for each family.
+  std::vector<Output> from_coordinates(const std::string& array,
+                                       const std::vector<GiNaC::ex>& values) const {
+    std::vector<Output> outputs;
+    for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+      const int link = i % links_ + 1;
+      const long family = i / links_;
+      outputs.push_back({{"", array, {}},
+                         link,
+                         ArrayPlace{family * links_, true, -1},
+                         values[static_cast<size_t>(i)]});
     }
     return outputs;
   }

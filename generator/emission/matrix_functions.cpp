@@ -53,7 +53,7 @@ void FunctionBuilder::mass_and_acceleration() {
   ModelSummary& s = result_.summary;
   Substitution bias = without_acceleration(chain_);
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
-  add_of_all("bias", "r with a = 0.", {at(), result("h")}, body(from_one("h", h), at_));
+  add_of_all("bias", "r with a = 0.", {at(), result("h")}, body(from_coordinates("h", h), at_));
 
   const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
@@ -66,7 +66,7 @@ void FunctionBuilder::mass_and_acceleration() {
     for (const ex& a : chain_.accelerations()) along_a.set(a, a);
     const auto inertial = each(chain_.residual(), [&](const ex& e) { return along_a.of(e); });
     add_inner("inertial", "M a, of the chain and of every effect.", {at(), result("r")},
-              body(from_one("r", inertial), at_));
+              body(from_coordinates("r", inertial), at_));
     add_of_all("mass_matrix", "M, row by row: its columns are M a for unit accelerations.",
                {at(), result("M")}, {}, Frame::kMassColumns);
     add("acceleration", acceleration_comment, {at(), result("a")}, {}, Frame::kDenseAcceleration);
@@ -85,7 +85,7 @@ void FunctionBuilder::mass_and_acceleration() {
   add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
              Frame::kMassMatrix);
   std::vector<Output> all = entries;
-  for (const Output& output : from_one("a", each(h, [](const ex& e) { return ex(-e); }))) {
+  for (const Output& output : from_coordinates("a", each(h, [](const ex& e) { return ex(-e); }))) {
     all.push_back(output);
   }
   add("acceleration", acceleration_comment, {at(), result("a")}, body(all, at_),

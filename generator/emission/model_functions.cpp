@@ -19,7 +19,7 @@ int ModelFunctions::most_links_of_batch() const {
 
 std::vector<TableEntry> ModelFunctions::table_entries() const {
   const bool states = summary.states > 0, structured = summary.structured;
-  const bool all = set == FunctionSet::kAll;
+  const bool all = set == FunctionSet::kAll, in_space = space == Space::kThreeDimensional;
   return {{"residual", true},
           {"residual_tangent", true},
           {"residual_tangents", true},
@@ -44,7 +44,10 @@ std::vector<TableEntry> ModelFunctions::table_entries() const {
           {"observe", observes},
           {"observe_tangent", observes},
           {"clock", observes},
-          {"clock_tangent", observes}};
+          {"clock_tangent", observes},
+          {"positions_across", in_space},
+          {"positions_across_tangent", in_space},
+          {"velocities_across", in_space}};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -77,6 +77,7 @@ struct ModelFunctions {
   /// The function for a T of several numbers: "acceleration", or one in an order of its own.
   std::string accelerations;
   bool uses_time = false, observes = false;
+  Space space = Space::kPlane;
   FunctionSet set = FunctionSet::kAll;
 
   /// Whether the table has accelerations of a batch of points: not where their arrays would not fit

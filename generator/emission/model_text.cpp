@@ -412,6 +412,10 @@ std::string indented(const std::string& text) {
   return out;
 }
 
+std::string space_include(const ModelFunctions& functions) {
+  return functions.space == Space::kPlane ? "" : "#include \"angle_over_sine.hpp\"\n";
+}
+
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {
   std::string out;
   if (functions.mass.kind != MatrixForm::kDense)

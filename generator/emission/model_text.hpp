@@ -31,6 +31,9 @@ std::string in_lines(std::string head, const std::vector<std::string>& arguments
 /// Lines further in by two spaces; those of the preprocessor stay at the margin.
 std::string indented(const std::string& text);
 
+/// The #include that models in space have besides.
+std::string space_include(const ModelFunctions& functions);
+
 /// MassMatrix and NewtonMatrix, as far as the model has them.
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links);
 

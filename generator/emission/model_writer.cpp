@@ -27,6 +27,7 @@ std::string header_text(const Description& description, const ModelFunctions& fu
          "scalar.hpp;\n// D, of differentials, is T or one that holds several directions, see "
          "directions.hpp.\n//\n// Structure found:\n"
       << structure_text(functions) << "#pragma once\n\n"
+      << space_include(functions)
       << (functions.set == FunctionSet::kFits ? "#include \"any_nonzero.hpp\"\n" : "")
       << "#include \"batch.hpp\"\n#include \"dense.hpp\"\n#include "
          "\"quasiseparable.hpp\"\n"

@@ -7,13 +7,15 @@ using GiNaC::ex;
 
 namespace {
 
-std::vector<Output> point_outputs(const Chain& chain, const std::string& side,
-                                  const std::string& down, const auto& act) {
+std::vector<Output> point_outputs(const Chain& chain, const std::vector<Axis>& axes,
+                                  const std::vector<std::string>& arrays, const auto& act) {
   std::vector<Output> outputs;
-  for (size_t k = 0; k < chain.side().size(); ++k) {
-    const ArrayPlace here{{}, true, 0};
-    outputs.push_back({{"", side, {}}, static_cast<int>(k), here, act(chain.side()[k])});
-    outputs.push_back({{"", down, {}}, static_cast<int>(k), here, act(chain.down()[k])});
+  for (size_t k = 0; k < chain.position(axes.front()).size(); ++k) {
+    for (size_t c = 0; c < axes.size(); ++c)
+      outputs.push_back({{"", arrays[c], {}},
+                         static_cast<int>(k),
+                         ArrayPlace{{}, true, 0},
+                         act(chain.position(axes[c])[k])});
   }
   return outputs;
 }
@@ -40,17 +42,27 @@ void FunctionBuilder::energy() {
 }
 
 void FunctionBuilder::positions() {
-  const std::vector<Output> position =
-      point_outputs(chain_, "side", "down", [](const ex& e) { return e; });
+  const auto itself = [](const ex& e) { return e; };
+  const auto rate = [&](const ex& e) { return chain_.rate(e); };
+  const std::vector<Axis> plane{kSide, kDown};
+  const std::vector<Output> position = point_outputs(chain_, plane, {"side", "down"}, itself);
   add("positions", "Support (0), far end of each link (1..), load (last): side and down, m.",
       {at(), result("side"), result("down")}, body(position, at_));
   add("positions_tangent", "Derivative of the positions along `along`.",
       {at(), along(), change("dside"), change("ddown")},
       body(tangents_of(position), at_and_along_));
-  const std::vector<Output> velocity =
-      point_outputs(chain_, "side_rate", "down_rate", [&](const ex& e) { return chain_.rate(e); });
   add("velocities", "Velocities of the same points, m/s.",
-      {at(), result("side_rate"), result("down_rate")}, body(velocity, at_));
+      {at(), result("side_rate"), result("down_rate")},
+      body(point_outputs(chain_, plane, {"side_rate", "down_rate"}, rate), at_));
+  if (!in_space()) return;
+  const std::vector<Output> across = point_outputs(chain_, {kAcross}, {"across"}, itself);
+  add("positions_across", "The same points: across, m.", {at(), result("across")},
+      body(across, at_));
+  add("positions_across_tangent", "Its derivative along `along`.",
+      {at(), along(), change("dacross")}, body(tangents_of(across), at_and_along_));
+  add("velocities_across", "Velocities across of the same points, m/s.",
+      {at(), result("across_rate")},
+      body(point_outputs(chain_, {kAcross}, {"across_rate"}, rate), at_));
 }
 
 void FunctionBuilder::internal_forces() {

@@ -2,6 +2,7 @@
 #include "generator/emission/parameter_table.hpp"
 
 #include <limits>
+#include <string_view>
 
 namespace catena {
 
@@ -28,6 +29,17 @@ constexpr ChainFamily kShared[] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, -kInfinity},
 };
 
+// Torques act on the angles of the plane.
+bool has_family(const Description& description, const ChainFamily& row) {
+  return description.space == Space::kPlane || std::string_view(row.family) != "torque";
+}
+
+// The chain's own coordinates.
+std::vector<QuantityRow> chain_coordinates(const Description& description) {
+  if (description.space == Space::kPlane) return {{"theta", "rad"}};
+  return {{"direction_side", "1"}, {"direction_down", "1"}, {"direction_across", "1"}};
+}
+
 int copies(const EffectParameter& parameter, int links) {
   return parameter.scope == Scope::kModel ? 1 : links;
 }
@@ -40,6 +52,7 @@ TableFamilies table_families(const Description& description) {
   TableFamilies table;
   const auto chain_parameters = [&](const auto& rows, bool of_each_link) {
     for (const ChainFamily& row : rows) {
+      if (!has_family(description, row)) continue;
       table.parameters.push_back(
           {{row.family, row.unit, row.description, row.default_value, row.lower, kInfinity, kNone},
            of_each_link,
@@ -48,7 +61,8 @@ TableFamilies table_families(const Description& description) {
   };
   chain_parameters(kPerLink, true);
   chain_parameters(kShared, false);
-  table.coordinates.push_back({{"theta", "rad"}, true});
+  for (const QuantityRow& row : chain_coordinates(description))
+    table.coordinates.push_back({row, true});
   for (const Effect& effect : description.effects) {
     const std::string id = effect.id + ".";
     for (const EffectParameter& parameter : effect.parameters) {
@@ -104,9 +118,10 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
     places.push_back({family + "_ddot", 'a', q, links, true});
     q += links;
   };
-  for (const ChainFamily& row : kPerLink) parameter(row.family, links, true);
+  for (const ChainFamily& row : kPerLink)
+    if (has_family(description, row)) parameter(row.family, links, true);
   for (const ChainFamily& row : kShared) parameter(row.family, 1, false);
-  coordinate("theta");  // angles are the first coordinates
+  for (const QuantityRow& row : chain_coordinates(description)) coordinate(row.name);
   for (const Effect& effect : description.effects) {
     const auto name = [&](const auto& what) { return effect.id + "_" + what.name; };
     for (const EffectParameter& row : effect.parameters) {
@@ -139,7 +154,7 @@ Inputs inputs_of(const Description& description, int links, const std::string& p
                          argument(place.member), place.offset};
   }
   inputs[prefix + "time"] = Input{InputKind::kNumber, type, prefix + "time", argument('t'), {}};
-  if (!differentials) {
+  if (!differentials && description.space == Space::kPlane) {
     inputs["sine"] = inputs["cosine"] =
         Input{InputKind::kSinesAndCosines, type, "sine", argument('q'), links};
   }

@@ -93,6 +93,13 @@ void print_equations(const Description& description) {
 void derive(const DeriveOptions& options) {
   const Description description = description_of(options.model, !options.any_links);
   require_neutral(description);
+  if (description.space != Space::kPlane) {
+    const char* option = options.equations ? "--equations" : options.latex ? "--latex" : nullptr;
+    if (option != nullptr)
+      throw InputError(std::string(option) + ": " + description.id +
+                       " is in space, of which this is not written yet; leave the option away, or "
+                       "space = \"3d\"");
+  }
   if (options.equations) {
     print_equations(description);
     return;

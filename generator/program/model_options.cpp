@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/program/model_options.hpp"
 
+#include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
 #include "common/sha256.hpp"
@@ -18,7 +19,7 @@ void add_model_options(CLI::App& command, ModelOptions& options) {
                      "description (TOML); without it the plain chain");
   command.add_option("--links", options.links, "link counts, instead of the description's");
   add_effect_option(command, options.effects);
-  command.add_flag("-y,--yes", options.yes, "go on where more than 10 min or 4 GB are needed");
+  add_yes_option(command, options.yes);
 }
 
 void add_effect_option(CLI::App& command, std::vector<std::string>& effects) {
@@ -51,7 +52,7 @@ Description description_of(const ModelOptions& options, bool needs_links) {
     description.effects.push_back(effect);
     if (options.description.empty()) description.id += "_" + effect.id;
   }
-  if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
+  if (const std::string conflict = conflict_in(description); !conflict.empty()) {
     throw InputError("--effect: " + conflict);
   }
   // The id names files; the list of many effects would be longer than a file name may be.

@@ -47,7 +47,7 @@ VectorXd parameters(const Model& model, double scale_of_load) {
 // Both are backward stable: what their solutions may differ by is a few roundings times the
 // condition of the matrix, which the step gamma sets between that of M and that of the stiffness.
 TEST_CASE("states eliminated joint by joint or in the dense matrix of all unknowns: one solution") {
-  const Model model = Model::load(WITH_STATES);
+  const Model model = Model::load(WITH_STATES_12);
   REQUIRE(model.states() == 12);
   const int n = model.coordinates(), size = n + model.states();
   Random random;
@@ -86,7 +86,7 @@ TEST_CASE("states eliminated joint by joint or in the dense matrix of all unknow
 }
 
 TEST_CASE("a simulation with extra states takes the O(n) path and ends where the dense one does") {
-  const Model model = Model::load(WITH_STATES);
+  const Model model = Model::load(WITH_STATES_12);
   catena::State start = catena::State::zero(model);
   start.q = VectorXd::LinSpaced(12, 0.6, 0.9);
   catena::SimulationOptions options;
@@ -104,7 +104,7 @@ TEST_CASE("a simulation with extra states takes the O(n) path and ends where the
 }
 
 TEST_CASE("eight sets with extra states have the bits of eight calls") {
-  const Model model = Model::load(WITH_STATES);
+  const Model model = Model::load(WITH_STATES_12);
   const int n = model.coordinates();
   Random random;
   catena::BatchDynamics sets(model);

@@ -118,11 +118,13 @@ void compare(const std::vector<std::string>& ids, unsigned seed) {
     CAPTURE(i);
     CHECK(difference(point.of(state_rates[i]), derived.of(chain.state_rates()[i])) < kTolerance);
   }
-  REQUIRE(chain.side().size() == naive.side.size());
+  REQUIRE(chain.position(catena::kSide).size() == naive.side.size());
   for (std::size_t i = 0; i < naive.side.size(); ++i) {
     CAPTURE(i);
-    CHECK(difference(point.of(naive.side[i]), derived.of(chain.side()[i])) < kTolerance);
-    CHECK(difference(point.of(naive.down[i]), derived.of(chain.down()[i])) < kTolerance);
+    CHECK(difference(point.of(naive.side[i]), derived.of(chain.position(catena::kSide)[i])) <
+          kTolerance);
+    CHECK(difference(point.of(naive.down[i]), derived.of(chain.position(catena::kDown)[i])) <
+          kTolerance);
   }
   // Energies: what is stored, and what comes in and goes out
   CHECK(difference(point.of(stored_rate), derived.of(derived_stored_rate)) < kTolerance);

@@ -157,9 +157,16 @@ TEST_CASE("the plain chain has a program for any number of links") {
     CHECK(header.find(number) == std::string::npos);
 }
 
-TEST_CASE("an effect that changes the equations with the number of links is named") {
+TEST_CASE("coordinates that an effect adds stand in loops too") {
   Description description = plain_chain();
+  description.id = "stretch";
   description.effects.push_back(built_in_effect("axial_stretch"));
-  CHECK_THROWS_WITH_AS(emit_any_links(description), doctest::Contains("because of axial_stretch"),
+  CHECK(emit_any_links(description).contains("stretch_any.hpp"));
+}
+
+TEST_CASE("what changes the equations with the number of links is named") {
+  Description description = plain_chain();
+  description.space = Space::kThreeDimensional;
+  CHECK_THROWS_WITH_AS(emit_any_links(description), doctest::Contains("because of space = \"3d\""),
                        InputError);
 }

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Chains in space against what is known: the chain of the plane, pendulums, a hanging chain's modes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "linear_algebra/decompositions.hpp"
+#include "runtime/positions.hpp"
+#include "runtime/rest_states.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/simulation.hpp"
+
+namespace {
+
+using catena::Model;
+using catena::State;
+using Eigen::VectorXd;
+
+constexpr double kGravity = 9.81;
+
+/// A cable of 1.2 m with a load of 0.3 kg; per joint: stiffness (N m/rad), damping (N m s/rad).
+VectorXd cable(const Model& model, double stiffness, double damping) {
+  const Eigen::Index n = model.links();
+  const double length = 1.2 / model.links(), mass = 0.15 * length;
+  VectorXd p = model.default_parameters();
+  p.segment(0, n).setConstant(length);
+  p.segment(n, n).setConstant(mass);
+  p.segment(2 * n, n).setConstant(mass * length * length / 12);
+  p.segment(3 * n, n).setConstant(stiffness);
+  p.segment(4 * n, n).setConstant(damping);
+  p[model.parameter_index("load_mass")] = 0.3;
+  p[model.parameter_index("gravity")] = kGravity;
+  return p;
+}
+
+catena::SimulationOptions tight() {
+  catena::SimulationOptions options;
+  options.relative_tolerance = 1e-11;
+  options.absolute_tolerance_position = 1e-12;
+  options.absolute_tolerance_velocity = 1e-11;
+  return options;
+}
+
+/// Angles and azimuths that differ from link to link, and rates: nothing stays in a plane.
+State askew(const Model& model) {
+  const int n = model.links();
+  return from_directions(model, {VectorXd::LinSpaced(n, 0.3, 1.1), VectorXd::LinSpaced(n, 0.2, 1.5),
+                                 VectorXd::LinSpaced(n, 1.0, -1.0), VectorXd::Constant(n, 0.8)});
+}
+
+catena::Simulation run(const Model& model, const VectorXd& parameters, const State& initial,
+                       const std::vector<double>& times) {
+  catena::Simulation result = simulate(model, parameters, initial, times, tight());
+  REQUIRE_MESSAGE(result.status == catena::Status::kSuccess, result.message);
+  return result;
+}
+
+/// One link as a pendulum: angle'' = -strength sin(angle) in a plane.
+double strength(const Model& model, const VectorXd& p) {
+  const double length = p[0], mass = p[1], load = p[model.parameter_index("load_mass")];
+  return kGravity * length * (load + mass / 2) / (length * length * (load + mass / 4) + p[2]);
+}
+
+}  // namespace
+
+TEST_CASE("in any vertical plane the chain in space moves as the chain of the plane") {
+  const Model space = Model::load(SPATIAL_12), plane = Model::built_in(12);
+  const double azimuth = 0.7;
+  const VectorXd angles = VectorXd::LinSpaced(12, 0.2, 1.3), rates = VectorXd::LinSpaced(12, 1, -2);
+  State flat = from_angles(plane, angles);
+  flat.v = rates;
+  const State tilted =
+      from_directions(space, {angles, VectorXd::Constant(12, azimuth), rates, VectorXd::Zero(12)});
+  const std::vector<double> times{0, 0.25, 0.5, 1};
+  const VectorXd of_plane = cable(plane, 0.2, 2e-3), of_space = cable(space, 0.2, 2e-3);
+  const catena::Simulation expected = run(plane, of_plane, flat, times);
+  const catena::Simulation found = run(space, of_space, tilted, times);
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    const double t = times[static_cast<std::size_t>(k)];
+    const catena::Positions there = positions(plane, of_plane, t, expected.trajectory.q.col(k));
+    const catena::Positions here = positions(space, of_space, t, found.trajectory.q.col(k));
+    const double tolerance = 1e-8;  // m: errors of 1e-11 a step, some thousand steps
+    CHECK((here.side - std::cos(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
+    CHECK((here.across - std::sin(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
+    CHECK((here.down - there.down).cwiseAbs().maxCoeff() < tolerance);
+    for (int item = 0; item < 4; ++item)  // kinetic, gravity, elastic, damping
+      CHECK(found.trajectory.energy(item, k) ==
+            doctest::Approx(expected.trajectory.energy(item, k)).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("energies balance in space, over 3 s, to 1e-9 of their size") {
+  const Model model = Model::load(SPATIAL_12);
+  const VectorXd p = cable(model, 0.2, 2e-3);
+  const catena::Simulation result = run(model, p, askew(model), {0, 1, 2, 3});
+  const double size = result.trajectory.energy.col(0).cwiseAbs().sum();
+  CHECK(size > 1.0);  // J
+  CHECK(result.energy_imbalance < 1e-9 * size);
+  CHECK(result.trajectory.energy(3, 3) > 0.01 * size);  // damped
+  // nothing pulls the vectors along the links
+  for (int i = 0; i < 12; ++i)
+    CHECK(result.trajectory.q.col(3)(Eigen::seqN(i, 3, 12)).norm() ==
+          doctest::Approx(1).epsilon(1e-7));
+}
+
+TEST_CASE("the motion does not depend on the lengths of the vectors along the links") {
+  const Model model = Model::load(SPATIAL_12);
+  const VectorXd p = cable(model, 0.2, 2e-3);
+  const State initial = askew(model);
+  State longer = initial;
+  longer.q *= 1.5;
+  longer.v = 1.5 * initial.v + 0.1 * initial.q;  // and they grow
+  const catena::Simulation one = run(model, p, initial, {0, 0.5});
+  const catena::Simulation other = run(model, p, longer, {0, 0.5});
+  const catena::Positions here = positions(model, p, 0.5, one.trajectory.q.col(1));
+  const catena::Positions there = positions(model, p, 0.5, other.trajectory.q.col(1));
+  CHECK((here.side - there.side).cwiseAbs().maxCoeff() < 1e-8);
+  CHECK((here.across - there.across).cwiseAbs().maxCoeff() < 1e-8);
+  CHECK(other.trajectory.q.col(1).norm() > 1.5 * one.trajectory.q.col(1).norm());
+  catena::Trajectory normal = other.trajectory;
+  normalise_directions(normal);
+  CHECK(normal.q.col(1).norm() == doctest::Approx(std::sqrt(12.0)).epsilon(1e-14));
+  CHECK(normal.q.col(1)(Eigen::seqN(3, 3, 12)).dot(normal.v.col(1)(Eigen::seqN(3, 3, 12))) ==
+        doctest::Approx(0).epsilon(1e-12));
+}
+
+TEST_CASE("a conical pendulum keeps its angle: omega^2 cos(angle) = g / l") {
+  const Model model = Model::load(SPATIAL_1);
+  const VectorXd p = cable(model, 0, 0);
+  const double angle = 0.6, omega = std::sqrt(strength(model, p) / std::cos(angle));
+  const auto one = [](double value) { return VectorXd::Constant(1, value); };
+  const State initial = from_directions(model, {one(angle), one(0.3), one(0), one(omega)});
+  const catena::Simulation result = run(model, p, initial, {0, 1.5, 3});
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double azimuth = 0.3 + omega * result.trajectory.time[static_cast<std::size_t>(k)];
+    CHECK(result.trajectory.q(0, k) ==
+          doctest::Approx(std::sin(angle) * std::cos(azimuth)).epsilon(1e-8));
+    CHECK(result.trajectory.q(1, k) == doctest::Approx(std::cos(angle)).epsilon(1e-8));
+    CHECK(result.trajectory.q(2, k) ==
+          doctest::Approx(std::sin(angle) * std::sin(azimuth)).epsilon(1e-8));
+  }
+}
+
+// With z = cos(angle), h = (1 - z^2) azimuth': z'^2 = 2 k (z - z1) (z2 - z) (z - z3), whose three roots
+// follow from the start; azimuth and time from one turning point to the other are integrals.
+TEST_CASE("a spherical pendulum precesses as its integrals say") {
+  const Model model = Model::load(SPATIAL_1);
+  const VectorXd p = cable(model, 0, 0);
+  const double k = strength(model, p), angle = 1.2, rate = 0.9;
+  const double z1 = std::cos(angle), h = std::sin(angle) * std::sin(angle) * rate;
+  const double energy = 0.5 * rate * h - k * z1;
+  const double sum = -energy / k - z1, product = -1 - z1 * sum;
+  const double root = std::sqrt(sum * sum - 4 * product);
+  const double z2 = (sum + root) / 2, z3 = (sum - root) / 2;
+  REQUIRE((z1 < z2 && z2 < 1 && z3 < -1));
+  double time = 0, azimuth = 0;
+  constexpr int kPoints = 64;  // of a smooth periodic integrand: exact
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = std::numbers::pi * ((i + 0.5) / kPoints - 0.5);
+    const double z = (z1 + z2) / 2 + (z2 - z1) / 2 * std::sin(u);
+    const double step = std::numbers::pi / kPoints / std::sqrt(2 * k * (z - z3));
+    time += step;
+    azimuth += step * h / (1 - z * z);
+  }
+  const auto one = [](double value) { return VectorXd::Constant(1, value); };
+  const State initial = from_directions(model, {one(angle), one(0), one(0), one(rate)});
+  const catena::Simulation result = run(model, p, initial, {0, time, 2 * time});
+  const auto q = result.trajectory.q;
+  CHECK(q(1, 1) == doctest::Approx(z2).epsilon(1e-8));
+  CHECK(q(1, 2) == doctest::Approx(z1).epsilon(1e-8));
+  CHECK(std::abs(std::remainder(std::atan2(q(2, 2), q(0, 2)) - 2 * azimuth, 2 * std::numbers::pi)) <
+        1e-8);
+  CHECK(std::abs(2 * azimuth - std::numbers::pi) > 0.02);  // it does precess
+}
+
+TEST_CASE("a hanging chain swings with Bessel's frequencies, in two planes alike") {
+  const Model model = Model::load(SPATIAL_24);
+  const int n = model.coordinates();
+  VectorXd p = cable(model, 0, 0);
+  p[model.parameter_index("load_mass")] = 0;
+  const State rest = State::zero(model);
+  const VectorXd zero = VectorXd::Zero(std::max<Eigen::Index>(n, p.size()));
+  VectorXd along_q = VectorXd::Zero(n);
+  const catena_point at{0, rest.q.data(), zero.data(), zero.data(), nullptr, nullptr, p.data()};
+  const catena_point along{0,       along_q.data(), zero.data(), zero.data(),
+                           nullptr, nullptr,        zero.data()};
+  Eigen::MatrixXd mass(n, n), stiffness(n, n);
+  model.table().mass_matrix(model.table().context, &at, mass.data());
+  for (int j = 0; j < n; ++j) {
+    along_q[j] = 1;
+    model.residual_tangent(at, along, stiffness.col(j).data());
+    along_q[j] = 0;
+  }
+  // Lengths have no frequency: the first links are zero.
+  const auto squares = catena::generalised_eigenvalues(stiffness, mass);
+  const double zeros_of_bessel[] = {2.404825557695773, 5.520078110286311, 8.653727912911012};
+  for (int mode = 0; mode < 3; ++mode) {
+    const double expected = zeros_of_bessel[mode] / 2 * std::sqrt(kGravity / 1.2);
+    for (int plane = 0; plane < 2; ++plane) {
+      const auto found = static_cast<double>(squares[model.links() + 2 * mode + plane]);
+      CHECK(std::sqrt(found) == doctest::Approx(expected).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("sensitivities in space are differences of motions") {
+  const Model model = Model::load(SPATIAL_12);
+  const VectorXd p = cable(model, 0.2, 2e-3);
+  const int stiffness = model.parameter_index("stiffness_3");
+  const auto direction = catena::SensitivityDirection::parameter(model, stiffness);
+  const auto sensitive =
+      simulate_with_sensitivities(model, p, askew(model), {direction}, {0, 0.4}, tight());
+  REQUIRE_MESSAGE(sensitive.status == catena::Status::kSuccess, sensitive.message);
+  const double step = 1e-4;
+  VectorXd more = p, less = p;
+  more[stiffness] += step;
+  less[stiffness] -= step;
+  const VectorXd difference = (run(model, more, askew(model), {0, 0.4}).trajectory.q.col(1) -
+                               run(model, less, askew(model), {0, 0.4}).trajectory.q.col(1)) /
+                              (2 * step);
+  CHECK(difference.norm() > 1e-3);
+  CHECK((sensitive.sensitivity[0].q.col(1) - difference).norm() < 1e-5 * (1 + difference.norm()));
+}
