@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/integrator.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <stdexcept>
 
+#include "common/cpu_seconds.hpp"
 #include "common/number_text.hpp"
 
 namespace catena {
@@ -27,12 +26,6 @@ constexpr double kGreatestAngle = 0x1p30;
 // s. At rest CVODES chooses its first step from the distance to the last time. The distance is
 // limited so that the first step does not skip changes of the signals.
 constexpr double kFirstSight = 100.0;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 SUNContext new_context() {
   SUNContext context = nullptr;

@@ -44,6 +44,8 @@ class Model {
   int parameters() const { return table_->parameters; }
   int signals() const { return table_->signals; }
   int energies() const { return table_->energies; }
+  /// Whether it moves in space: q has three components for each link, and positions have three.
+  bool in_space() const { return table_->positions_across != nullptr; }
 
   /// The functions of the table, with its context; shapes and units are those of catena_model.h.
   void residual(const catena_point& at, double* r) const {
@@ -96,6 +98,16 @@ class Model {
   }
   void velocities(const catena_point& at, double* side_rate, double* down_rate) const {
     table_->velocities(table_->context, &at, side_rate, down_rate);
+  }
+  void positions_across(const catena_point& at, double* across) const {
+    table_->positions_across(table_->context, &at, across);
+  }
+  void positions_across_tangent(const catena_point& at, const catena_point& along,
+                                double* dacross) const {
+    table_->positions_across_tangent(table_->context, &at, &along, dacross);
+  }
+  void velocities_across(const catena_point& at, double* across_rate) const {
+    table_->velocities_across(table_->context, &at, across_rate);
   }
   void internal_forces(const catena_point& at, double* moment, double* tension,
                        double* curvature) const {

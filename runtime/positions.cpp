@@ -30,7 +30,9 @@ struct Reading {
 };
 
 Positions empty_positions(const Model& model) {
-  return {Eigen::VectorXd(model.links() + 2), Eigen::VectorXd(model.links() + 2)};
+  const Eigen::Index points = model.links() + 2;
+  return {Eigen::VectorXd(points), Eigen::VectorXd(points),
+          Eigen::VectorXd(model.in_space() ? points : 0)};
 }
 
 }  // namespace
@@ -41,6 +43,7 @@ Positions positions(const Model& model, const Eigen::VectorXd& parameters, doubl
   const catena_point at = reading.at(t, q, reading.zero.data(), parameters);
   Positions result = empty_positions(model);
   model.positions(at, result.side.data(), result.down.data());
+  if (model.in_space()) model.positions_across(at, result.across.data());
   return result;
 }
 
@@ -54,6 +57,7 @@ Positions positions_tangent(const Model& model, const Eigen::VectorXd& parameter
                            zero, parameters_direction.data()};
   Positions result = empty_positions(model);
   model.positions_tangent(at, along, result.side.data(), result.down.data());
+  if (model.in_space()) model.positions_across_tangent(at, along, result.across.data());
   return result;
 }
 
@@ -63,6 +67,7 @@ Positions velocities(const Model& model, const Eigen::VectorXd& parameters, doub
   const catena_point at = reading.at(t, q, v.data(), parameters);
   Positions result = empty_positions(model);
   model.velocities(at, result.side.data(), result.down.data());
+  if (model.in_space()) model.velocities_across(at, result.across.data());
   return result;
 }
 

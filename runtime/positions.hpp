@@ -18,8 +18,9 @@ namespace catena {
 ///     const double load_side = at.side[5], load_down = at.down[5];  // m
 ///     const CablePoint marker = position_of(at, point_at_arc_length(model, parameters, 0.25));
 struct Positions {
-  Eigen::VectorXd side;  ///< horizontal
-  Eigen::VectorXd down;  ///< along gravity
+  Eigen::VectorXd side;         ///< horizontal
+  Eigen::VectorXd down;         ///< along gravity
+  Eigen::VectorXd across = {};  ///< horizontal, in space; empty in the plane
 };
 
 /// Side and down of one point (m), or their derivatives.

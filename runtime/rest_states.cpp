@@ -65,8 +65,12 @@ class Catenary {
 };
 
 State at_rest(const Model& model, Eigen::VectorXd angles) {
+  if (model.in_space()) {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.links());
+    return from_directions(model, {std::move(angles), zero, zero, zero});
+  }
   State state = State::zero(model);
-  state.q.head(model.links()) = std::move(angles);
+  state.q.head(model.links()) = angles;
   return state;
 }
 
@@ -148,6 +152,25 @@ State from_angles(const Model& model, const Eigen::VectorXd& angles) {
   return at_rest(model, angles);
 }
 
+State from_directions(const Model& model, const LinkDirections& links) {
+  State state = State::zero(model);
+  const Eigen::Index n = model.links();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double sine = std::sin(links.angle[i]), cosine = std::cos(links.angle[i]);
+    const Eigen::Vector3d towards(std::cos(links.azimuth[i]), 0.0, std::sin(links.azimuth[i]));
+    const Eigen::Vector3d around(-towards[2], 0.0, towards[0]);
+    const Eigen::Vector3d direction = sine * towards + cosine * Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d rate =
+        links.angle_rate[i] * (cosine * towards - sine * Eigen::Vector3d::UnitY()) +
+        links.azimuth_rate[i] * sine * around;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      state.q[axis * n + i] = direction[axis];
+      state.v[axis * n + i] = rate[axis];
+    }
+  }
+  return state;
+}
+
 State catenary(const Model& model, const Eigen::VectorXd& parameters, const CablePoint& held,
                CatenaryFit fit) {
   model.check_parameters(parameters);
@@ -185,6 +208,11 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
                            zero.data(), zero.data(),      zero.data()};
   for (int iteration = 0; iteration < 100; ++iteration) {
     model.residual(at, residual.data());
+    // In space nothing holds the lengths of q, so the stiffness is singular; what hangs plumb is done.
+    if (residual.isZero(0.0)) {
+      result.status = Status::kSuccess;
+      return result;
+    }
     for (int j = 0; j < n; ++j) {
       direction[j] = 1.0;
       model.residual_tangent(at, along, stiffness.col(j).data());

@@ -12,7 +12,7 @@
 namespace catena {
 
 /// States at rest from which a simulation can start. Rates are zero, and so are extra states and
-/// the coordinates that effects add.
+/// the coordinates that effects add. A chain in space lies in the plane of side and down.
 ///
 ///     const Model model = Model::built_in(12);
 ///     const State askew = straight(model, 0.6);                      // every link at 0.6 rad
@@ -25,6 +25,16 @@ State straight(const Model& model, double angle);
 /// Link i at angles[i] (rad; one entry per link). Throws std::invalid_argument on another number of
 /// angles and on an angle that is not finite.
 State from_angles(const Model& model, const Eigen::VectorXd& angles);
+
+/// Where the links point, and how they turn, in space: link i leaves the downward vertical by angle[i]
+/// (rad) towards azimuth[i] (rad), which counts from side to across. One entry per link each.
+struct LinkDirections {
+  Eigen::VectorXd angle, azimuth;
+  Eigen::VectorXd angle_rate, azimuth_rate;  ///< rad/s
+};
+
+/// The state of a model in space with these directions, |q| = 1. Sizes are not checked.
+State from_directions(const Model& model, const LinkDirections& links);
 
 /// How a chain of rigid links is laid along a curve.
 enum class CatenaryFit {

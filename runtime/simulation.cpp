@@ -84,8 +84,9 @@ void check_run(const Model& model, const Eigen::VectorXd& parameters, const Stat
 }  // namespace
 
 SensitivityDirection SensitivityDirection::zero(const Model& model) {
-  const State state = State::zero(model);
-  return {Eigen::VectorXd::Zero(model.parameters()), state.q, state.v, state.z};
+  const auto zero = [](int size) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(size); };
+  return {zero(model.parameters()), zero(model.coordinates()), zero(model.coordinates()),
+          zero(model.states())};
 }
 
 SensitivityDirection SensitivityDirection::parameter(const Model& model, int index) {

@@ -176,12 +176,18 @@ _generic_N_Vector_Ops make_operations() {
 
 N_Vector new_state_vector(sunindextype size, SUNContext context) {
   static const _generic_N_Vector_Ops operations = make_operations();
-  const N_Vector vector = N_VNewEmpty(context);
-  if (vector == nullptr) throw std::bad_alloc();
-  *vector->ops = operations;
   const auto bytes = static_cast<std::size_t>(std::max<Index>(size, 1)) * sizeof(double);
-  auto* values = static_cast<double*>(::operator new[](bytes, std::align_val_t(64)));
-  vector->content = new Content{size, values};
+  const N_Vector vector = N_VNewEmpty(context);
+  void* const values = ::operator new[](bytes, std::align_val_t(64), std::nothrow);
+  auto* const content = new (std::nothrow) Content{size, static_cast<double*>(values)};
+  if (vector == nullptr || values == nullptr || content == nullptr) {
+    ::operator delete[](values, std::align_val_t(64));
+    delete content;
+    N_VFreeEmpty(vector);
+    throw std::bad_alloc();
+  }
+  *vector->ops = operations;
+  vector->content = content;
   return vector;
 }
 
