@@ -167,6 +167,7 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     }
     if (i == n_ / 2 - 1) {  // the link whose lower end is mid-cable
       if (h.wall_spring != 0) lack[k].side -= h.wall_spring * (centre.position.side - h.wall_side);
+      lack[k] = lack[k] - h.place_drag * norm(centre.velocity) * centre.velocity;
       if (h.kick != 0) {  // a smooth push of 40 ms
         const double x = (t - h.kick_time) / 0.02;
         if (std::abs(x) < 1)

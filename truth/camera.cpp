@@ -3,23 +3,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
+
+#include "truth/random.hpp"
 
 namespace truth {
-
-double Random::uniform() {
-  state_ += 0x9e3779b97f4a7c15ULL;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return (static_cast<double>(z >> 11) + 0.5) * 0x1.0p-53;
-}
-
-double Random::normal() {
-  const double radius = std::sqrt(-2 * std::log(uniform()));
-  return radius * std::cos(2 * std::numbers::pi * uniform());
-}
 
 Recording film(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
                const Camera& camera, const Integration& integration) {
@@ -36,15 +24,32 @@ Recording film(const Cable& cable, const Hidden& hidden, const std::vector<doubl
     recording.arc.push_back(cable.length * static_cast<double>(k) / static_cast<double>(markers));
   const Motion motion = move(cable, hidden, start_angles, recording.arc, happened, integration);
 
+  // In this order, so that a seed gives the same recording whatever the kind of the noise.
   Random random(camera.seed);
+  NoiseTable noise(frames);
+  std::vector<std::vector<bool>> seen(frames);
   std::vector<int> unseen(markers, 0);
+  for (std::size_t i = 0; i < frames; ++i)
+    for (std::size_t k = 0; k < markers; ++k) {
+      const double side = random.normal();
+      noise[i].push_back({side, random.normal()});
+      const double chance = random.uniform();
+      if (chance < camera.lost / 2) unseen[k] = 1;
+      if (chance > 1 - camera.lost / 20) unseen[k] = 10;
+      seen[i].push_back(unseen[k] == 0);
+      if (unseen[k] > 0) --unseen[k];
+    }
+  noise = noise_of_kind(std::move(noise), camera.kind, camera.seed);
+
   const double c = std::cos(hidden.camera_tilt), s = std::sin(hidden.camera_tilt);
   const auto pixels = [&](double x) {
     return camera.pixel > 0 ? camera.pixel * std::round(x / camera.pixel) : x;
   };
+  constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < frames; ++i) {
-    std::vector<double> side(markers), down(markers);
+    std::vector<double> side(markers, kNotSeen), down(markers, kNotSeen);
     for (std::size_t k = 0; k < markers; ++k) {
+      if (!seen[i][k]) continue;
       const double sine = std::sin(motion.angle[i][k]), cosine = std::cos(motion.angle[i][k]);
       const double x =
           motion.side[i][k] + hidden.marker_across * cosine + hidden.marker_along * sine;
@@ -52,15 +57,8 @@ Recording film(const Cable& cable, const Hidden& hidden, const std::vector<doubl
           motion.down[i][k] - hidden.marker_across * sine + hidden.marker_along * cosine;
       const double seen_side = hidden.scale * (c * x + s * y) + hidden.origin_side;
       const double seen_down = hidden.scale * (c * y - s * x) + hidden.origin_down;
-      side[k] = pixels(seen_side + camera.noise * random.normal());
-      down[k] = pixels(seen_down + camera.noise * random.normal());
-      const double chance = random.uniform();
-      if (chance < camera.lost / 2) unseen[k] = 1;
-      if (chance > 1 - camera.lost / 20) unseen[k] = 10;
-      if (unseen[k] > 0) {
-        --unseen[k];
-        side[k] = down[k] = std::numeric_limits<double>::quiet_NaN();
-      }
+      side[k] = pixels(seen_side + camera.noise * noise[i][k][0]);
+      down[k] = pixels(seen_down + camera.noise * noise[i][k][1]);
     }
     recording.side.push_back(side);
     recording.down.push_back(down);

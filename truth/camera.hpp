@@ -6,6 +6,7 @@
 
 #include "truth/cable.hpp"
 #include "truth/hidden.hpp"
+#include "truth/noise.hpp"
 
 namespace truth {
 
@@ -17,6 +18,7 @@ struct Camera {
   double noise = 1e-3;  // m, standard deviation per coordinate
   double lost = 0;      // share of marks not seen, half of them in runs of ten frames
   double pixel = 0;     // m; after the noise, positions are rounded to whole pixels; 0: no rounding
+  NoiseKind kind = {};  // of the noise
   std::uint64_t seed = 1;  // of noise and loss
 };
 
@@ -25,17 +27,6 @@ struct Recording {
   std::vector<double> time;                     // s
   std::vector<double> arc;                      // m
   std::vector<std::vector<double>> side, down;  // [frame][marker], m
-};
-
-/// Random numbers that are the same on every machine (splitmix64, Box-Muller).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double uniform();  // in (0, 1)
-  double normal();   // mean 0, deviation 1
-
- private:
-  std::uint64_t state_;
 };
 
 /// The recording of the motion from rest at the given link angles. Effects of the sensor (clock,

@@ -90,7 +90,13 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       number(held.at(1)) + "]\n\n[camera]\nrate = " + number(camera.rate) +
       "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
       "\nlost = " + number(camera.lost) + "\npixel = " + number(camera.pixel) +
-      "\nseed = " + std::to_string(camera.seed) + "\n\n[hidden]\n";
+      "\nautocorrelation = " + number(camera.kind.autocorrelation) +
+      "\nshaking = " + number(camera.kind.shaking) +
+      "\nnoisy_marker = " + number(camera.kind.noisy_marker) +
+      "\ntails = " + std::to_string(camera.kind.tails) +
+      "\nsmoothed = " + (camera.kind.smoothed ? "true" : "false") +
+      "\noutliers = " + number(camera.kind.outliers) + "\nseed = " + std::to_string(camera.seed) +
+      "\n\n[hidden]\n";
   for (const HiddenParameter& parameter : hidden_parameters())
     if (hidden.*parameter.value != nothing.*parameter.value)
       text.append("\"")

@@ -53,6 +53,7 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"origin_offset.down_shift", &Hidden::origin_down},
       {"wall_spring.stiffness", &Hidden::wall_spring},
       {"wall_spring.side", &Hidden::wall_side},
+      {"place_drag.coefficient", &Hidden::place_drag},
       {"magnet.strength", &Hidden::magnet},
       {"magnet.depth", &Hidden::magnet_depth},
       {"kick.impulse", &Hidden::kick},

@@ -46,6 +46,7 @@ struct Hidden {
   double origin_side = 0, origin_down = 0;     // m
   // outside every library
   double wall_spring = 0, wall_side = 0.3;  // N/m, m; at mid-cable
+  double place_drag = 0;                    // kg/m, at mid-cable
   double magnet = 0, magnet_depth = 0.1;    // N m^2, m below the rest point
   double kick = 0, kick_time = 1.5;         // N s sideways at mid-cable, s
   double carried =

@@ -38,6 +38,17 @@ int main(int argc, char** argv) {
   app.add_option("--duration", camera.duration, "s")->check(CLI::PositiveNumber);
   app.add_option("--markers", camera.markers, "marks on the cable")->check(CLI::Range(1, 1000));
   app.add_option("--noise", camera.noise, "m")->check(CLI::NonNegativeNumber);
+  app.add_option("--autocorrelation", camera.kind.autocorrelation, "of the noise, frame by frame")
+      ->check(CLI::Range(0.0, 0.99));
+  app.add_option("--shaking", camera.kind.shaking, "noise that all marks share, over --noise")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--noisy-marker", camera.kind.noisy_marker, "how much noisier one mark is")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--tails", camera.kind.tails, "degrees of freedom of Student's t; 0: normal")
+      ->check(CLI::Range(3, 100) | CLI::IsMember({0}));
+  app.add_flag("--smoothed", camera.kind.smoothed, "over five frames, Savitzky-Golay");
+  app.add_option("--outliers", camera.kind.outliers, "share of coordinates 20 times --noise off")
+      ->check(CLI::Range(0.0, 0.1));
   app.add_option("--lost", camera.lost, "share of marks not seen")->check(CLI::Range(0.0, 0.9));
   app.add_option("--pixel", camera.pixel, "m")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", camera.seed, "of noise and losses");

@@ -11,6 +11,7 @@
 
 #include "truth/cable.hpp"
 #include "truth/camera.hpp"
+#include "truth/random.hpp"
 
 namespace {
 
@@ -223,6 +224,67 @@ TEST_CASE("the camera's noise, loss and pixels are as asked, and the same for th
   const auto rounded = truth::film(cable, {}, start, camera);
   for (const auto& frame : rounded.side)
     for (const double x : frame) CHECK(std::abs(std::remainder(x, 2e-3)) < 1e-12);
+}
+
+/// White noise of deviation 1 of 12 marks.
+truth::NoiseTable white_noise(std::size_t frames) {
+  truth::Random random(3);
+  truth::NoiseTable table(frames);
+  for (auto& frame : table)
+    for (int k = 0; k < 12; ++k) {
+      const double side = random.normal();
+      frame.push_back({side, random.normal()});
+    }
+  return table;
+}
+
+struct NoiseStatistics {
+  double deviation, lag_one, shared, fourth;
+};
+
+/// Of the marks from the second on: `shared` is the correlation of neighbours, `fourth` the mean
+/// fourth power over the squared mean square.
+NoiseStatistics statistics_of(const truth::NoiseTable& table) {
+  double squares = 0, lags = 0, shared = 0, fourth = 0, count = 0;
+  for (std::size_t i = 1; i < table.size(); ++i)
+    for (std::size_t k = 1; k + 1 < table[i].size(); ++k)
+      for (const std::size_t d : {0U, 1U}) {
+        const double x = table[i][k][d];
+        squares += x * x;
+        lags += x * table[i - 1][k][d];
+        shared += x * table[i][k + 1][d];
+        fourth += std::pow(x, 4);
+        count += 1;
+      }
+  return {std::sqrt(squares / count), lags / squares, shared / squares,
+          fourth * count / (squares * squares)};
+}
+
+TEST_CASE("noise of other kinds is as asked") {
+  const truth::NoiseTable white = white_noise(4000);
+  const auto of = [&](const truth::NoiseKind& kind) {
+    return statistics_of(truth::noise_of_kind(white, kind, 12));  // the first mark is the noisy one
+  };
+  CHECK(truth::noise_of_kind(white, {}, 12) == white);
+  const NoiseStatistics plain = of({});
+  CHECK(plain.fourth == doctest::Approx(3).epsilon(0.05));
+  const NoiseStatistics correlated = of({.autocorrelation = 0.6});
+  CHECK(correlated.deviation == doctest::Approx(1).epsilon(0.03));
+  CHECK(correlated.lag_one == doctest::Approx(0.6).epsilon(0.03));
+  const NoiseStatistics shaking = of({.shaking = 1});
+  CHECK(shaking.deviation == doctest::Approx(std::sqrt(2)).epsilon(0.05));
+  CHECK(shaking.shared == doctest::Approx(0.5).epsilon(0.1));
+  const NoiseStatistics tails = of({.tails = 5});
+  CHECK(tails.deviation == doctest::Approx(1).epsilon(0.05));
+  CHECK(tails.fourth > 4.5);
+  const NoiseStatistics smoothed = of({.smoothed = true});
+  CHECK(smoothed.deviation == doctest::Approx(std::sqrt(17.0 / 35)).epsilon(0.03));
+  const NoiseStatistics outliers = of({.outliers = 0.001});
+  CHECK(outliers.deviation == doctest::Approx(std::sqrt(1 + 0.4)).epsilon(0.1));
+
+  const truth::NoiseTable noisy = truth::noise_of_kind(white, {.noisy_marker = 3}, 12);
+  CHECK(noisy[17][0][1] == doctest::Approx(3 * white[17][0][1]));
+  CHECK(noisy[17][1][1] == white[17][1][1]);
 }
 
 }  // namespace
