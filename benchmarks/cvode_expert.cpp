@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "benchmarks/cvode_expert.hpp"
 
-#include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
-#include <time.h>
 
+#include "benchmarks/cvode_bdf.hpp"
 #include "benchmarks/expert.hpp"
 
 namespace catena::benchmark {
@@ -115,40 +114,17 @@ Solution simulate_cvode_expert(const Cable& cable, double rest_angle,
   const int n = cable.links;
   Equations equations{make_expert(cable, rest_angle), n, Eigen::VectorXd(n),
                       Eigen::VectorXd::Zero(n), Eigen::VectorXd(n)};
-  SUNContext context;
-  SUNContext_Create(nullptr, &context);
-  const N_Vector y = N_VNew_Serial(2 * n, context);
-  Eigen::Map<Eigen::VectorXd> state(NV_DATA_S(y), 2 * n);
-  state << cable.start(), Eigen::VectorXd::Zero(n);
-  const SUNMatrix matrix = make_matrix(context);
-  const SUNLinearSolver solver = SUNLinSolNewEmpty(context);
-  solver->content = &equations;
-  solver->ops->gettype = solver_type;
-  solver->ops->setup = set_up;
-  solver->ops->solve = solve;
-  solver->ops->free = free_solver;
-  void* cvode = CVodeCreate(CV_BDF, context);
-  CVodeInit(cvode, rates, times.front(), y);
-  CVodeSetUserData(cvode, &equations);
-  CVodeSStolerances(cvode, relative_tolerance, 1e-2 * relative_tolerance);
-  CVodeSetMaxNumSteps(cvode, 100'000'000);
-  CVodeSetLinearSolver(cvode, solver, matrix);
-  CVodeSetJacFn(cvode, jacobian);
-  Solution solution;
-  solution.q.resize(n, static_cast<Eigen::Index>(times.size()));
-  const clock_t begin = clock();
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    double t = times[k];
-    if (k > 0) CVode(cvode, times[k], y, &t, CV_NORMAL);
-    solution.q.col(static_cast<Eigen::Index>(k)) = state.head(n);
-  }
-  solution.cpu_seconds = static_cast<double>(clock() - begin) / CLOCKS_PER_SEC;
-  CVodeFree(&cvode);
-  SUNLinSolFree(solver);
-  SUNMatDestroy(matrix);
-  N_VDestroy(y);
-  SUNContext_Free(&context);
-  return solution;
+  const auto make_solver = [&equations](N_Vector, SUNContext context) {
+    const SUNLinearSolver solver = SUNLinSolNewEmpty(context);
+    solver->content = &equations;
+    solver->ops->gettype = solver_type;
+    solver->ops->setup = set_up;
+    solver->ops->solve = solve;
+    solver->ops->free = free_solver;
+    return std::pair(make_matrix(context), solver);
+  };
+  return simulate_cvode_bdf(cable, times, relative_tolerance,
+                            {rates, jacobian, &equations, make_solver});
 }
 
 }  // namespace catena::benchmark

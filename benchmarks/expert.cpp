@@ -5,6 +5,7 @@
 #include "benchmarks/expert.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace catena::benchmark {
 namespace {
@@ -209,26 +210,20 @@ class ExpertOf : public Expert {
   double inverse_pivot[N], couplings[N];
 };
 
+template <int... counts>
+std::unique_ptr<Expert> make_one_of(const Cable& cable, double rest_angle) {
+  std::unique_ptr<Expert> made;
+  const auto make = [&]<int n>(std::integral_constant<int, n>) {
+    if (cable.links == n) made = std::make_unique<ExpertOf<n>>(cable, rest_angle);
+  };
+  (make(std::integral_constant<int, counts>()), ...);
+  return made;
+}
+
 }  // namespace
 
 std::unique_ptr<Expert> make_expert(const Cable& cable, double rest_angle) {
-  switch (cable.links) {
-    case 2:
-      return std::make_unique<ExpertOf<2>>(cable, rest_angle);
-    case 3:
-      return std::make_unique<ExpertOf<3>>(cable, rest_angle);
-    case 4:
-      return std::make_unique<ExpertOf<4>>(cable, rest_angle);
-    case 12:
-      return std::make_unique<ExpertOf<12>>(cable, rest_angle);
-    case 60:
-      return std::make_unique<ExpertOf<60>>(cable, rest_angle);
-    case 240:
-      return std::make_unique<ExpertOf<240>>(cable, rest_angle);
-    case 1000:
-      return std::make_unique<ExpertOf<1000>>(cable, rest_angle);
-  }
-  return nullptr;
+  return make_one_of<2, 3, 4, 12, 60, 240, 1000>(cable, rest_angle);
 }
 
 }  // namespace catena::benchmark

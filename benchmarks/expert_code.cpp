@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The model's functions beside code for the same chain: an expert's loops (expert.hpp), and the
-// mass matrix and forces that SymPy writes with common subexpressions, solved by Eigen's Cholesky.
-// Results are compared first; what disagrees ends the program.
+// mass matrix and forces that SymPy writes with common subexpressions, solved by Eigen's Cholesky, and
+// what CasADi writes (casadi_chain.cpp). Results are compared first; what disagrees ends the program.
 //
-//   expert_code [--model N library.so | --sympy N library.so]...  >  file.csv
+//   expert_code [--model N library.so | --sympy N library.so | --casadi N library.so]...  >  file.csv
 #include <dlfcn.h>
 
 #include <Eigen/Cholesky>
@@ -115,11 +115,16 @@ void compare_with_expert(const Model& model) {
   }
 }
 
+void* opened(const char* library) {
+  void* handle = dlopen(library, RTLD_NOW);
+  if (handle == nullptr) throw std::runtime_error(dlerror());
+  return handle;
+}
+
 /// `chain` of what scripts/sympy_chain writes, with the names of p.
 struct SympyChain {
   explicit SympyChain(const char* library) {
-    void* handle = dlopen(library, RTLD_NOW);
-    if (handle == nullptr) throw std::runtime_error(dlerror());
+    void* handle = opened(library);
     evaluate = reinterpret_cast<decltype(evaluate)>(dlsym(handle, "chain"));
     names = static_cast<const char* const*>(dlsym(handle, "chain_parameters"));
   }
@@ -171,15 +176,80 @@ void compare_with_sympy(const Model& model, const SympyChain& chain) {
   print(N, "forward dynamics", "SymPy", times[0], times[1]);
 }
 
+/// A function that CasADi wrote, with its arrays for what is between.
+class CasadiFunction {
+ public:
+  CasadiFunction(void* handle, const std::string& name)
+      : evaluate_(reinterpret_cast<Evaluate*>(dlsym(handle, name.c_str()))) {
+    const auto sizes = reinterpret_cast<int (*)(long long*, long long*, long long*, long long*)>(
+        dlsym(handle, (name + "_work").c_str()));
+    long long arguments = 0, results = 0, integers = 0, numbers = 0;
+    sizes(&arguments, &results, &integers, &numbers);
+    arguments_.resize(static_cast<std::size_t>(arguments));
+    results_.resize(static_cast<std::size_t>(results));
+    integers_.resize(static_cast<std::size_t>(integers));
+    numbers_.resize(static_cast<std::size_t>(numbers));
+  }
+
+  void operator()(const std::vector<const VectorXd*>& in, VectorXd& out) {
+    for (std::size_t i = 0; i < in.size(); ++i) arguments_[i] = in[i]->data();
+    results_[0] = out.data();
+    evaluate_(arguments_.data(), results_.data(), integers_.data(), numbers_.data(), 0);
+  }
+
+ private:
+  using Evaluate = int(const double**, double**, long long*, double*, int);
+  Evaluate* evaluate_;
+  std::vector<const double*> arguments_;
+  std::vector<double*> results_;
+  std::vector<long long> integers_;
+  std::vector<double> numbers_;
+};
+
+void compare_with_casadi(const Model& model, const char* library) {
+  const int n = model.links();
+  const VectorXd p = Cable(n).parameters(model, kRestAngle);
+  const Motion motion(n);
+  const VectorXd none = VectorXd::Zero(p.size());
+  const catena_point at{0,       motion.q.data(), motion.v.data(), motion.a.data(),
+                        nullptr, nullptr,         p.data()};
+  const catena_point along{0,       motion.dq.data(), motion.dv.data(), motion.da.data(),
+                           nullptr, nullptr,          none.data()};
+  void* handle = opened(library);
+  VectorXd ours(n), theirs(n);
+  const auto compare = [&](const char* what, const char* name, const std::function<void()>& call,
+                           const std::vector<const VectorXd*>& in) {
+    CasadiFunction function(handle, name);
+    const auto call_casadi = [&] { function(in, theirs); };
+    call();
+    call_casadi();
+    must_agree(what, n, ours, theirs);
+    const std::vector<double> times = nanoseconds({call, call_casadi});
+    print(n, what, "CasADi", times[0], times[1]);
+  };
+  const VectorXd &q = motion.q, &v = motion.v, &a = motion.a;
+  compare("forward dynamics", "accelerations",
+          [&] {
+            if (model.acceleration(at, ours.data()) != 0) std::abort();
+          },
+          {&q, &v, &p});
+  compare("residual", "residual", [&] { model.residual(at, ours.data()); }, {&q, &v, &a, &p});
+  compare("tangent", "residual_tangent", [&] { model.residual_tangent(at, along, ours.data()); },
+          {&q, &v, &a, &p, &motion.dq, &motion.dv, &motion.da});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::map<int, Model> models;
   std::map<int, SympyChain> chains;
+  std::map<int, const char*> casadi;
   for (int i = 1; i + 2 < argc; i += 3) {
     const int n = std::stoi(argv[i + 1]);
     if (std::string(argv[i]) == "--sympy")
       chains.emplace(n, argv[i + 2]);
+    else if (std::string(argv[i]) == "--casadi")
+      casadi.emplace(n, argv[i + 2]);
     else
       models.emplace(n, Model::load(argv[i + 2]));
   }
@@ -192,5 +262,6 @@ int main(int argc, char** argv) {
     if (n == 4) compare_with_sympy<4>(models.at(n), chain);
     if (n == 12) compare_with_sympy<12>(models.at(n), chain);
   }
+  for (const auto& [n, library] : casadi) compare_with_casadi(models.at(n), library);
   return 0;
 }
