@@ -142,6 +142,8 @@ class CanonicalText {
 
 std::string canonical_text(const Description& description) {
   CanonicalText canonical;
+  if (description.space != Space::kPlane)
+    canonical.line("space", space_words()[static_cast<std::size_t>(description.space)]);
   for (const Effect& effect : description.effects) canonical.effect(effect);
   return canonical.text();
 }

@@ -40,19 +40,9 @@ bool is_identifier(const std::string& text) {
                      [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
-}  // namespace
-
-Description plain_chain() {
+Description description_in(const TomlTable& file) {
   Description description;
-  description.id = "chain";
-  description.source_file = kBuiltInPrefix + "chain";
-  return description;
-}
-
-Description read_description(const std::filesystem::path& path) {
-  const TomlTable file = TomlTable::read(path, "model");
-  Description description;
-  description.source_file = path.string();
+  description.source_file = file.file();
   description.id = file.text("id");
   if (!is_identifier(description.id)) {
     file.fail("id", "\"" + description.id +
@@ -64,15 +54,46 @@ Description read_description(const std::filesystem::path& path) {
     }
     description.links.push_back(static_cast<int>(count));
   }
+  description.space = static_cast<Space>(file.choice("space", space_words(), false));
   const auto names = file.texts("effects");
   file.optional_text("title");
   file.optional_text("description");
   file.finish();
   for (const std::string& name : names) description.effects.push_back(named_effect(file, name));
-  if (const std::string conflict = conflict_between(description.effects); !conflict.empty()) {
+  if (const std::string conflict = conflict_in(description); !conflict.empty()) {
     file.fail("effects", conflict);
   }
   return description;
+}
+
+}  // namespace
+
+Description plain_chain() {
+  Description description;
+  description.id = "chain";
+  description.source_file = kBuiltInPrefix + "chain";
+  return description;
+}
+
+bool is_plain_chain(const Description& description) {
+  return description.effects.empty() && description.space == Space::kPlane;
+}
+
+Description read_description(const std::filesystem::path& path) {
+  return description_in(TomlTable::read(path, "model"));
+}
+
+Description parse_description(const std::string& text, const std::string& name) {
+  return description_in(TomlTable::parse(text, name, "model"));
+}
+
+std::vector<std::string> space_words() { return {"plane", "3d"}; }
+
+std::string conflict_in(const Description& description) {
+  if (description.space == Space::kPlane || description.effects.empty())
+    return conflict_between(description.effects);
+  return "\"" + description.effects.front().id +
+         "\" acts in the plane only, and space is \"3d\"; leave one of them away";
 }
 
 std::string conflict_between(const std::vector<Effect>& effects) {
@@ -104,6 +125,8 @@ std::string description_text(const Description& description, const std::filesyst
     }
     text += "]\n";
   }
+  if (description.space != Space::kPlane)
+    text += "space = \"" + space_words()[static_cast<std::size_t>(description.space)] + "\"\n";
   text += "effects = [";
   for (std::size_t i = 0; i < description.effects.size(); ++i) {
     const Effect& effect = description.effects[i];

@@ -10,6 +10,13 @@
 
 namespace catena {
 
+/// Where the chain moves: in one vertical plane, or in space, where nothing acts but the plain chain's own
+/// bending, damping and weight.
+enum class Space { kPlane, kThreeDimensional };
+
+/// The words for them in files and options, in their order.
+std::vector<std::string> space_words();
+
 /// Describes a model: the plain chain and its effects, in their order. The file is TOML of kind
 /// "model".
 ///
@@ -22,18 +29,29 @@ struct Description {
   std::vector<int> links;  ///< numbers of links to derive if the caller names none; may be empty
   std::vector<Effect> effects;
   std::string source_file;
+  Space space = Space::kPlane;
 };
 
 /// The chain without any effect, id "chain".
 Description plain_chain();
 
+/// Whether it is the plane chain without any effect, whatever its id.
+bool is_plain_chain(const Description& description);
+
 /// Reads a description and the effects it names: a built-in id, or a path to a file (ending in
 /// .toml) relative to the description. Throws InputError naming file, line, key, value and rule.
 Description read_description(const std::filesystem::path& path);
 
+/// The same from the text of a description. `name` stands for the file in messages, and paths in the
+/// text are relative to its folder.
+Description parse_description(const std::string& text, const std::string& name);
+
 /// Why `effects` cannot be in one description, and what to do: an id is there twice, or two effects
 /// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
+
+/// The same for the effects of a description, which in space has none yet.
+std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical
 /// text. Effects that were read from files are named by their path relative to the folder.

@@ -46,6 +46,9 @@ struct EffectParameter {
   /// shown, but not equality.
   double neutral = std::numeric_limits<double>::quiet_NaN();
   Scope scope = Scope::kModel;
+  /// What a value above, or below, the neutral one says is wrong with the case, with {} in place of
+  /// how far it is from there: "the load is {} heavier than the case says". Empty: nothing.
+  std::string above, below;
 };
 
 /// A fixed number with a unit. `text` is the decimal number as written, so that it stays exact.

@@ -177,8 +177,23 @@ class EffectReader {
       parameter.scope =
           static_cast<Scope>(table.choice("scope", {"model", "joint", "link"}, false));
       check_bounds(table, parameter);
+      read_sentences(table, parameter);
       effect_.parameters.push_back(parameter);
     }
+  }
+
+  static void read_sentences(const TomlTable& table, EffectParameter& parameter) {
+    const auto read = [&](const char* key) {
+      const std::string sentence = table.optional_text(key).value_or("");
+      if (sentence.empty()) return sentence;
+      if (sentence.find("{}") == std::string::npos || sentence.find("{}") != sentence.rfind("{}"))
+        table.fail(key, "write {} once, where the amount goes");
+      if (!std::isfinite(parameter.neutral) || parameter.scope != Scope::kModel)
+        table.fail(key, "goes with a finite neutral value and one value for the whole model");
+      return sentence;
+    };
+    parameter.above = read("above");
+    parameter.below = read("below");
   }
 
   static void check_bounds(const TomlTable& table, const EffectParameter& parameter) {

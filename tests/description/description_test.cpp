@@ -48,6 +48,21 @@ TEST_CASE("a written description reads back to the same model, from another fold
   }
 }
 
+TEST_CASE("the plane is the default; space is another model, and is written") {
+  const testing::TemporaryFolder folder;
+  const Description plane = read_description(folder.write("plane.toml", kHead));
+  CHECK(canonical_text(read_description(
+            folder.write("said.toml", kHead + "space = \"plane\"\n"))) == canonical_text(plane));
+  CHECK(is_plain_chain(plane));
+  const Description space =
+      read_description(folder.write("space.toml", kHead + "space = \"3d\"\n"));
+  CHECK(space.space == Space::kThreeDimensional);
+  CHECK(!is_plain_chain(space));
+  CHECK(canonical_text(space) != canonical_text(plane));
+  write_description(space, folder.path() / "again.toml");
+  CHECK(canonical_text(read_description(folder.path() / "again.toml")) == canonical_text(space));
+}
+
 TEST_CASE("what is wrong with a description is said where it stands") {
   const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
@@ -63,6 +78,10 @@ TEST_CASE("what is wrong with a description is said where it stands") {
       {"effects = [\"pull.toml\"]\n", ":4: effects: there is no file"},
       {"effects = [\"load_drag\", \"load_drag\"]\n",
        ":4: effects: \"load_drag\" stands there twice; name each effect once"},
+      {"space = \"2d\"\n", ":4: space: \"2d\""},
+      {"space = \"3d\"\neffects = [\"load_drag\"]\n",
+       ":5: effects: \"load_drag\" acts in the plane only, and space is \"3d\"; leave one of them "
+       "away"},
       {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
   };
   for (const Row& row : rows) {
