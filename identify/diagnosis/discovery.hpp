@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "identify/diagnosis/state.hpp"
+
+namespace catena {
+
+/// Where a concluded diagnosis leaves a gap (`unexplained`, `partly`): estimates the force that is
+/// missing. Where it follows a law (docs/discovery.md), the law is written as an effect into the
+/// context's folder, derived, compiled and fitted. It is taken if it would be acceptable as an
+/// effect of the library and either closes the gap or is certain beside what is left; the verdict is
+/// then `discovered`. Where effects were found, the same is tried without them first: a law that
+/// predicts the held-out part better than they do, beyond chance, takes their place. Else all stays
+/// as concluded, and a note says why. `asked`: as for conclude(). Throws as conclude(), and
+/// Interrupted.
+void discover(DiagnosisState& state, const Case& asked);
+
+}  // namespace catena

@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/force_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "linear_algebra/decompositions.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Random forces for the null distribution: a chance of 1 in 200 can be told.
+constexpr Index kRandomForces = 199;
+constexpr LawThresholds kThresholds;
+/// Neighbours on each side over which the spectrum of the force is averaged for random forces.
+constexpr Index kSpectrumNeighbours = 2;
+/// rad, rad/s: prior of the state at the beginning of the second part, relative to the motion found.
+constexpr double kSplitDeviation = 0.2;
+/// Share of the arc length by which the place is moved to see what that changes.
+constexpr double kApart = 0.02;
+constexpr int kClosedLoops = 3;
+constexpr std::uint64_t kLawSeed = 18;
+
+double normal_number(std::mt19937_64& random) {
+  // Of the standard library's generators only the engine is the same everywhere.
+  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const double size = std::sqrt(-2 * std::log(uniform()));
+  return size * std::cos(2 * std::numbers::pi * uniform());
+}
+
+/// Forces at the nodes of one recording, patterns x columns each, and how they depend on the state
+/// there: nothing, or patterns x states.
+struct NodeForces {
+  std::vector<MatrixXd> columns;
+  std::vector<MatrixXd> by_state;
+};
+
+/// Rows of what is seen from node `first` on, before node `last`.
+struct SeenOfLaw {
+  MatrixXd by_parameter, by_start, by_force;
+  VectorXd value;  ///< measured, less what the path gives without any force
+};
+
+/// (w, w' / rate) at the beginning of a step such that the prior expects the force `next` at its
+/// end: now_by_now w_now + by_next w_next.
+struct StepForces {
+  MatrixXd now, next;  // states x patterns: what the end of the step takes from w at both ends
+  explicit StepForces(const LinearRecording::Step& step)
+      : now(step.by_force.rows(), step.by_force.cols() / 2), next(now.rows(), now.cols()) {
+    const double same = step.transition(0, 0), slope = step.transition(0, 1);
+    for (Index m = 0; m < now.cols(); ++m) {
+      next.col(m) = step.by_force.col(2 * m + 1) / slope;
+      now.col(m) = step.by_force.col(2 * m) - same * next.col(m);
+    }
+  }
+};
+
+/// The response of the linearised chain to parameters, to the state at node `first` and to forces
+/// there. At node 0 the state comes from the parameters.
+SeenOfLaw law_response(const LinearRecording& recording, std::size_t first, std::size_t last,
+                       const NodeForces& forces) {
+  const Index states = recording.start_offset.size();
+  const Index parameters = recording.start_by_parameter.cols(), free = first > 0 ? states : 0;
+  const Index columns = forces.columns.front().cols(), all = parameters + free + columns + 1;
+  Index rows = 0;
+  for (std::size_t k = first; k < last; ++k) rows += recording.seen[k].value.size();
+  SeenOfLaw out{MatrixXd(rows, parameters), MatrixXd(rows, free), MatrixXd(rows, columns),
+                VectorXd(rows)};
+  MatrixXd y = MatrixXd::Zero(states, all);
+  if (first == 0) {
+    y.leftCols(parameters) = recording.start_by_parameter;
+    y.rightCols(1) = recording.start_offset;
+  } else {
+    y.middleCols(parameters, free).setIdentity();
+  }
+  const bool closed = !forces.by_state.empty();
+  Index row = 0;
+  for (std::size_t k = first; k < last; ++k) {
+    const LinearRecording::Seen& seen = recording.seen[k];
+    const Index count = seen.value.size();
+    MatrixXd now(count, all);
+    now.noalias() = seen.by_state * y;
+    now.leftCols(parameters) += seen.by_parameter;
+    out.by_parameter.middleRows(row, count) = now.leftCols(parameters);
+    out.by_start.middleRows(row, count) = now.middleCols(parameters, free);
+    out.by_force.middleRows(row, count) = now.middleCols(parameters + free, columns);
+    out.value.segment(row, count) = seen.value - now.rightCols(1);
+    row += count;
+    if (k + 1 == last) break;
+    const LinearRecording::Step& step = recording.steps[k];
+    const StepForces by(step);
+    MatrixXd moved(states, all);
+    moved.noalias() = step.by_state * y;
+    moved.leftCols(parameters) += step.by_parameter;
+    moved.middleCols(parameters + free, columns) +=
+        by.now * forces.columns[k] + by.next * forces.columns[k + 1];
+    moved.rightCols(1) += step.offset;
+    if (closed) {
+      moved += by.now * (forces.by_state[k] * y);
+      // y' = moved + next D y', D patterns x states: the small system D y' = (1 - D next)^-1 D moved.
+      const MatrixXd& d = forces.by_state[k + 1];
+      const MatrixXd small = MatrixXd::Identity(d.rows(), d.rows()) - d * by.next;
+      moved += by.next * (inverse(small) * (d * moved));
+    }
+    y = std::move(moved);
+  }
+  return out;
+}
+
+/// Some nodes of every recording as one least-squares problem, in standard deviations: parameters
+/// and states with their priors, and forces.
+struct LawPart {
+  MatrixXd nuisance;  ///< rows x (parameters, states)
+  MatrixXd forces;    ///< rows x columns
+  VectorXd value;
+  Index seen = 0;  ///< rows that are measured; those of the priors follow
+};
+
+enum class FrameHalf { kFirst, kSecond, kBoth };
+
+LawPart law_part(const LinearProblem& linear, const std::vector<NodeForces>& forces,
+                 FrameHalf half) {
+  std::vector<SeenOfLaw> responses;
+  Index rows = 0, unknowns = linear.shared_mean.size();
+  const Index shared = unknowns, columns = forces.front().columns.front().cols();
+  for (std::size_t r = 0; r < linear.recordings.size(); ++r) {
+    const LinearRecording& recording = linear.recordings[r];
+    const std::size_t nodes = recording.seen.size(), middle = nodes / 2;
+    responses.push_back(law_response(recording, half == FrameHalf::kSecond ? middle : 0,
+                                     half == FrameHalf::kFirst ? middle : nodes, forces[r]));
+    rows += responses.back().value.size();
+    unknowns += recording.own_mean.size() + responses.back().by_start.cols();
+  }
+  LawPart part;
+  part.seen = rows;
+  part.nuisance.setZero(rows + unknowns, unknowns);
+  part.forces.setZero(rows + unknowns, columns);
+  part.value.setZero(rows + unknowns);
+  const auto prior = [&](Index column, const VectorXd& mean, const VectorXd& deviation) {
+    for (Index j = 0; j < mean.size(); ++j) {
+      part.nuisance(rows + column + j, column + j) = 1 / deviation[j];
+      part.value[rows + column + j] = mean[j] / deviation[j];
+    }
+  };
+  prior(0, linear.shared_mean, linear.shared_deviation);
+  Index row = 0, column = shared;
+  for (std::size_t r = 0; r < responses.size(); ++r) {
+    const SeenOfLaw& seen = responses[r];
+    const Index count = seen.value.size(), free = seen.by_start.cols();
+    const Index own = linear.recordings[r].own_mean.size();
+    part.nuisance.block(row, 0, count, shared) = seen.by_parameter.leftCols(shared);
+    part.nuisance.block(row, column, count, own) = seen.by_parameter.rightCols(own);
+    part.nuisance.block(row, column + own, count, free) = seen.by_start;
+    part.forces.middleRows(row, count) = seen.by_force;
+    part.value.segment(row, count) = seen.value;
+    prior(column, linear.recordings[r].own_mean, linear.recordings[r].own_deviation);
+    prior(column + own, VectorXd::Zero(free), VectorXd::Constant(free, kSplitDeviation));
+    row += count;
+    column += own + free;
+  }
+  return part;
+}
+
+/// Takes away what the unknowns imitate.
+MatrixXd without_nuisance(const LawPart& part, const MatrixXd& columns) {
+  const MatrixXd basis = orthonormal_basis(part.nuisance, 1e-12);
+  return columns - basis * (basis.transpose() * columns);
+}
+
+/// Forces of random phases with the spectrum of those found, smoothed: what a force that follows no
+/// law looks like. The powers of the directions stay, and how they go together.
+std::vector<MatrixXd> random_forces(const MatrixXd& path, std::mt19937_64& random) {
+  const Index patterns = path.rows() / 2, nodes = path.cols();
+  MatrixXd force(nodes, patterns), cosines(nodes, nodes);
+  for (Index m = 0; m < patterns; ++m) force.col(m) = path.row(2 * m).transpose();
+  for (Index k = 0; k < nodes; ++k)
+    for (Index j = 0; j < nodes; ++j)
+      cosines(k, j) = std::sqrt((j == 0 ? 1.0 : 2.0) / static_cast<double>(nodes)) *
+                      std::cos(std::numbers::pi * static_cast<double>(j) *
+                               (static_cast<double>(k) + 0.5) / static_cast<double>(nodes));
+  const MatrixXd found = cosines.transpose() * force;
+  MatrixXd drawn(nodes, patterns * kRandomForces);
+  for (Index j = 0; j < nodes; ++j) {
+    const Index first = std::max<Index>(0, j - kSpectrumNeighbours);
+    const Index last = std::min(nodes - 1, j + kSpectrumNeighbours);
+    const MatrixXd near = found.middleRows(first, last - first + 1);
+    const double scale = 1 / std::sqrt(static_cast<double>(near.rows()));
+    for (Index s = 0; s < kRandomForces; ++s) {
+      VectorXd weights(near.rows());
+      for (Index i = 0; i < weights.size(); ++i) weights[i] = scale * normal_number(random);
+      drawn.block(j, s * patterns, 1, patterns) = weights.transpose() * near;
+    }
+  }
+  const MatrixXd over_time = cosines * drawn;
+  std::vector<MatrixXd> columns;
+  for (Index k = 0; k < nodes; ++k) {
+    MatrixXd& at = columns.emplace_back(patterns, kRandomForces);
+    for (Index s = 0; s < kRandomForces; ++s)
+      at.col(s) = over_time.block(k, s * patterns, 1, patterns).transpose();
+  }
+  return columns;
+}
+
+/// The recorded part and random ones, without what the unknowns imitate: value first.
+struct LawTrials {
+  MatrixXd terms, values;
+  Index seen = 0;  ///< rows that are measured
+};
+LawTrials law_trials(const LawPart& part, Index terms, std::mt19937_64& random) {
+  MatrixXd all(part.value.size(), terms + 1 + kRandomForces);
+  all << part.forces.leftCols(terms), part.value, part.forces.rightCols(kRandomForces);
+  for (Index s = 0; s < kRandomForces; ++s)
+    for (Index i = 0; i < part.seen; ++i) all(i, terms + 1 + s) += normal_number(random);
+  const MatrixXd left = without_nuisance(part, all);
+  return {left.leftCols(terms), left.rightCols(1 + kRandomForces), part.seen};
+}
+
+/// The candidate and its form that explain most of a column, and what they say.
+struct ChosenLaw {
+  std::size_t candidate = 0;
+  std::vector<int> form;
+  double score = 0;  ///< share explained, less what so many free terms explain by chance
+  VectorXd coefficients;
+};
+
+MatrixXd law_terms(const LawTrials& trials, std::size_t candidate, const std::vector<int>& form) {
+  return trials.terms.middleCols(static_cast<Index>(candidate) * PlaceLaw::terms(),
+                                 PlaceLaw::terms())(Eigen::all, form);
+}
+
+/// The best candidate for each column of the trials.
+std::vector<ChosenLaw> choose_law(const std::vector<PlaceLaw>& candidates,
+                                  const LawTrials& trials) {
+  std::vector<ChosenLaw> best(static_cast<std::size_t>(trials.values.cols()));
+  const double count = std::log(static_cast<double>(trials.values.rows()));
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    for (const std::vector<int>& form : candidates[c].forms()) {
+      const MatrixXd terms = law_terms(trials, c, form);
+      const MatrixXd coefficients = least_squares(terms, trials.values);
+      const MatrixXd left = trials.values - terms * coefficients;
+      for (Index t = 0; t < trials.values.cols(); ++t) {
+        const double penalty = count * static_cast<double>(form.size());
+        const double score =
+            1 - (left.col(t).squaredNorm() + penalty) / trials.values.col(t).squaredNorm();
+        ChosenLaw& chosen = best[static_cast<std::size_t>(t)];
+        if (score > chosen.score && candidates[c].passive(coefficients.col(t)))
+          chosen = {c, form, score, coefficients.col(t)};
+      }
+    }
+  return best;
+}
+
+/// Of what can be explained of a column, down to the squares `least`: the share that a law does.
+double explained_by_law(const LawTrials& trials, Index column, const ChosenLaw& law, double least) {
+  if (law.form.empty()) return 0;
+  const VectorXd value = trials.values.col(column);
+  const VectorXd left = value - law_terms(trials, law.candidate, law.form) * law.coefficients;
+  const double before = value.squaredNorm();
+  return before > least ? (before - left.squaredNorm()) / (before - least) : 0;
+}
+
+/// A formula fitted to all frames, with its force following the state.
+struct FittedForm {
+  std::size_t candidate = 0;
+  std::vector<int> form;
+  VectorXd coefficients;
+  MatrixXd covariance;
+  double place_variance = 0;
+  double squares = 0, freedom = 0;
+};
+
+/// "side force = -linear x (side position - rest), linear = 0.3 N/m, rest = 0.3 m": without intervals,
+/// for the motion is not linearised anew about the law.
+std::string with_constants(const PlaceLaw::Formula& formula) {
+  std::string words = formula.text;
+  for (const PlaceLaw::Constant& constant : formula.constants)
+    words += fmt::format(", {} = {:.3g} {}", constant.name, constant.value, constant.unit);
+  return words;
+}
+
+class LawSearch {
+ public:
+  /// `found`: (w, w' / rate) of each pattern at the place, one column per node, of each recording.
+  /// `linear`: patterns at the place, then the same at a place `apart` m from it, which is 0 for the
+  /// torque.
+  LawSearch(const ForcePaths& paths, const std::vector<MatrixXd>& found,
+            const LinearProblem& linear, const VectorXd& lengths, Index coordinates,
+            double arc_length, double apart)
+      : found_(found), linear_(linear), apart_(apart) {
+    for (const ForcePath& path : paths.paths()) {
+      std::vector<PlaceKinematics>& places = places_.emplace_back();
+      std::vector<PlaceMotion>& beside = beside_.emplace_back();
+      for (Index k = 0; k < path.state.cols(); ++k) {
+        places.push_back(place_kinematics(path.state.col(k), coordinates, lengths, arc_length));
+        visited_.push_back(places.back().motion);
+        beside.push_back(
+            place_kinematics(path.state.col(k), coordinates, lengths, arc_length + apart).motion);
+      }
+    }
+    candidates_ = place_laws(apart == 0, visited_);
+  }
+
+  ForceLaw run() {
+    ForceLaw law;
+    law.candidates = static_cast<int>(candidates_.size());
+    std::mt19937_64 random(kLawSeed);
+    const auto terms = static_cast<Index>(candidates_.size()) * PlaceLaw::terms();
+    std::vector<NodeForces> forces;
+    for (std::size_t r = 0; r < places_.size(); ++r) {
+      const std::vector<MatrixXd> drawn = random_forces(found_[r], random);
+      NodeForces& of_recording = forces.emplace_back();
+      for (std::size_t k = 0; k < drawn.size(); ++k) {
+        MatrixXd& at =
+            of_recording.columns.emplace_back(MatrixXd::Zero(patterns(), terms + kRandomForces));
+        at.topRightCorner(drawn[k].rows(), kRandomForces) = drawn[k];
+        for (std::size_t c = 0; c < candidates_.size(); ++c)
+          at.block(0, static_cast<Index>(c) * PlaceLaw::terms(), drawn[k].rows(),
+                   PlaceLaw::terms()) = candidates_[c].force(places_[r][k].motion);
+      }
+    }
+    const LawTrials first = law_trials(law_part(linear_, forces, FrameHalf::kFirst), terms, random);
+    const LawTrials second =
+        law_trials(law_part(linear_, forces, FrameHalf::kSecond), terms, random);
+    const std::vector<ChosenLaw> chosen = choose_law(candidates_, first);
+    if (chosen[0].form.empty()) return law;
+    const PlaceLaw& best = candidates_[chosen[0].candidate];
+    law.force = best.force_name();
+    law.variable = best.variable_name();
+    law.confirmed = explained_by_law(second, 0, chosen[0], left_by_force(FrameHalf::kSecond));
+    Index as_well = 0;
+    for (Index t = 1; t <= kRandomForces; ++t)
+      as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
+                                  static_cast<double>(second.seen)) >= law.confirmed;
+    law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomForces);
+    law.found = law.chance <= kThresholds.chance && law.confirmed >= kThresholds.confirmed;
+    if (law.found) read_formula(chosen[0].candidate, law);
+    return law;
+  }
+
+ private:
+  /// Squared residuals that the free force leaves, in standard deviations.
+  double left_by_force(FrameHalf half) const {
+    double sum = 0;
+    for (const LinearRecording& recording : linear_.recordings)
+      for (std::size_t k = 0; k < recording.seen.size(); ++k)
+        if (half == FrameHalf::kBoth ||
+            (half == FrameHalf::kSecond) == (k >= recording.seen.size() / 2))
+          sum += recording.seen[k].value.squaredNorm();
+    return sum;
+  }
+
+  Index patterns() const { return linear_.recordings.front().steps.front().by_force.cols() / 2; }
+
+  /// The terms of a form about the motion found, and how its force follows the state. With
+  /// coefficients also, last, how the law's force changes where its place moves.
+  std::vector<NodeForces> forces_of(const PlaceLaw& candidate, const std::vector<int>& form,
+                                    const VectorXd& coefficients) const {
+    std::vector<NodeForces> forces;
+    const auto some = [&](const PlaceMotion& motion) {
+      return MatrixXd(candidate.force(motion)(Eigen::all, form));
+    };
+    const bool known = coefficients.size() > 0;
+    const auto terms = static_cast<Index>(form.size());
+    for (std::size_t r = 0; r < places_.size(); ++r) {
+      NodeForces& of_recording = forces.emplace_back();
+      for (std::size_t k = 0; k < places_[r].size(); ++k) {
+        const PlaceKinematics& place = places_[r][k];
+        const MatrixXd here = some(place.motion);
+        MatrixXd& columns = of_recording.columns.emplace_back(
+            MatrixXd::Zero(patterns(), terms + (known && apart_ != 0 ? 1 : 0)));
+        columns.topLeftCorner(here.rows(), terms) = here;
+        if (!known) continue;
+        if (apart_ != 0) {
+          columns.col(terms).head(here.rows()) = -here * coefficients / apart_;
+          columns.col(terms).tail(here.rows()) = some(beside_[r][k]) * coefficients / apart_;
+        }
+        constexpr double kDifference = 1e-6;  // m, m/s, rad, rad/s
+        MatrixXd by_motion = MatrixXd::Zero(patterns(), place.motion.size());
+        for (Index i = 0; i < place.motion.size(); ++i) {
+          PlaceMotion less = place.motion, more = place.motion;
+          less[i] -= kDifference;
+          more[i] += kDifference;
+          by_motion.col(i).head(here.rows()) =
+              (some(more) - some(less)) * coefficients / (2 * kDifference);
+        }
+        of_recording.by_state.push_back(by_motion * place.by_state);
+      }
+    }
+    return forces;
+  }
+
+  FittedForm fit(std::size_t number, const std::vector<int>& form) const {
+    FittedForm fitted;
+    fitted.candidate = number;
+    fitted.form = form;
+    const auto terms = static_cast<Index>(form.size());
+    for (int loop = 0; loop <= kClosedLoops; ++loop) {
+      const LawPart part = law_part(
+          linear_, forces_of(candidates_[number], form, fitted.coefficients), FrameHalf::kBoth);
+      MatrixXd columns(part.value.size(), part.forces.cols() + 1);
+      columns << part.forces, part.value;
+      const MatrixXd left = without_nuisance(part, columns);
+      const MatrixXd laws = left.leftCols(part.forces.cols());
+      const VectorXd all = least_squares(laws, VectorXd(left.rightCols(1)));
+      fitted.coefficients = all.head(terms);
+      fitted.squares = (left.rightCols(1) - laws * all).squaredNorm();
+      fitted.freedom = static_cast<double>(part.seen - laws.cols());
+      const MatrixXd covariance = inverse(laws.transpose() * laws);
+      fitted.covariance = covariance.topLeftCorner(terms, terms);
+      if (covariance.cols() > terms) fitted.place_variance = covariance(terms, terms);
+    }
+    return fitted;
+  }
+
+  void read_formula(std::size_t number, ForceLaw& law) const {
+    std::vector<FittedForm> fits;
+    double least = HUGE_VAL, inflation = 1;
+    for (std::size_t c = 0; c < candidates_.size(); ++c)
+      for (const std::vector<int>& form : candidates_[c].forms()) {
+        FittedForm fitted = fit(c, form);
+        if (!std::isfinite(fitted.squares) || !candidates_[c].passive(fitted.coefficients))
+          continue;
+        if (fitted.squares < least) {
+          least = fitted.squares;
+          inflation = std::max(1.0, fitted.squares / fitted.freedom);
+        }
+        fits.push_back(std::move(fitted));
+      }
+    const auto criterion = [&](const FittedForm& fitted) {
+      return fitted.squares / inflation +
+             static_cast<double>(fitted.form.size()) * std::log(fitted.freedom);
+    };
+    // The simplest form that the data do not decide against.
+    double lowest = HUGE_VAL;
+    for (const FittedForm& fitted : fits)
+      if (fitted.candidate == number) lowest = std::min(lowest, criterion(fitted));
+    const FittedForm* best = nullptr;
+    for (const FittedForm& fitted : fits) {
+      if (fitted.candidate != number || criterion(fitted) > lowest + kThresholds.undecided)
+        continue;
+      const auto rank = [&](const FittedForm& f) { return std::pair(f.form.size(), criterion(f)); };
+      if (!best || rank(fitted) < rank(*best)) best = &fitted;
+    }
+    if (!best) {
+      law.found = false;
+      return;
+    }
+    const auto formula_of = [&](const FittedForm& fitted) {
+      return candidates_[fitted.candidate].formula(fitted.form, fitted.coefficients,
+                                                   inflation * fitted.covariance);
+    };
+    law.formula = formula_of(*best);
+    law.place_deviation = std::sqrt(inflation * best->place_variance);
+    for (const FittedForm& fitted : fits)
+      if (&fitted != best && criterion(fitted) < criterion(*best) + kThresholds.undecided)
+        law.rivals.push_back(with_constants(formula_of(fitted)));
+  }
+
+  const std::vector<MatrixXd>& found_;
+  const LinearProblem& linear_;
+  double apart_;
+  std::vector<std::vector<PlaceKinematics>> places_;
+  std::vector<std::vector<PlaceMotion>> beside_;
+  std::vector<PlaceMotion> visited_;
+  std::vector<PlaceLaw> candidates_;
+};
+
+std::string chance_words(double value) {
+  return value <= 1 / (1.0 + kRandomForces) ? fmt::format("chance below {:.2g}", value)
+                                            : fmt::format("chance {:.2g}", value);
+}
+
+void describe_law(ForceLaw& law) {
+  const std::string tested = fmt::format(
+      "chosen of {} in the first part of the frames, it explains {:.0f} % of what a force can "
+      "explain in the second ({})",
+      law.candidates, 100 * std::max(0.0, law.confirmed), chance_words(law.chance));
+  if (law.found) {
+    law.words.push_back("its law: " + with_constants(law.formula));
+    law.words.push_back(tested);
+    for (const std::string& rival : law.rivals)
+      law.words.push_back("these data do not tell it from: " + rival);
+  } else if (law.force.empty()) {
+    law.words.push_back("a force in time, no law: none of the candidates explains it");
+  } else {
+    law.words.push_back(fmt::format("a force in time, no law; the best is {} against {}: {}",
+                                    law.force, law.variable, tested));
+  }
+}
+
+}  // namespace
+
+std::optional<ForceLaw> law_of_force(ForcePaths& paths, const VectorXd& lengths, Index coordinates,
+                                     double arc_length) {
+  std::vector<MatrixXd> found;
+  for (const ForcePath& path : paths.paths()) found.push_back(path.force);
+  std::vector<ForcePattern> patterns = paths.patterns();
+  double apart = 0;
+  if (arc_length > 0) {
+    apart = -kApart * arc_length;
+    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown})
+      patterns.push_back(point_pattern(direction, arc_length + apart, lengths));
+  }
+  paths.act(std::move(patterns));
+  const std::optional<LinearProblem> linear = paths.linearise();
+  if (!linear) return std::nullopt;
+  ForceLaw law = LawSearch(paths, found, *linear, lengths, coordinates, arc_length, apart).run();
+  describe_law(law);
+  return law;
+}
+
+}  // namespace catena

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/force_pattern.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/problem/initial_state.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+const char* word(ForceDirection direction) {
+  return direction == ForceDirection::kSide ? "side" : "down";
+}
+
+/// The pattern whose forces act at the middles of the links.
+void act_at_middles(const VectorXd& force, VectorXd& carried) {
+  carried.resize(force.size());
+  double below = 0;
+  for (Index k = force.size() - 1; k >= 0; --k) {
+    carried[k] = below + 0.5 * force[k];
+    below += force[k];
+  }
+}
+
+ForcePattern empty(Index links, std::string name, std::string unit) {
+  ForcePattern pattern{std::move(name), std::move(unit), {}, {}};
+  pattern.side.setZero(links);
+  pattern.down.setZero(links);
+  return pattern;
+}
+
+}  // namespace
+
+ForcePattern density_pattern(ForceDirection direction, int mode, const VectorXd& lengths) {
+  const Index n = lengths.size();
+  ForcePattern pattern =
+      empty(n, fmt::format("{} density, mode {}", word(direction), mode), fmt::format("N/m"));
+  // The shapes of the angles are the same polynomials, at the middles of the links.
+  const VectorXd density =
+      shape_basis(Shape::kSmooth, static_cast<int>(n), mode + 1, lengths).col(mode);
+  act_at_middles(density.cwiseProduct(lengths),
+                 direction == ForceDirection::kSide ? pattern.side : pattern.down);
+  return pattern;
+}
+
+ForcePattern point_pattern(ForceDirection direction, double s, const VectorXd& lengths) {
+  const Index n = lengths.size();
+  ForcePattern pattern = empty(
+      n, fmt::format("{} force at arc length {:.3g} m", word(direction), s), fmt::format("N"));
+  VectorXd& carried = direction == ForceDirection::kSide ? pattern.side : pattern.down;
+  double begin = 0;
+  for (Index k = 0; k < n; ++k) {
+    carried[k] = std::clamp((s - begin) / lengths[k], 0.0, 1.0);
+    begin += lengths[k];
+  }
+  return pattern;
+}
+
+ForcePattern torque_pattern(Index links) {
+  ForcePattern pattern = empty(links, fmt::format("torque at the support"), fmt::format("N m"));
+  pattern.torque = 1;
+  return pattern;
+}
+
+void add_generalised_force(const ForcePattern& pattern, const VectorXd& lengths,
+                           const double* angles, double size, double* force) {
+  for (Index k = 0; k < lengths.size(); ++k)
+    force[k] += size * lengths[k] *
+                (std::cos(angles[k]) * pattern.side[k] - std::sin(angles[k]) * pattern.down[k]);
+  force[0] += size * pattern.torque;
+}
+
+}  // namespace catena

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identify/forces/interval_map.hpp"
+
+namespace catena {
+
+/// The equations of one recording, linearised about a path of nodes, and what was measured at them.
+/// y: (q, v, z) minus the path; w: (w, w' / rate) of every pattern; p: the shared parameters, then
+/// the recording's own, minus those of the path.
+///
+///     y(0)   = start_offset + start_by_parameter p
+///     y(k+1) = by_state y(k) + by_force w(k) + by_parameter p + offset
+///     w(k+1) = A w(k) + noise
+///     seen   = observed_by_state y + observed_by_parameter p + noise
+struct LinearRecording {
+  struct Step {
+    Eigen::MatrixXd by_state, by_force, by_parameter;
+    Eigen::VectorXd offset;
+    Eigen::Matrix2d transition;  ///< A of each pattern
+  };
+  struct Seen {
+    Eigen::VectorXd value;  ///< measured minus what the path gives, in standard deviations
+    Eigen::MatrixXd by_state, by_parameter;  ///< likewise
+  };
+  Eigen::VectorXd start_offset;
+  Eigen::MatrixXd start_by_parameter;
+  Eigen::VectorXd own_mean, own_deviation;  ///< prior of its own parameters
+  std::vector<Step> steps;                  ///< one fewer than nodes
+  std::vector<Seen> seen;                   ///< one per node, maybe of no values
+};
+
+struct LinearProblem {
+  Eigen::VectorXd shared_mean, shared_deviation;  ///< prior of the shared parameters
+  std::vector<LinearRecording> recordings;
+};
+
+/// A force pattern that acts, by its place among those of the problem, and its prior.
+struct ActingForce {
+  Eigen::Index pattern = 0;
+  int group = 0;
+};
+
+/// What the data say of a linear problem with these forces.
+struct Smoothed {
+  double log_evidence = 0;  ///< up to a constant of the data
+  struct Recording {
+    Eigen::MatrixXd state;  ///< y, one column per node
+    Eigen::MatrixXd force;  ///< (w, w' / rate) of each acting pattern, one column per node
+    std::vector<Eigen::MatrixXd> covariance;  ///< of w alone, acting patterns squared, per node
+    Eigen::VectorXd own;
+  };
+  std::vector<Recording> recordings;
+  Eigen::VectorXd shared, shared_variance;
+  /// For each group: variance times these is the next estimate of the variance. At the maximum of
+  /// the evidence it is 1.
+  std::vector<double> growth;
+};
+
+/// Kalman's filter forward and the smoother of Bryson and Frazier backward, over all recordings as
+/// one chain: what one says of the shared parameters is the prior of the next. `variance`: of each
+/// group. Without `smooth` the evidence alone. References: Bierman, Automatica 9 (1973) 503;
+/// MacKay, Neural Computation 4 (1992) 415, for the growth.
+Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
+                       const std::vector<double>& variance, bool smooth);
+
+}  // namespace catena

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "identify/forces/force_pattern.hpp"
+#include "runtime/direction_batch.hpp"
+#include "runtime/newton_matrix.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/signals.hpp"
+
+namespace catena {
+
+/// The state (q, v, z) at the end of an interval, and its exact derivatives by the state and the
+/// forces at its beginning and by the parameters.
+struct IntervalMap {
+  Eigen::VectorXd end;
+  Eigen::MatrixXd by_state, by_force, by_parameter;
+};
+
+/// The smooth random forces of a prior: each is a Matern process of smoothness 3/2, so that
+/// (w, w' / rate), rate = sqrt(3) / time scale, is a Markov chain with equal, independent variances.
+struct ForcePrior {
+  double time_scale = 0.15;  ///< s
+
+  /// From (w, w' / rate) to its expectation after `step` s. What is added has the covariance
+  /// variance * (1 - A A').
+  Eigen::Matrix2d transition(double step) const;
+};
+
+/// Integrates the equations of a model with forces over an interval by the implicit midpoint rule,
+/// with steps of at most `step` s, and differentiates what it does. Within the interval the forces
+/// are what their prior expects from those at its beginning. They turn with the angles that the
+/// rates at the beginning of a step predict at its middle: a difference of second order in the
+/// step, as the rule itself has.
+class IntervalIntegrator {
+ public:
+  /// `parameters`: the model's array. `directions`: by which derivatives are wanted; only their
+  /// parameters are read. References must outlive this object.
+  IntervalIntegrator(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals,
+                     const std::vector<ForcePattern>& patterns, const ForcePrior& prior,
+                     const std::vector<SensitivityDirection>& directions, double step);
+
+  /// From `begin` to `end` (s). `state`: (q, v, z). `force`: (w, w' / rate) of each pattern. Nothing
+  /// where Newton's iteration fails.
+  std::optional<IntervalMap> operator()(double begin, double end, const Eigen::VectorXd& state,
+                                        const Eigen::VectorXd& force);
+
+ private:
+  bool step_on(double t, double step, const Eigen::VectorXd& force, double since);
+  void differentiate(double t, double gamma, double since);
+
+  const Model model_;
+  Dynamics dynamics_;
+  const std::vector<ForcePattern>& patterns_;
+  ForcePrior prior_;
+  double step_;
+  Eigen::Index n_, states_, forces_, parameters_;
+  Eigen::VectorXd lengths_;
+  std::unique_ptr<NewtonMatrix> matrix_;
+  BatchTangents tangents_;
+  std::size_t batches_;
+  std::vector<std::vector<DirectionBatch>> dp_;                  // of each batch
+  std::vector<std::vector<DirectionBatch>> q_of_, v_of_, z_of_;  // columns, of each batch
+  std::vector<DirectionBatch> predicted_, zero_, change_, rate_;
+  std::vector<double> q_, v_, z_, a_, middle_q_, middle_v_, middle_z_, residual_, zdot_, force_,
+      turning_, predicted_q_;
+  std::vector<std::vector<double>> unit_force_;  // generalised force of each pattern
+};
+
+}  // namespace catena

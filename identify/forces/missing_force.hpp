@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identify/forces/force_law.hpp"
+#include "identify/problem/problem.hpp"
+
+namespace catena {
+
+/// Whether, where and when a force acts on the chain that the model does not have, from the
+/// recordings alone.
+///
+/// Forces are densities to the side and down along the cable, in Legendre polynomials, a force at
+/// the end and a torque at the support, each a smooth random function of time. They are estimated
+/// together with every free parameter, the start and the free sensors; the prior variances are those
+/// of the largest evidence. Then a force at each place alone is tried. The parts that are fitted are
+/// used, of all recordings. How: docs/diagnosis.md.
+struct MissingForce {
+  /// The forces explain more than chance does, and more than `kSmallestShare` of the squared
+  /// residuals. Everything else is empty where the motion cannot be followed, which `words` says.
+  bool found = false;
+  double log_evidence = 0;  ///< log of the odds against no force, for even odds before
+  double share = 0;         ///< of the sum of the squared residuals that the forces take away
+
+  struct Pattern {
+    std::string name, unit;
+    double prior_deviation = 0;  ///< of its size, from the evidence; in `unit`
+    double resolved = 0;         ///< 1 - variance afterwards / before, mean over time: 0 to 1
+  };
+  std::vector<Pattern> patterns;
+
+  /// Sizes of some patterns over time, with standard deviations.
+  struct History {
+    std::string experiment;
+    std::vector<double> time;         ///< s, of the frames that are fitted
+    Eigen::MatrixXd size, deviation;  ///< patterns x times
+    /// Densities to the side and down at the middles of the links, links x times, N/m; empty for a
+    /// single place.
+    Eigen::MatrixXd side, down, side_deviation, down_deviation;
+  };
+  std::vector<double> arc_length;  ///< m, of the middles of the links
+  std::vector<History> everywhere;
+
+  /// A force at one place alone, or the torque.
+  struct Place {
+    std::string name;
+    double arc_length = 0;    ///< m
+    double log_evidence = 0;  ///< against no force
+  };
+  std::vector<Place> places;  ///< along the cable, the torque first
+  /// The best place of all, refined, and what acts there if it acts nowhere else: one pattern for
+  /// the torque, else side and down, N.
+  std::optional<Place> best;
+  std::vector<History> at_best;
+  bool one_place = false;       ///< the evidence of the best place is not below that of all forces
+  std::optional<ForceLaw> law;  ///< what the force goes with, if it acts at one place
+
+  struct Parameter {
+    std::string name, unit;
+    double before = 0, value = 0, deviation = 0;  ///< fitted without and with forces
+  };
+  std::vector<Parameter> parameters;  ///< those of the case that are not of one experiment
+
+  std::vector<std::string> words;
+  double seconds = 0;  ///< of CPU time of this thread
+};
+
+/// `x`: fitted values of the problem's unknowns without forces, from where parameters may go, as far
+/// as their prior lets them. `sigmas`: noise of every experiment, m or rad. `keep_going`: asked now
+/// and then; false ends it early, without a result.
+MissingForce missing_force(const Problem& problem, const Eigen::VectorXd& x,
+                           const std::vector<double>& sigmas,
+                           const std::function<bool()>& keep_going = {});
+
+}  // namespace catena

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/missing_force.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/identify/forces/hidden_force.hpp"
+
+using namespace catena;
+
+namespace {
+
+testing::Film short_film() {
+  testing::Film film;
+  film.links = film.case_links = 6;
+  film.camera.duration = 2;
+  film.camera.markers = 6;
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("a hidden spring to a wall is found: its place, its force over time, its interval") {
+  truth::Hidden hidden;
+  hidden.wall_spring = 1;  // N/m
+  const testing::Filmed filmed = testing::film(short_film(), hidden);
+  const FittedModel baseline = filmed.baseline();
+  REQUIRE(baseline.ok);
+  const MissingForce found =
+      missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
+  REQUIRE(found.found);
+  CHECK(found.share > 0.9);
+  REQUIRE(found.one_place);
+  REQUIRE(found.best.has_value());
+  const double length = filmed.film.cable().length;
+  CHECK(std::abs(found.best->arc_length - testing::true_place(filmed.film)) < 0.02 * length);
+  const testing::Recovery recovery = testing::recovery_at_place(filmed, hidden, found);
+  CHECK(recovery.error < 0.1);
+  CHECK(recovery.covered > 0.85);
+  // The fit without the force has made EI three times as large.
+  CHECK(found.parameters.at(0).name == "EI");
+  CHECK(found.parameters.at(0).value == doctest::Approx(0.014).epsilon(0.1));
+  REQUIRE(found.words.size() >= 2);
+  CHECK(found.words[0].starts_with("a side force at arc length 1."));
+}
+
+TEST_CASE("no force is found where nothing is hidden") {
+  const testing::Filmed filmed = testing::film(short_film(), {});
+  const FittedModel baseline = filmed.baseline();
+  REQUIRE(baseline.ok);
+  const MissingForce found =
+      missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
+  REQUIRE(found.everywhere.size() == 1);  // the motion was followed
+  CHECK_FALSE(found.found);
+  CHECK(found.share < 0.01);
+  CHECK(found.places.empty());
+}
+
+TEST_CASE("two recordings with values that are missing have one force each") {
+  truth::Hidden hidden;
+  hidden.wall_spring = 1;
+  testing::Filmed filmed = testing::film(short_film(), hidden);
+  const testing::Filmed other = [&] {
+    testing::Film film = short_film();
+    film.camera.seed = 2;
+    film.camera.lost = 0.2;
+    return testing::film(film, hidden);
+  }();
+  testing::add_experiment(filmed.the_case, "second run");
+  const auto problem =
+      std::make_shared<const Problem>(filmed.the_case, any_links_model(filmed.film.case_links),
+                                      std::vector<Recording>{filmed.recording, other.recording});
+  const FittedModel baseline = fit_model(problem, problem->start(), {}, fit_least_squares, nullptr);
+  REQUIRE(baseline.ok);
+  const double noise = filmed.film.camera.noise;
+  const MissingForce found = missing_force(*problem, baseline.x, {noise, noise});
+  REQUIRE(found.found);
+  REQUIRE(found.everywhere.size() == 2);
+  CHECK(found.everywhere[1].experiment == "second run");
+  REQUIRE(found.at_best.size() == 2);
+  // The same force was filmed twice.
+  const Eigen::RowVectorXd apart = found.at_best[0].size.row(0) - found.at_best[1].size.row(0);
+  CHECK(apart.norm() < 0.15 * found.at_best[0].size.row(0).norm());
+}
+
+namespace {
+
+MissingForce force_in(const testing::Filmed& filmed) {
+  const FittedModel baseline = filmed.baseline();
+  REQUIRE(baseline.ok);
+  return missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
+}
+
+void check_constant(const PlaceLaw::Constant& constant, double truth, const char* unit) {
+  CAPTURE(constant.name);
+  CAPTURE(constant.value);
+  CHECK(constant.unit == unit);
+  CHECK(constant.deviation > 0);
+  CHECK(constant.deviation < 0.02 * std::abs(truth));
+  CHECK(std::abs(constant.value - truth) < 0.02 * std::abs(truth));
+}
+
+}  // namespace
+
+TEST_CASE("the law of a spring to a wall: stiffness and rest position") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.wall_spring = 0.3;  // N/m
+  hidden.wall_side = 0.3;    // m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  CHECK(found.law->found);
+  CHECK(found.law->force == "side force");
+  CHECK(found.law->variable == "side position");
+  CHECK(found.law->confirmed == doctest::Approx(1).epsilon(0.02));
+  REQUIRE(found.law->formula.constants.size() == 2);
+  check_constant(found.law->formula.constants[0], 0.3, "N/m");
+  check_constant(found.law->formula.constants[1], 0.3, "m");
+  CHECK(std::any_of(found.words.begin(), found.words.end(), [](const std::string& words) {
+    return words.starts_with("its law: side force = -linear x (side position - rest), linear = ");
+  }));
+}
+
+TEST_CASE("the law of drag at a place: along the velocity, with the square of the speed") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.place_drag = 0.1;  // kg/m
+  const testing::Filmed filmed = testing::film(film, hidden);
+  const MissingForce found = force_in(filmed);
+  REQUIRE(found.law.has_value());
+  CHECK(found.law->found);
+  CHECK(found.law->force == "force along the velocity");
+  CHECK(found.law->variable == "speed");
+  CHECK(std::abs(found.best->arc_length - testing::true_place(film)) <
+        0.05 * filmed.film.cable().length);
+  REQUIRE(found.law->formula.constants.size() == 1);
+  CHECK(found.law->formula.constants[0].name == "quadratic");
+  check_constant(found.law->formula.constants[0], 0.1, "N s^2/m^2");
+}
+
+TEST_CASE("a force that follows the velocity and drives it is no law") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.place_drag = -0.1;  // kg/m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.one_place);
+  REQUIRE(found.law.has_value());
+  CHECK_FALSE(found.law->found);
+}
+
+TEST_CASE("a force in time that follows no law has none") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  testing::Filmed filmed = testing::film(film, {});
+  testing::push(filmed, {0.05, 1});
+  const MissingForce found = force_in(filmed);
+  REQUIRE(found.found);
+  REQUIRE(found.one_place);
+  REQUIRE(found.law.has_value());
+  CHECK_FALSE(found.law->found);
+  CHECK(found.law->formula.text.empty());
+  CHECK(found.law->chance > 0.01);
+}
