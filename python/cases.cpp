@@ -159,23 +159,15 @@ struct LoadedCase {
   }
 
   py::tuple state() const {
-    py::dict tables;
-    for (const auto& [name, table] : recordings)
-      tables[py::str(name)] = py::make_tuple(table->names, table->columns);
     const Case& the_case = problem->the_case();
-    return py::make_tuple(std::filesystem::absolute(the_case.file), the_case.text, tables);
+    return py::make_tuple(std::filesystem::absolute(the_case.file), the_case.text,
+                          tables_state(recordings));
   }
 };
 
 LoadedCase case_from(const py::tuple& state) {
-  HandedIn recordings;
-  for (const auto& [key, value] : state[2].cast<py::dict>()) {
-    const auto name = key.cast<std::string>();
-    const auto table = value.cast<py::tuple>();
-    recordings[name] = table_of(name, table[0].cast<std::vector<std::string>>(),
-                                table[1].cast<std::vector<std::vector<double>>>());
-  }
-  return {state[0].cast<std::filesystem::path>(), recordings, state[1].cast<std::string>()};
+  return {state[0].cast<std::filesystem::path>(), tables_from(state[2].cast<py::dict>()),
+          state[1].cast<std::string>()};
 }
 
 struct Identification {

@@ -7,11 +7,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <future>
-#include <memory>
+#include <optional>
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
+#include "description/description.hpp"
 #include "identify/cases/case_reader.hpp"
+#include "identify/cases/case_writer.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -27,15 +29,54 @@ using namespace py::literals;
 namespace catena::python {
 namespace {
 
-/// A diagnosis with what it was made with: writing it derives the new model.
+/// A finished diagnosis with the recordings that were handed in for it.
 struct FinishedDiagnosis {
-  WorkFolder scratch = scratch_folder();
-  std::unique_ptr<DiagnosisContext> context;
-  Diagnosis found;
-  DiagnosisFindings findings;
-};
+  DiagnosisRecord record;
+  HandedIn recordings;
 
-using Shared = std::shared_ptr<FinishedDiagnosis>;
+  const std::string& document() const { return record.files.back().second; }
+
+  void write(const std::filesystem::path& folder) const {
+    OutputFolder output(folder, kDiagnosisNames);
+    output.publish([&](const std::filesystem::path& unfinished) {
+      write_diagnosis(record, unfinished, output.path());
+    });
+  }
+
+  void report(const std::filesystem::path& file) const {
+    const WorkFolder scratch = scratch_folder();
+    for (const auto& [name, text] : record.files) {
+      std::filesystem::create_directories((scratch.path() / name).parent_path());
+      write_whole_file(scratch.path() / name, text);
+    }
+    report::write_report(results::read_document(scratch.path()), {file, {}});
+  }
+
+  /// Paths in the case and in the model are relative to the root of the file system, so they hold
+  /// in every folder.
+  py::tuple state() const {
+    std::optional<std::string> model;
+    if (record.model) model = description_text(*record.model, kRoot);
+    return py::make_tuple(record.table, record.files, case_text(record.the_case, kRoot), model,
+                          tables_state(recordings));
+  }
+
+  static FinishedDiagnosis from(const py::tuple& state) {
+    FinishedDiagnosis finished;
+    finished.recordings = tables_from(state[4].cast<py::dict>());
+    DiagnosisRecord& record = finished.record;
+    record.table = state[0].cast<std::string>();
+    record.files = state[1].cast<decltype(record.files)>();
+    record.the_case =
+        parse_case(state[2].cast<std::string>(), "pickled case", kRoot, finished.recordings);
+    if (const auto model = state[3].cast<std::optional<std::string>>())
+      record.model = parse_description(*model, kRoot + "pickled model");
+    return finished;
+  }
+
+ private:
+  static inline const std::string kRoot = "/";
+};
 
 /// Runs f in a thread of its own, while this one looks for Ctrl-C and then sets `stop`: signals
 /// reach Python in the main thread only. What f throws is thrown here; a failed computation as
@@ -57,25 +98,25 @@ void run_interruptibly(F f, std::atomic<bool>& stop) {
   check.rethrow();
 }
 
-Shared diagnose_case(const std::filesystem::path& case_file,
-                     const std::optional<py::dict>& handed_in,
-                     const std::vector<std::filesystem::path>& effects, int max_effects,
-                     int max_links, int refits, int threads,
-                     const std::optional<py::function>& progress) {
+/// Returns the Diagnosis of catena/_diagnosis.py.
+py::object diagnose_case(const std::filesystem::path& case_file,
+                         const std::optional<py::dict>& handed_in,
+                         const std::vector<std::filesystem::path>& effects, int max_effects,
+                         int max_links, int refits, int threads,
+                         const std::optional<py::function>& progress) {
   if (max_effects < 0 || max_links < 1 || refits < 1 || threads < 1)
     throw std::invalid_argument(
         "max_effects is 0 or more; max_links, refits and threads are 1 or more");
   std::atomic<bool> stop{false};
   std::exception_ptr raised;
-  const auto finished = std::make_shared<FinishedDiagnosis>();
-  const HandedIn recordings = handed_in ? tables_of(*handed_in) : HandedIn();
+  FinishedDiagnosis finished;
+  if (handed_in) finished.recordings = tables_of(*handed_in);
   std::vector<std::string> warnings;
   const auto work = [&] {
     const ReadOnce inputs;
-    const Case the_case = read_case(case_file, recordings);
-    finished->context = std::make_unique<DiagnosisContext>(
-        the_case, effects, finished->scratch.path(), fit_least_squares, ProviderOptions{});
-    DiagnosisContext& context = *finished->context;
+    const Case the_case = read_case(case_file, finished.recordings);
+    const WorkFolder scratch = scratch_folder();
+    DiagnosisContext context(the_case, effects, scratch.path(), fit_least_squares, {});
     context.stop = &stop;
     context.threads = threads;
     if (progress)
@@ -91,15 +132,13 @@ Shared diagnose_case(const std::filesystem::path& case_file,
       };
     try {
       warnings = Problem(the_case, context.model_with({}, the_case.links)).warnings();
-      finished->found = diagnose(the_case, context, {max_effects, max_links, refits});
-      finished->findings = find_out(finished->found);
+      const Diagnosis found = diagnose(the_case, context, {max_effects, max_links, refits});
+      finished.record = record_of(found, find_out(found), context);
     } catch (const InputError&) {
       throw;
     } catch (const std::runtime_error& error) {
       throw ComputationError(error.what());
     }
-    context.stop = nullptr;
-    context.notice = nullptr;
   };
   try {
     run_interruptibly(work, stop);
@@ -109,123 +148,20 @@ Shared diagnose_case(const std::filesystem::path& case_file,
   if (raised) std::rethrow_exception(raised);
   for (const std::string& warning : warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
-  return finished;
-}
-
-struct Gaps {
-  double fit, held_out, noise_level;
-};
-
-Gaps gaps_of(const GapTest& fit, const GapTest& held_out) {
-  return {fit.rms, held_out.count > 0 ? held_out.rms : std::nan(""), fit.noise};
-}
-
-struct Alternatives {
-  std::string id, instead_of, experiment_that_tells;
-  double fit, difference;
-};
-
-std::vector<Alternatives> others(const std::vector<Alternative>& list,
-                                 const std::vector<TellingExperiment>& telling = {}) {
-  std::vector<Alternatives> out;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    out.push_back({list[i].explanation.id, list[i].instead_of,
-                   i < telling.size() ? telling[i].words : "", list[i].explanation.fit.rms,
-                   list[i].decision.difference});
-  return out;
-}
-
-/// diagnosis.json as Python's own lists and dictionaries.
-py::object document(const FinishedDiagnosis& d) {
-  const auto files = diagnosis_files(d.found, d.findings, *d.context);
-  return py::module_::import("json").attr("loads")(files.back().second);
+  return py::module_::import("catena._diagnosis").attr("Diagnosis")(std::move(finished));
 }
 
 }  // namespace
 
 void add_diagnoses(py::module_& module) {
-  py::class_<Gaps>(module, "DiagnosisGap", "How far a model is from the data, m or rad.")
-      .def_readonly("fit", &Gaps::fit, "Root mean square over what was fitted.")
-      .def_readonly("held_out", &Gaps::held_out, "Over what was held out; NaN if nothing was.")
-      .def_readonly("noise_level", &Gaps::noise_level, "What noise alone would leave.");
-  py::class_<FinalParameter>(module, "FoundParameter", "A parameter of the final model.")
-      .def_readonly("name", &FinalParameter::name)
-      .def_readonly("unit", &FinalParameter::unit)
-      .def_readonly("effect", &FinalParameter::effect, "Empty for the case's own.")
-      .def_readonly("value", &FinalParameter::value)
-      .def_readonly("standard_error", &FinalParameter::standard_error,
-                    "Allows for autocorrelated residuals; infinite where the data do not tell.");
-  py::class_<Alternatives>(module, "OtherEffect", "An effect that was refitted and has no name.")
-      .def_readonly("id", &Alternatives::id)
-      .def_readonly("instead_of", &Alternatives::instead_of, "Empty: as the last one added.")
-      .def_readonly("fit", &Alternatives::fit, "Gap it leaves where it was fitted, m or rad.")
-      .def_readonly("difference", &Alternatives::difference,
-                    "How far its predictions are from those of the final model, in noises.")
-      .def_readonly("experiment_that_tells", &Alternatives::experiment_that_tells,
-                    "Empty where none was sought.");
-  py::class_<FinishedDiagnosis, Shared>(module, "Diagnosis",
-                                        "What a model lacks; str() is the table that the program "
-                                        "prints.")
-      .def_property_readonly(
-          "verdict", [](const Shared& d) { return name_of(d->found.verdict); },
-          "none, named, ambiguous, partly or unexplained.")
-      .def_property_readonly("sentence", [](const Shared& d) { return d->found.sentence; })
-      .def_property_readonly("notes", [](const Shared& d) { return d->found.notes; })
-      .def_property_readonly(
-          "effects", [](const Shared& d) { return d->found.effects; }, "Those of the final model.")
-      .def_property_readonly(
-          "certain", [](const Shared& d) { return d->found.certain; },
-          "Those of them that stand whatever else is missing.")
-      .def_property_readonly(
-          "links", [](const Shared& d) { return d->found.stages.back().links; },
-          "Of the final model.")
-      .def_property_readonly("parameters", [](const Shared& d) { return d->found.parameters; })
-      .def_property_readonly("gap_before",
-                             [](const Shared& d) {
-                               const Stage& first = d->found.stages.front();
-                               return gaps_of(first.fit, first.held_out);
-                             })
-      .def_property_readonly(
-          "gap",
-          [](const Shared& d) { return gaps_of(d->found.final_fit, d->found.final_held_out); })
-      .def_property_readonly(
-          "undecided",
-          [](const Shared& d) { return others(d->found.alternatives, d->findings.telling); },
-          "Effects that explain the same data as well.")
-      .def_property_readonly(
-          "forms", [](const Shared& d) { return others(d->found.forms); },
-          "Other laws of the effect that is named, undecided too.")
-      .def_property_readonly(
-          "runners_up", [](const Shared& d) { return others(d->found.runners_up); },
-          "Effects that the data decide against.")
-      .def(
-          "document", [](const Shared& d) { return document(*d); },
-          "Everything, as diagnosis.json has it.")
-      .def(
-          "write",
-          [](const Shared& d, const std::filesystem::path& folder) {
-            py::gil_scoped_release unlock;
-            OutputFolder output(folder, kDiagnosisNames);
-            output.publish([&](const std::filesystem::path& unfinished) {
-              write_diagnosis(d->found, d->findings, *d->context, unfinished, output.path());
-            });
-          },
-          "folder"_a,
-          "Writes what catena diagnose writes: diagnosis.json, the results of the rounds, the case "
-          "with what was found, and the new model.")
-      .def(
-          "report",
-          [](const Shared& d, const std::filesystem::path& file) {
-            py::gil_scoped_release unlock;
-            const WorkFolder scratch = scratch_folder();
-            for (const auto& [name, text] : diagnosis_files(d->found, d->findings, *d->context)) {
-              std::filesystem::create_directories((scratch.path() / name).parent_path());
-              write_whole_file(scratch.path() / name, text);
-            }
-            report::write_report(results::read_document(scratch.path()), {file, {}});
-          },
-          "file"_a, "Writes the HTML report, as catena report does.")
-      .def("__str__", [](const Shared& d) { return diagnosis_table(d->found, d->findings); });
+  py::class_<FinishedDiagnosis>(module, "DiagnosisRecord",
+                                "A finished diagnosis, as it is printed and written.")
+      .def_property_readonly("table", [](const FinishedDiagnosis& d) { return d.record.table; })
+      .def_property_readonly("document", &FinishedDiagnosis::document)
+      .def("write", &FinishedDiagnosis::write, "folder"_a, py::call_guard<py::gil_scoped_release>())
+      .def("report", &FinishedDiagnosis::report, "file"_a, py::call_guard<py::gil_scoped_release>())
+      .def(py::pickle([](const FinishedDiagnosis& d) { return d.state(); },
+                      &FinishedDiagnosis::from));
   const DiagnosisOptions defaults;
   module.def(
       "diagnose", &diagnose_case, "case"_a, "recordings"_a = py::none(), py::kw_only(),

@@ -4,6 +4,7 @@
 #include "python/tables.hpp"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 #include <numeric>
 #include <string>
@@ -83,8 +84,7 @@ Columns columns_of(const py::object& recording, const std::string& name,
   return columns;
 }
 
-}  // namespace
-
+/// The recording of one experiment.
 std::shared_ptr<const Table> table_of(const std::string& experiment, std::vector<std::string> names,
                                       std::vector<std::vector<double>> columns) {
   auto table = std::make_shared<Table>();
@@ -95,6 +95,8 @@ std::shared_ptr<const Table> table_of(const std::string& experiment, std::vector
   std::iota(table->lines.begin(), table->lines.end(), 0);
   return table;
 }
+
+}  // namespace
 
 HandedIn tables_of(const py::dict& recordings) {
   HandedIn tables;
@@ -107,6 +109,24 @@ HandedIn tables_of(const py::dict& recordings) {
     tables[name] = table_of(name, std::move(names), std::move(columns));
   }
   return tables;
+}
+
+py::dict tables_state(const HandedIn& recordings) {
+  py::dict state;
+  for (const auto& [name, table] : recordings)
+    state[py::str(name)] = py::make_tuple(table->names, table->columns);
+  return state;
+}
+
+HandedIn tables_from(const py::dict& state) {
+  HandedIn recordings;
+  for (const auto& [key, value] : state) {
+    const auto name = key.cast<std::string>();
+    const auto table = value.cast<py::tuple>();
+    recordings[name] =
+        table_of(name, table[0].cast<std::vector<std::string>>(), table[1].cast<Columns>());
+  }
+  return recordings;
 }
 
 }  // namespace catena::python

@@ -3,10 +3,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "identify/cases/case_reader.hpp"
 
 namespace catena::python {
@@ -16,8 +12,8 @@ namespace catena::python {
 /// frames: the time, then side and down of every marker. Throws std::invalid_argument for anything else.
 HandedIn tables_of(const pybind11::dict& recordings);
 
-/// The recording of one experiment.
-std::shared_ptr<const Table> table_of(const std::string& experiment, std::vector<std::string> names,
-                                      std::vector<std::vector<double>> columns);
+/// What a pickle keeps of recordings, and recordings from it.
+pybind11::dict tables_state(const HandedIn& recordings);
+HandedIn tables_from(const pybind11::dict& state);
 
 }  // namespace catena::python

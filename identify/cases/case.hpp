@@ -88,6 +88,10 @@ struct InitialSpec {
   int velocity_terms = 3;
   std::vector<double> velocity_coefficients;  ///< rad/s; empty: from the first frames of the data
   bool velocity_free = false;
+
+  /// In space, one per link: towards where it leaves the vertical, rad from side to across, and its
+  /// rate, rad/s; empty: zero.
+  std::vector<double> azimuths, azimuth_rates;
 };
 
 enum class DataKind { kMarkers, kAngles };
@@ -125,6 +129,8 @@ struct ExperimentSpec {
   double from = -std::numeric_limits<double>::infinity();  ///< s, first and last frame used
   double to = std::numeric_limits<double>::infinity();
   double fit_until = std::numeric_limits<double>::infinity();  ///< later frames only validate
+  /// s: what was measured later is sealed. A diagnosis says so; no key of a case does.
+  double sealed_from = std::numeric_limits<double>::infinity();
   double start = kNotGiven;  ///< model time at which the initial state holds; NaN: the first frame
   double window =
       kNotGiven;             ///< s: cut into windows, each an experiment with its own initial state

@@ -151,6 +151,17 @@ void check_coefficients(const TomlTable& table, std::string_view key, Shape shap
     table.fail(key, std::to_string(given) + " numbers; this shape has " + std::to_string(expected));
 }
 
+/// One number for all links, under `key`, or one per link, under `key` + "s"; empty if neither is there.
+std::vector<double> read_of_links(const TomlTable& table, const std::string& key, int links) {
+  const std::string list = key + "s";
+  if (table.has(key) && table.has(list)) table.fail_choice({key, list});
+  std::vector<double> values = table.numbers(list);
+  if (const auto one = table.optional_number(key))
+    values.assign(static_cast<std::size_t>(links), *one);
+  check_coefficients(table, table.has(key) ? key : list, Shape::kAngles, links, 0, values);
+  return values;
+}
+
 InitialSpec read_initial(const TomlTable& table, int links) {
   InitialSpec initial;
   initial.shape = static_cast<Shape>(table.choice("shape", kShapeWords));
@@ -184,7 +195,9 @@ InitialSpec read_initial(const TomlTable& table, int links) {
     check_coefficients(*velocity, "rates", initial.velocity_shape, links, initial.velocity_terms,
                        initial.velocity_coefficients);
     initial.velocity_free = velocity->optional_flag("free").value_or(false);
+    initial.azimuth_rates = read_of_links(*velocity, "azimuth_rate", links);
   }
+  initial.azimuths = read_of_links(table, "azimuth", links);
   return initial;
 }
 
@@ -251,9 +264,9 @@ void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
     experiment.origin = {origin[0], origin[1]};
   }
   if (experiment.time_unit == "frames" && std::isnan(experiment.frame_rate))
-    table.fail("frame_rate", "missing; times in frames need the frames per second");
+    table.fail_missing("frame_rate", "the frames per second, which times in frames need");
   if (experiment.length_unit == "px" && std::isnan(experiment.metres_per_pixel))
-    table.fail("metres_per_pixel", "missing; lengths in px need it");
+    table.fail_missing("metres_per_pixel", "it; lengths in px need it");
 }
 
 ExperimentSpec read_experiment(const TomlTable& table, int number, int links,

@@ -113,6 +113,7 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
       break;
   }
   out.flag("free", initial.free);
+  if (!initial.azimuths.empty()) out.numbers("azimuths", initial.azimuths);
   if (initial.at_rest) return;
   out.header("[" + table + ".velocity]");
   out.text("shape", word(kShapeWords, initial.velocity_shape));
@@ -120,6 +121,7 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
     out.line("terms", std::to_string(initial.velocity_terms));
   out.numbers("rates", initial.velocity_coefficients);
   out.flag("free", initial.velocity_free);
+  if (!initial.azimuth_rates.empty()) out.numbers("azimuth_rates", initial.azimuth_rates);
 }
 
 std::string point_text(const PointSpec& point, DataKind kind) {

@@ -2,6 +2,7 @@
 #include "identify/diagnosis/baseline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,7 +24,7 @@ constexpr double kFollows = 0.3;
 constexpr double kHeldOutShare = 0.3;  // of a recording, where the case holds nothing out
 
 double squares(const FittedModel& model) {
-  return sum_of_squares(model, std::vector<double>(model.fit_residual.size(), 1.0));
+  return sum_of_squares(model, std::vector<NoiseModel>(model.fit_residual.size(), {.level = 1}));
 }
 
 VectorXd more_damped(const Problem& problem, double factor) {
@@ -118,14 +119,14 @@ FittedModel fit_baseline(Case the_case, DiagnosisContext& context) {
       std::min(the_case.optimiser.max_evaluations, kFirstEvaluations);
   const Model model_of_case = context.model_with({}, the_case.links);
   // With more damping the motion is simpler, and what the fit descends on too.
-  const std::vector<double> factors = {1, 5, 25};
+  const std::array<double, kBaselineStarts> factors = {1, 5, 25};
   std::vector<FittedModel> fits;
   const auto fit_from_each_start = [&] {
     const auto problem = std::make_shared<const Problem>(the_case, model_of_case);
     const std::size_t first = fits.size();
     fits.resize(first + factors.size());
     in_parallel(factors.size(), context.threads, [&](std::size_t k) {
-      fits[first + k] = fit_model(problem, more_damped(*problem, factors[k]),
+      fits[first + k] = fit_model(problem, more_damped(*problem, factors[k]), {},
                                   as_the_case_asks(context), context.stop);
     });
     context.stop_if_asked();
@@ -146,8 +147,14 @@ FittedModel fit_baseline(Case the_case, DiagnosisContext& context) {
   the_case.optimiser.growing_windows.clear();  // the start of what follows is near enough
   the_case.optimiser.max_evaluations = kEvaluations;
   const auto longer = std::make_shared<const Problem>(the_case, model_of_case);
-  FittedModel model = fit_model(longer, best()->x, context.least_squares, context.stop);
-  return model.ok ? model : *best();
+  FittedModel model = fit_model(longer, best()->x, {}, context.least_squares, context.stop);
+  if (!model.ok) model = *best();
+  const std::vector<NoiseModel> noise = noise_of(model);
+  if (std::any_of(noise.begin(), noise.end(), [](const auto& each) { return !(each.level > 0); }))
+    return model;
+  const FittedModel weighed =
+      fit_model(longer, model.x, noise, context.least_squares, context.stop);
+  return weighed.ok ? weighed : model;
 }
 
 }  // namespace catena

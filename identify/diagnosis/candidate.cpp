@@ -22,6 +22,8 @@ ParameterRole role_of(const EffectParameter& parameter) {
   return full_turn ? ParameterRole::kPhase : ParameterRole::kShape;
 }
 
+}  // namespace
+
 Candidate candidate_of(Effect effect) {
   Candidate candidate;
   candidate.id = effect.id;
@@ -64,8 +66,6 @@ Candidate candidate_of(Effect effect) {
   candidate.effect = std::move(effect);
   return candidate;
 }
-
-}  // namespace
 
 std::vector<int> Candidate::with_role(ParameterRole role) const {
   std::vector<int> found;

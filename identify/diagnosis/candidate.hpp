@@ -45,6 +45,9 @@ struct Candidate {
   std::vector<int> with_role(ParameterRole role) const;
 };
 
+/// An effect as a candidate; `unavailable` where it can be tried in no case.
+Candidate candidate_of(Effect effect);
+
 /// The built-in effects and those of the files given, less what the case has in its model already
 /// (`present`): in the order of their ids. What cannot be tried says why: what the case calls
 /// impossible, what is rare and which the case does not call possible, what acts only on bodies

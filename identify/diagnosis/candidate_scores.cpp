@@ -104,7 +104,7 @@ CandidateScores::CandidateScores(const CandidateSearch& search) : search_(search
       with_effects(search.with_free_start().value_or(the_case), others, true),
       context.model_with_all(the_case.links, own_models_in_base));
   x_ = transfer(*search.base.problem, search.base.x, *all_);
-  frequencies_ = driving_frequencies(search.base, search.sigmas);
+  frequencies_ = driving_frequencies(search.base, levels(search.noise));
   same_ = names_of_same_models(context.library(), context.model_with_all(the_case.links));
 }
 
@@ -191,7 +191,7 @@ MatrixXd CandidateScores::columns(const Run& run) const {
   }
   MatrixXd result;
   for (std::size_t j = 0; j < run.unknowns.size(); ++j) {
-    const VectorXd column = stacked(derivatives[j], search_.base.fit_residual, search_.sigmas);
+    const VectorXd column = stacked(derivatives[j], search_.base.fit_residual, search_.noise);
     if (result.size() == 0) result.resize(column.size(), static_cast<Index>(run.unknowns.size()));
     result.col(static_cast<Index>(j)) = column;
   }
@@ -211,7 +211,7 @@ std::vector<Explanation> CandidateScores::score(bool own_models) const {
   context.stop_if_asked();  // runs that were left out have no columns
 
   const MatrixXd& common = plan.runs.front().columns;
-  ScoreTest test(stacked(search_.base.fit_residual, search_.base.fit_residual, search_.sigmas),
+  ScoreTest test(stacked(search_.base.fit_residual, search_.base.fit_residual, search_.noise),
                  common.leftCols(plan.fitted));
   std::vector<Explanation> found;
   score_start(test, common.middleCols(plan.fitted, plan.start), found);
@@ -305,7 +305,7 @@ void CandidateScores::score_limit(ScoreTest& test, const Candidate& candidate,
             prediction.simulated - base.predicted[e].leftCols(base.fit_residual[e].cols());
     }
     if (!ok) continue;
-    VectorXd column = stacked(difference, base.fit_residual, search_.sigmas);
+    VectorXd column = stacked(difference, base.fit_residual, search_.noise);
     if (column.norm() < kMovesTheData * std::sqrt(static_cast<double>(column.size()))) continue;
     column *= value;
     const std::vector<int> columns = {test.add({column, 0.0, 1 / std::max(limit.lower, 1e-3)})};

@@ -16,7 +16,7 @@ struct CandidateSearch {
   DiagnosisContext& context;
   FittedModel base;                  ///< something may be missing in it
   std::vector<std::string> effects;  ///< those of the library that are in the base already
-  std::vector<double> sigmas;        ///< the noise of every experiment, m or rad
+  std::vector<NoiseModel> noise;     ///< of every experiment
 
   bool in_base(const std::string& id) const;
   /// The base's case and unknowns with a candidate added, all its parameters free.

@@ -36,7 +36,7 @@ std::vector<const Explanation*> confirmed(const DiagnosisState& state,
   std::vector<const Explanation*> left;
   for (const Explanation* each : candidates)
     if (std::none_of(candidates.begin(), candidates.end(), [&](const Explanation* other) {
-          return predicts_better(other->model, each->model, state.found.sigmas);
+          return predicts_better(other->model, each->model, state.found.noise);
         }))
       left.push_back(each);
   return left;
@@ -47,14 +47,14 @@ std::vector<const Explanation*> confirmed(const DiagnosisState& state,
 bool more_than_a_detail(const DiagnosisState& state, const FittedModel& base,
                         const FittedModel& larger) {
   const Stage& bare = last_without_effects(state.found.stages);
-  const std::vector<double>& sigmas = state.found.sigmas;
+  const std::vector<NoiseModel>& noise = state.found.noise;
   const double removed =
-      std::pow(fit_gap(base, sigmas).misfit, 2) - std::pow(fit_gap(larger, sigmas).misfit, 2);
+      std::pow(fit_gap(base, noise).misfit, 2) - std::pow(fit_gap(larger, noise).misfit, 2);
   if (removed > kThresholds.detail * std::pow(bare.fit.misfit, 2)) return true;
   const double later =
-      std::pow(held_out_gap(base, sigmas).rms, 2) - std::pow(held_out_gap(larger, sigmas).rms, 2);
+      std::pow(held_out_gap(base, noise).rms, 2) - std::pow(held_out_gap(larger, noise).rms, 2);
   return later > kThresholds.detail * std::pow(bare.held_out.rms, 2) &&
-         predicts_better(larger, base, sigmas);
+         predicts_better(larger, base, noise);
 }
 
 bool acceptable(const DiagnosisState& state, const FittedModel& base,
@@ -67,7 +67,7 @@ bool acceptable(const DiagnosisState& state, const FittedModel& base,
          state.generalises(explanation.held_out) &&
          more_than_a_detail(state, base, explanation.model) &&
          (static_cast<int>(state.last().effects.size()) < kThresholds.effects_unconfirmed ||
-          predicts_better(explanation.model, base, state.found.sigmas));
+          predicts_better(explanation.model, base, state.found.noise));
 }
 
 const Explanation* choose(const DiagnosisState& state,
@@ -80,7 +80,7 @@ const Explanation* choose(const DiagnosisState& state,
   const Explanation* simplest = best;
   for (const Explanation* explanation : candidates) {
     if (explanation == best || !simpler(state, *explanation, *best) ||
-        decide(best->model, explanation->model, state.found.sigmas).decided)
+        decide(best->model, explanation->model, state.found.noise).decided)
       continue;
     if (simplest == best || remainder(state, *explanation) < remainder(state, *simplest))
       simplest = explanation;

@@ -8,8 +8,8 @@
 
 namespace catena {
 
-double sum_of_squares(const FittedModel& model, const std::vector<double>& sigmas) {
-  return stacked(model.fit_residual, model.fit_residual, sigmas).squaredNorm();
+double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  return stacked(model.fit_residual, model.fit_residual, noise).squaredNorm();
 }
 
 namespace {
@@ -18,23 +18,16 @@ double unknowns(const FittedModel& model) {
   return static_cast<double>(model.problem->unknowns().size());
 }
 
-std::vector<Eigen::MatrixXd> weighted(const FittedModel& model, const std::vector<double>& sigmas) {
-  std::vector<Eigen::MatrixXd> result;
-  for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
-    if (model.fit_residual[e].cols() > 0) result.push_back(model.fit_residual[e] / sigmas[e]);
-  return result;
-}
-
 }  // namespace
 
 Comparison compare(const FittedModel& base, const FittedModel& larger,
-                   const std::vector<double>& sigmas) {
+                   const std::vector<NoiseModel>& noise) {
   Comparison result;
-  const double before = sum_of_squares(base, sigmas), after = sum_of_squares(larger, sigmas);
-  const double count = static_cast<double>(fit_gap(base, sigmas).count);
+  const double before = sum_of_squares(base, noise), after = sum_of_squares(larger, noise);
+  const double count = static_cast<double>(fit_gap(base, noise).count);
   result.removed = before - after;
   result.added = static_cast<int>(unknowns(larger) - unknowns(base));
-  result.autocorrelation = autocorrelation_factor(weighted(larger, sigmas));
+  result.autocorrelation = autocorrelation_factor(white_residuals(larger, noise));
   const double effective = std::max(2.0, count / result.autocorrelation);
   const double added = std::max(1, result.added);
   result.criterion = effective * std::log(after / before) + result.added * std::log(effective);
@@ -42,25 +35,25 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
   const double variance = std::max(1.0, after / std::max(1.0, count - unknowns(larger)));
   result.log10_p = log10_chi_square_tail(
       std::max(0.0, result.removed) / (variance * result.autocorrelation), static_cast<int>(added));
-  const double misfit_before = std::pow(fit_gap(base, sigmas).misfit, 2);
-  const double misfit_after = std::pow(fit_gap(larger, sigmas).misfit, 2);
+  const double misfit_before = std::pow(fit_gap(base, noise).misfit, 2);
+  const double misfit_after = std::pow(fit_gap(larger, noise).misfit, 2);
   result.misfit_removed = misfit_before - misfit_after;
   result.misfit_share = misfit_before > 0 ? 1 - misfit_after / misfit_before : 0;
   return result;
 }
 
 Decision decide(const FittedModel& better, const FittedModel& worse,
-                const std::vector<double>& sigmas) {
+                const std::vector<NoiseModel>& noise) {
   Decision decision;
-  decision.difference = prediction_distance(better, worse, sigmas);
-  decision.lead = sum_of_squares(worse, sigmas) - sum_of_squares(better, sigmas);
-  const GapTest left = fit_gap(better, sigmas);
+  decision.difference = prediction_distance(better, worse, noise);
+  decision.lead = sum_of_squares(worse, noise) - sum_of_squares(better, noise);
+  const GapTest left = fit_gap(better, noise);
   const double count = static_cast<double>(left.count);
   const double shared =
       std::max(kThresholds.shared_error, left.noise > 0 ? left.misfit / left.noise : 0.0);
   const double by_error =
       count * std::max(0.0, decision.difference * (2 * shared - decision.difference));
-  const double autocorrelation = autocorrelation_factor(weighted(better, sigmas));
+  const double autocorrelation = autocorrelation_factor(white_residuals(better, noise));
   const double needed = 2 * std::log(kThresholds.odds) * autocorrelation +
                         std::log(std::max(2.0, count)) * (unknowns(better) - unknowns(worse));
   decision.decided = decision.lead > by_error + needed;

@@ -9,7 +9,7 @@
 namespace catena {
 
 /// How much better one fitted model explains the same data than another. Residuals are weighted
-/// with the noise sigmas. They are not independent where something is still missing, so that both
+/// with the noise `noise`. They are not independent where something is still missing, so that both
 /// the likelihood and the counts are divided by the autocorrelation factor of the better model's residuals.
 struct Comparison {
   double removed = 0;          ///< fall of the sum of squares, in units of the noise squared
@@ -23,10 +23,10 @@ struct Comparison {
 
 /// From `base` to `larger`, which has `base` as a special case.
 Comparison compare(const FittedModel& base, const FittedModel& larger,
-                   const std::vector<double>& sigmas);
+                   const std::vector<NoiseModel>& noise);
 
 /// Sum of squares of the fitted part in units of the noise squared.
-double sum_of_squares(const FittedModel& model, const std::vector<double>& sigmas);
+double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
 /// Whether the data decide between two models that stand for different explanations, `better` being
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
@@ -39,6 +39,6 @@ struct Decision {
   double lead = 0;        ///< fall of the sum of squares from the worse to the better
 };
 Decision decide(const FittedModel& better, const FittedModel& worse,
-                const std::vector<double>& sigmas);
+                const std::vector<NoiseModel>& noise);
 
 }  // namespace catena

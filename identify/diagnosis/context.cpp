@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/sha256.hpp"
+#include "common/whole_file.hpp"
 
 namespace catena {
 
@@ -24,6 +25,19 @@ const Candidate* DiagnosisContext::find(const std::string& id) const {
   const auto found = std::find_if(library_.begin(), library_.end(),
                                   [&](const Candidate& candidate) { return candidate.id == id; });
   return found == library_.end() ? nullptr : &*found;
+}
+
+bool DiagnosisContext::knows(const std::string& id) const {
+  return find(id) || std::any_of(original_.effects.begin(), original_.effects.end(),
+                                 [&](const Effect& effect) { return effect.id == id; });
+}
+
+Candidate& DiagnosisContext::add_effect(const std::string& id, const std::string& text) {
+  const fs::path file = folder_ / (id + ".toml");
+  write_whole_file(file, text);
+  library_.push_back(candidate_of(read_effect(file)));
+  library_.back().own_model = true;
+  return library_.back();
 }
 
 Description DiagnosisContext::description_with(const std::vector<std::string>& effects, int links,

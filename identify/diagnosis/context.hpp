@@ -45,6 +45,11 @@ class DiagnosisContext {
 
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
+  /// Writes an effect file into the folder, and adds the effect to the library, which moves: for
+  /// this effect and no others it has models of its own. Throws InputError for a file that is none.
+  Candidate& add_effect(const std::string& id, const std::string& text);
+  /// Whether the library or the case has an effect of this name.
+  bool knows(const std::string& id) const;
 
   /// The description of the case with these effects of the library.
   Description description_with(const std::vector<std::string>& effects, int links,

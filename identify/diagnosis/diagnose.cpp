@@ -5,8 +5,10 @@
 
 #include "common/input_error.hpp"
 #include "identify/diagnosis/baseline.hpp"
+#include "identify/diagnosis/discovery.hpp"
 #include "identify/diagnosis/look_back.hpp"
 #include "identify/diagnosis/pairs.hpp"
+#include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/state.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -27,6 +29,7 @@ void look_ahead_and_back(DiagnosisState& state) {
 Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptions& options) {
   DiagnosisState state(context, options);
   hold_out(the_case, context, state.found.notes);
+  seal_last_part(the_case, context);
   context.begin("fitting the baseline");
   state.enter(fit_baseline(for_the_search(the_case), context), {}, "");
   for (const Experiment& experiment : state.last().model.problem->experiments())
@@ -39,6 +42,7 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
       add_pair(state))
     look_ahead_and_back(state);
   conclude(state, the_case);
+  discover(state, the_case);
   context.stop_if_asked();
   return std::move(state.found);
 }

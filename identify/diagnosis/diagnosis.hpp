@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "identify/diagnosis/gap_test.hpp"
 #include "identify/diagnosis/links.hpp"
 #include "identify/diagnosis/shares.hpp"
+#include "identify/forces/missing_force.hpp"
 
 namespace catena {
 
@@ -16,6 +18,7 @@ enum class DiagnosisVerdict {
   kNamed,        ///< one or more effects
   kAmbiguous,    ///< effects that these data cannot tell apart
   kPartly,       ///< effects that are there but leave a gap
+  kDiscovered,   ///< a law in no library, perhaps with other effects, perhaps beside a gap
   kUnexplained,  ///< a gap that nothing in the library closes
 };
 const char* name_of(DiagnosisVerdict verdict);
@@ -43,6 +46,9 @@ struct FinalParameter {
   std::string name, unit, effect;  ///< effect: empty for the case's own
   double value = 0;
   double standard_error = 0;  ///< allowing for autocorrelation; infinite in null directions
+
+  /// Half the width of the interval of 95 %.
+  double half_width() const { return 1.96 * standard_error; }
 };
 
 /// What a diagnosis found.
@@ -50,11 +56,13 @@ struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
   std::string sentence;                   ///< what the verdict says, one or two sentences
   std::vector<std::string> notes;         ///< warnings
-  std::vector<double> sigmas;             ///< per experiment, the noise level, m or rad
+  std::vector<NoiseModel> noise;          ///< per experiment
   std::vector<Stage> stages;              ///< baseline first
   std::vector<std::string> effects;       ///< of the final model
   std::vector<std::string> certain;       ///< those of them that stand whatever is left
   Shares shares;                          ///< of the misfit, among the effects
+  std::optional<MissingForce> force;      ///< of the library's best model, where it leaves a gap
+  std::string law;                        ///< the effect made of the law of that force; or empty
   bool freer_start = false;               ///< the start of the motion needed more terms
   std::vector<Alternative> alternatives;  ///< undecided ones
   std::vector<Alternative> forms;         ///< undecided too, but laws of the effect that is named

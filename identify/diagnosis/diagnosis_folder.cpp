@@ -3,41 +3,44 @@
 
 #include "common/whole_file.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "identify/diagnosis/sealed_part.hpp"
 #include "identify/models/model_provider.hpp"
 
 namespace catena {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// The case with the final model, its description and the emitted code.
-void write_model(const Diagnosis& found, const DiagnosisContext& context, const fs::path& folder,
-                 const fs::path& place) {
-  Case the_case = found.final.problem->with(found.final.x);
-  const bool named = !found.effects.empty();
-  if (named) the_case.description = place / "model.toml";
-  write_whole_file(folder / "diagnosed.toml", case_text(the_case, place));
-  if (!named) return;
-  const Description description =
-      context.description_with(found.effects, the_case.links, "diagnosed");
-  write_whole_file(folder / "model.toml", description_text(description, place));
-  derive_model(description, the_case.links, folder / "model");
-}
-
-}  // namespace
-
 WorkFolder scratch_folder() { return WorkFolder(fs::temp_directory_path(), "catena-diagnose-"); }
 
-std::string write_diagnosis(const Diagnosis& found, const DiagnosisFindings& findings,
-                            const DiagnosisContext& context, const fs::path& folder,
-                            const fs::path& place) {
-  const auto files = diagnosis_files(found, findings, context);
-  for (const auto& [name, text] : files) {
+DiagnosisRecord record_of(const Diagnosis& found, const DiagnosisFindings& findings,
+                          const DiagnosisContext& context) {
+  DiagnosisRecord record{diagnosis_table(found, findings),
+                         diagnosis_files(found, findings, context),
+                         with_opened_seals(*found.final.problem).with(found.final.x),
+                         {},
+                         found.law};
+  if (!found.effects.empty())
+    record.model = context.description_with(found.effects, record.the_case.links, "diagnosed");
+  return record;
+}
+
+void write_diagnosis(const DiagnosisRecord& record, const fs::path& folder, const fs::path& place) {
+  for (const auto& [name, text] : record.files) {
     fs::create_directories((folder / name).parent_path());
     write_whole_file(folder / name, text);
   }
-  write_model(found, context, folder, place);
-  return files.back().second;
+  Case the_case = record.the_case;
+  if (record.model) the_case.description = place / "model.toml";
+  write_whole_file(folder / "diagnosed.toml", case_text(the_case, place));
+  if (!record.model) return;
+  const auto model_with_law_in = [&](const fs::path& where) {
+    Description model = *record.model;
+    for (Effect& effect : model.effects)
+      if (effect.id == record.law) effect.source_file = where / (record.law + ".toml");
+    return model;
+  };
+  write_whole_file(folder / "model.toml", description_text(model_with_law_in(place), place));
+  derive_model(model_with_law_in(folder), the_case.links, folder / "model");
 }
 
 }  // namespace catena

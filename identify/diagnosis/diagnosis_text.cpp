@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/whole_file.hpp"
+#include "identify/diagnosis/sealed_part.hpp"
 #include "identify/results/result_file.hpp"
 #include "identify/results/result_writer.hpp"
 
@@ -32,9 +34,10 @@ std::string model_name(const Stage& stage) {
 /// Root mean square; NaN where nothing was held out.
 double rms_of(const GapTest& held_out) { return held_out.count > 0 ? held_out.rms : kNotGiven; }
 
-results::Gap gap_of(const GapTest& fit, const GapTest& held_out, const std::string& unit) {
-  return {fit.rms,     rms_of(held_out),    unit,    fit.noise, fit.misfit,
-          fit.present, fit.autocorrelation, fit.size};
+results::Gap gap_of(const GapTest& fit, const GapTest& held_out, const FittedModel& model,
+                    const std::string& unit) {
+  return {fit.rms,    rms_of(held_out), sealed_rms(model),   unit,    fit.noise,
+          fit.misfit, fit.present,      fit.autocorrelation, fit.size};
 }
 
 results::Candidate candidate_of(const Explanation& explanation, const DiagnosisContext& context,
@@ -73,6 +76,102 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
   return entry;
 }
 
+/// Four digits: more than the bands leave, and a file a third as long.
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  return std::round(value / unit) * unit;
+}
+
+results::ForceHistory history_entry(const MissingForce::History& history, std::string quantity,
+                                    std::string unit, std::vector<std::string> rows,
+                                    const Eigen::MatrixXd& value,
+                                    const Eigen::MatrixXd& deviation) {
+  results::ForceHistory entry{
+      history.experiment, std::move(quantity), std::move(unit), {}, std::move(rows), {}, {}};
+  entry.time.assign(history.time.begin(), history.time.end());
+  for (Eigen::Index i = 0; i < value.rows(); ++i)
+    for (const auto& [matrix, list] :
+         {std::pair{&value, &entry.value}, std::pair{&deviation, &entry.deviation}}) {
+      auto& row = list->emplace_back();
+      for (Eigen::Index k = 0; k < matrix->cols(); ++k) row.push_back(rounded((*matrix)(i, k)));
+    }
+  return entry;
+}
+
+results::MissingForce entry_of(const MissingForce& force) {
+  results::MissingForce entry;
+  entry.found = force.found;
+  entry.log_evidence = force.log_evidence;
+  entry.share = force.share;
+  entry.words = force.words;
+  entry.one_place = force.one_place;
+  if (force.law) {
+    const ForceLaw& law = *force.law;
+    results::ForceLaw& found = entry.law.emplace();
+    found.found = law.found;
+    found.force = law.force;
+    found.variable = law.variable;
+    found.formula = law.formula.text;
+    for (const PlaceLaw::Constant& constant : law.formula.constants)
+      found.constants.push_back(
+          {constant.name, constant.unit, "", constant.value, constant.deviation, std::nullopt});
+    found.candidates = law.candidates;
+    found.confirmed = law.confirmed;
+    found.chance = law.chance;
+    found.rivals = law.rivals;
+  }
+  entry.seconds = force.seconds;
+  for (const MissingForce::Place& place : force.places)
+    entry.places.push_back({place.name, place.arc_length, place.log_evidence});
+  if (force.best)
+    entry.best =
+        results::ForcePlace{force.best->name, force.best->arc_length, force.best->log_evidence};
+  std::vector<std::string> names, places;
+  for (const MissingForce::Pattern& pattern : force.patterns) {
+    entry.patterns.push_back(
+        {pattern.name, pattern.unit, pattern.prior_deviation, pattern.resolved});
+    names.push_back(pattern.name);
+  }
+  for (const double s : force.arc_length) places.push_back(fmt::format("{:.3g} m", s));
+  for (const MissingForce::History& history : force.everywhere) {
+    entry.densities.push_back(history_entry(history, "side density", "N/m", places, history.side,
+                                            history.side_deviation));
+    entry.densities.push_back(history_entry(history, "down density", "N/m", places, history.down,
+                                            history.down_deviation));
+    entry.patterns_over_time.push_back(
+        history_entry(history, "patterns", "", names, history.size, history.deviation));
+  }
+  for (const MissingForce::History& history : force.at_best) {
+    const bool torque = history.size.rows() == 1;
+    entry.at_best.push_back(history_entry(
+        history, force.best->name, torque ? "N m" : "N",
+        torque ? std::vector<std::string>{"torque"} : std::vector<std::string>{"side", "down"},
+        history.size, history.deviation));
+  }
+  for (const MissingForce::Parameter& parameter : force.parameters) {
+    const double half = 1.96 * parameter.deviation;
+    entry.parameters.push_back({parameter.name, parameter.unit, "", parameter.value,
+                                parameter.deviation,
+                                results::Interval{parameter.value - half, parameter.value + half}});
+  }
+  return entry;
+}
+
+std::string force_text(const MissingForce& force) {
+  std::string text = "\nmissing force\n";
+  for (const std::string& words : force.words) text += "  " + words + "\n";
+  if (!force.found) return text;
+  text += fmt::format("  {:34} {:>14}\n", "a force at one place alone", "log evidence");
+  for (const MissingForce::Place& place : force.places)
+    text += fmt::format("  {:34} {:>14.5g}\n", place.name, place.log_evidence);
+  text += fmt::format("  {:34} {:>14.5g}\n", "best: " + force.best->name, force.best->log_evidence);
+  for (const MissingForce::Parameter& parameter : force.parameters)
+    text += fmt::format("  with it {} is {:.4g} {} (before {:.4g})\n", parameter.name,
+                        parameter.value, parameter.unit, parameter.before);
+  return text;
+}
+
 }  // namespace
 
 std::string progress_line(const DiagnosisProgress& progress) {
@@ -86,25 +185,25 @@ std::string progress_line(const DiagnosisProgress& progress) {
 
 DiagnosisFindings find_out(const Diagnosis& d) {
   DiagnosisFindings findings;
-  findings.places = residual_places(d.stages.front().model, d.sigmas);
-  if (d.stages.front().fit.present)
-    findings.force = missing_moment(
-        d.verdict == DiagnosisVerdict::kUnexplained ? d.final : d.stages.front().model, d.sigmas);
+  findings.places = residual_places(d.stages.front().model, levels(d.noise));
   for (const Alternative& alternative : d.alternatives)
     findings.telling.push_back(
-        telling_experiment(d.final, alternative.explanation.model, d.sigmas));
+        telling_experiment(d.final, alternative.explanation.model, levels(d.noise)));
   return findings;
 }
 
 std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& findings) {
   const std::string unit = milli_unit_of(d);
   std::string text = fmt::format("verdict: {}\n{}\n\n", name_of(d.verdict), d.sentence);
-  text += fmt::format("{:44} {:>12} {:>12} {:>10}\n", "gap (RMS, " + unit + ")", "fitted",
-                      "held out", "/ noise");
-  const auto row = [&](const std::string& name, const GapTest& fit, const GapTest& held) {
-    text += fmt::format("{:44} {:>12.4g} {:>12} {:>10.3g}\n", name, 1e3 * fit.rms,
-                        held.count > 0 ? fmt::format("{:.4g}", 1e3 * held.rms) : std::string("-"),
-                        fit.ratio());
+  text += fmt::format("{:44} {:>9} {:>9} {:>9} {:>9}\n", "gap (RMS, " + unit + ")", "fitted",
+                      "held out", "sealed", "/ noise");
+  const auto row = [&](const std::string& name, const GapTest& fit, const GapTest& held,
+                       const FittedModel& model) {
+    const auto size = [](double rms) {
+      return std::isnan(rms) ? std::string("-") : fmt::format("{:.4g}", 1e3 * rms);
+    };
+    text += fmt::format("{:44} {:>9} {:>9} {:>9} {:>9.3g}\n", name, size(fit.rms),
+                        size(rms_of(held)), size(sealed_rms(model)), fit.ratio());
   };
   for (const Stage& stage : d.stages) {
     std::string change =
@@ -114,11 +213,11 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
         : stage.added == kTooFewLinks   ? fmt::format("{} links instead", stage.links)
         : stage.removed.empty()         ? "+ " + stage.added
                                         : "+ " + stage.added + " for " + stage.removed;
-    row(change, stage.fit, stage.held_out);
+    row(change, stage.fit, stage.held_out, stage.model);
   }
   if (!d.effects.empty())
-    row("the new model, compiled and refitted", d.final_fit, d.final_held_out);
-  text += fmt::format("{:44} {:>12.4g}\n", "noise", 1e3 * d.final_fit.noise);
+    row("the new model, compiled and refitted", d.final_fit, d.final_held_out, d.final);
+  text += fmt::format("{:44} {:>9.4g}\n", "noise", 1e3 * d.final_fit.noise);
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
 
   if (!d.shares.empty()) {
@@ -142,11 +241,11 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
     for (std::size_t i = 0; i < findings.places.words.size(); ++i)
       text += (i ? ", " : "") + findings.places.words[i];
     text += "\n";
-    for (const std::string& words : findings.force.words) text += "  " + words + "\n";
   }
+  if (d.force) text += force_text(*d.force);
   text += fmt::format("\n{:34} {:>14} {:>26}  {}\n", "parameter", "value", "95 % interval", "unit");
   for (const FinalParameter& parameter : d.parameters) {
-    const double half = 1.96 * parameter.standard_error;
+    const double half = parameter.half_width();
     text += fmt::format(
         "{:34} {:>14.6g} {:>26}  {}\n", parameter.name, parameter.value,
         std::isfinite(half)
@@ -193,28 +292,13 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.notes = d.notes;
   result.noise = d.final_fit.noise;
   result.unit = unit;
-  for (std::size_t e = 0; e < d.sigmas.size(); ++e)
-    result.experiment_noise.push_back({experiments[e].spec.name, d.sigmas[e]});
+  for (std::size_t e = 0; e < d.noise.size(); ++e)
+    result.experiment_noise.push_back({experiments[e].spec.name, d.noise[e].level});
   result.links = {d.stages.front().links, d.stages.back().links};
   result.where = findings.places.words;
   result.points.name = findings.places.points;
   for (const double rms : findings.places.point_rms) result.points.rms.push_back(rms);
-  if (findings.force.moment.size() > 0) {
-    results::MissingForce& force = result.missing_force.emplace();
-    force.experiment = experiments[static_cast<std::size_t>(findings.force.experiment)].spec.name;
-    for (const double time : findings.force.time) force.time.push_back(time);
-    force.unit = "N m";
-    for (Eigen::Index i = 0; i < findings.force.moment.rows(); ++i) {
-      const auto moment = findings.force.moment.row(i);
-      force.rows.push_back(fmt::format("joint {}", i + 1));
-      force.value.emplace_back(moment.begin(), moment.end());
-    }
-    force.noise = findings.force.noise;
-    force.resolution = findings.force.resolution;
-    for (const auto& dependence : findings.force.dependence)
-      force.depends.push_back({dependence.on, dependence.share});
-    force.words = findings.force.words;
-  }
+  if (d.force) result.missing_force = entry_of(*d.force);
   for (std::size_t s = 0; s < d.stages.size(); ++s) {
     const bool last = s + 1 == d.stages.size();
     const Stage& stage = d.stages[s];
@@ -224,17 +308,17 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
     round.removed = stage.removed;
     round.links = stage.links;
     round.effects = stage.effects;
-    round.gap = last ? gap_of(d.final_fit, d.final_held_out, unit)
-                     : gap_of(stage.fit, stage.held_out, unit);
     round.result_file = fmt::format("round_{}/result.json", s);
     const FittedModel& model = last ? d.final : stage.model;
+    round.gap = last ? gap_of(d.final_fit, d.final_held_out, model, unit)
+                     : gap_of(stage.fit, stage.held_out, model, unit);
+    const Problem shown = with_opened_seals(*model.problem);
     std::vector<Motion> motions;
-    for (std::size_t e = 0; e < model.problem->experiments().size(); ++e)
-      motions.push_back(motion_of(*model.problem, model.x, static_cast<int>(e)));
+    for (std::size_t e = 0; e < shown.experiments().size(); ++e)
+      motions.push_back(motion_of(shown, model.x, static_cast<int>(e)));
     files.emplace_back(
         round.result_file,
-        comparison_result_text(*model.problem, model.x,
-                               evaluate(*model.problem, model.x, true, false), motions));
+        comparison_result_text(shown, model.x, evaluate(shown, model.x, true, false), motions));
     if (stage.finer.links > 0)
       round.finer_chain = {stage.finer.links, stage.finer.predicted, stage.finer.refitted,
                            stage.finer.taken, stage.finer.note};
@@ -246,7 +330,7 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
     result.effects.push_back({id, candidate.title, "", formula_entries(candidate.effect)});
   }
   for (const FinalParameter& parameter : d.parameters) {
-    const double half = 1.96 * parameter.standard_error;
+    const double half = parameter.half_width();
     result.parameters.push_back(
         {parameter.name, parameter.unit, parameter.effect, parameter.value,
          parameter.standard_error,
@@ -287,6 +371,8 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.equality_at_neutral = d.equality;
   result.candidates_tried = d.tried;
   result.seconds = d.seconds;
+  if (!d.law.empty())
+    files.emplace_back(d.law + ".toml", read_whole_file(context.find(d.law)->effect.source_file));
   files.emplace_back("diagnosis.json", results::text_of(result));
   return files;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "identify/diagnosis/diagnose.hpp"
-#include "identify/diagnosis/missing_moment.hpp"
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/telling_experiment.hpp"
 
@@ -14,8 +13,7 @@ namespace catena {
 
 /// What is found out about a finished diagnosis for whoever reads it.
 struct DiagnosisFindings {
-  ResidualPlaces places;  ///< of the baseline
-  MissingMoment force;    ///< of the baseline; of the last model if the verdict is unexplained
+  ResidualPlaces places;                   ///< of the baseline
   std::vector<TellingExperiment> telling;  ///< one per alternative
 };
 DiagnosisFindings find_out(const Diagnosis& diagnosis);

@@ -14,12 +14,12 @@ namespace {
 std::vector<Explanation> best_with_links(DiagnosisState& state, const Stage& looked, int links,
                                          const std::string& except = "") {
   DiagnosisContext& context = state.context;
-  std::vector<Explanation> best = best_effects(looked.explanations, state.found.sigmas,
+  std::vector<Explanation> best = best_effects(looked.explanations, state.found.noise,
                                                kThresholds.tried_with_more_links, except);
   context.begin("refitting with more links", best.size());
   in_parallel(best.size(), context.threads, [&](std::size_t k) {
-    best[k].model =
-        refitted_with_links(best[k].model, links, with(looked.effects, best[k].id), context);
+    best[k].model = refitted_with_links(best[k].model, links, with(looked.effects, best[k].id),
+                                        state.found.noise, context);
   });
   context.stop_if_asked();
   std::erase_if(best, [](const Explanation& each) { return !each.model.ok; });
@@ -34,16 +34,17 @@ bool add_with_more_links(DiagnosisState& state) {
   if (links <= looked.links) return false;
   std::vector<Explanation> explanations = best_with_links(state, looked, links);
   if (explanations.empty()) return false;
-  FittedModel finer = refitted_with_links(looked.model, links, looked.effects, state.context);
+  FittedModel finer =
+      refitted_with_links(looked.model, links, looked.effects, state.found.noise, state.context);
   state.context.stop_if_asked();
   if (!finer.ok) return false;
   // The finer chain's own fit may be the worse one, where it ends in another minimum.
   const FittedModel& base =
       state.squares(finer) < state.squares(looked.model) ? finer : looked.model;
   for (Explanation& each : explanations) {
-    each.comparison = compare(base, each.model, state.found.sigmas);
-    each.fit = fit_gap(each.model, state.found.sigmas);
-    each.held_out = held_out_gap(each.model, state.found.sigmas);
+    each.comparison = compare(base, each.model, state.found.noise);
+    each.fit = fit_gap(each.model, state.found.noise);
+    each.held_out = held_out_gap(each.model, state.found.noise);
   }
   state.enter(std::move(finer), looked.effects, kTooFewLinks);
   state.last().explanations = std::move(explanations);
@@ -52,7 +53,7 @@ bool add_with_more_links(DiagnosisState& state) {
     state.found.stages.pop_back();
     return false;
   }
-  state.enter(trim(best->model, state.found.sigmas, state.context),
+  state.enter(trim(best->model, state.found.noise, state.context),
               with(state.last().effects, best->id), best->id);
   return true;
 }
@@ -66,8 +67,8 @@ void try_others_with_more_links(DiagnosisState& state) {
   for (const Explanation& each : others)
     if (!best || state.squares(each.model) < state.squares(best->model)) best = &each;
   if (best && state.squares(best->model) < state.squares(state.last().model) &&
-      decide(best->model, state.last().model, state.found.sigmas).decided &&
-      state.generalises(held_out_gap(best->model, state.found.sigmas)) &&
+      decide(best->model, state.last().model, state.found.noise).decided &&
+      state.generalises(held_out_gap(best->model, state.found.noise)) &&
       !state.reopens_gap(best->model))
     state.enter(best->model, with(looked.effects, best->id), best->id, state.last().added);
 }
@@ -76,8 +77,8 @@ void go_back_to_fewer_links(DiagnosisState& state) {
   for (std::size_t s = state.found.stages.size(); s-- > 0;) {
     const int links = state.found.stages[s].links;
     if (links >= state.last().links) continue;
-    FittedModel model =
-        refitted_with_links(state.last().model, links, state.last().effects, state.context);
+    FittedModel model = refitted_with_links(state.last().model, links, state.last().effects,
+                                            state.found.noise, state.context);
     if (!model.ok || state.squares(model) >= state.squares(state.last().model) ||
         state.reopens_gap(model))
       break;

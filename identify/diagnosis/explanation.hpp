@@ -36,7 +36,7 @@ inline constexpr const char* kTooFewLinks = "too_few_links";
 
 /// The refitted effects (no rivals) but `except`, those that leave least first, at most `count`.
 std::vector<Explanation> best_effects(const std::vector<Explanation>& explanations,
-                                      const std::vector<double>& sigmas, std::size_t count,
+                                      const std::vector<NoiseModel>& noise, std::size_t count,
                                       const std::string& except = "");
 
 }  // namespace catena

@@ -17,21 +17,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd standard_errors(const FittedModel& model, const std::vector<double>& sigmas) {
-  MatrixXd jacobian = fitted_jacobian(model, sigmas);
+VectorXd standard_errors(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  MatrixXd jacobian = fitted_jacobian(model, noise);
   VectorXd scale = jacobian.colwise().norm();
   for (Index j = 0; j < scale.size(); ++j) {
     if (scale[j] == 0) scale[j] = 1;
     jacobian.col(j) /= scale[j];
   }
   const EigenPairs eigen = symmetric_eigenpairs(jacobian.transpose() * jacobian);
-  std::vector<MatrixXd> weighted;
-  for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
-    if (model.fit_residual[e].cols() > 0) weighted.push_back(model.fit_residual[e] / sigmas[e]);
-  const double variance =
-      std::max(1.0, sum_of_squares(model, sigmas) /
-                        static_cast<double>(std::max<Index>(1, jacobian.rows())));
-  const double factor = std::sqrt(variance * autocorrelation_factor(weighted));
+  const double variance = std::max(
+      1.0, sum_of_squares(model, noise) / static_cast<double>(std::max<Index>(1, jacobian.rows())));
+  const double factor = std::sqrt(variance * autocorrelation_factor(white_residuals(model, noise)));
   VectorXd errors(scale.size());
   for (Index j = 0; j < errors.size(); ++j) {
     double sum = 0;
@@ -103,7 +99,7 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext&
   const auto problem = std::make_shared<const Problem>(the_case, model);
   FittedModel refitted =
       fit_model(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
-                context.least_squares, context.stop);
+                diagnosis.noise, context.least_squares, context.stop);
   // A fit that cannot leave its start is there already.
   if (!refitted.ok)
     refitted = assess(problem, transfer(*diagnosis.final.problem, diagnosis.final.x, *problem),
@@ -116,7 +112,7 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext&
 std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis) {
   std::vector<FinalParameter> parameters;
   const Problem& problem = *diagnosis.final.problem;
-  const VectorXd errors = standard_errors(diagnosis.final, diagnosis.sigmas);
+  const VectorXd errors = standard_errors(diagnosis.final, diagnosis.noise);
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     if (unknown.group == Unknown::Group::kInitial) continue;

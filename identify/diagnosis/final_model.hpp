@@ -14,7 +14,7 @@ struct FinalParameter;
 /// Standard errors of all unknowns from the sensitivities, allowing for autocorrelated residuals
 /// (times the root of the autocorrelation factor) and for what is left above the noise; infinite in
 /// null directions.
-Eigen::VectorXd standard_errors(const FittedModel& model, const std::vector<double>& sigmas);
+Eigen::VectorXd standard_errors(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
 /// Replaces the final model by one that has its effects and no others: derived, compiled, loaded,
 /// shown to equal the case's model where the effects vanish, and fitted once more, simulated and

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "identify/noise/estimate_noise.hpp"
-#include "identify/noise/noise_level.hpp"
 #include "identify/problem/evaluation.hpp"
 
 namespace catena {
@@ -64,6 +64,14 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
                                          std::move(experiments));
 }
 
+/// The problem, to be fitted with this noise.
+Problem with_noise(const Problem& problem, const std::vector<NoiseModel>& noise) {
+  std::vector<Experiment> experiments = problem.experiments();
+  for (std::size_t e = 0; e < noise.size(); ++e)
+    experiments[e].noise = std::make_shared<const NoiseModel>(noise[e]);
+  return Problem(problem.the_case(), problem.model(), std::move(experiments));
+}
+
 }  // namespace
 
 FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
@@ -93,11 +101,13 @@ FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
 }
 
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& start,
-                      const LeastSquares& least_squares, const std::atomic<bool>* stop) {
+                      const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
+                      const std::atomic<bool>* stop) {
   FitOptions options;
   options.start = start;
   options.stop = stop;
-  const FitResult result = least_squares(*problem, options);
+  const bool squares = problem->the_case().error.measure == Measure::kLeastSquares;
+  const FitResult result = least_squares(squares ? with_noise(*problem, noise) : *problem, options);
   if (result.status == FitStatus::kFailed || result.x.size() == 0) {
     FittedModel failed;
     failed.problem = std::move(problem);
@@ -112,47 +122,45 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
   return model;
 }
 
-std::vector<double> noise_levels(const FittedModel& model) {
-  std::vector<double> levels;
-  for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
-    const Experiment& experiment = model.problem->experiments()[e];
-    const bool fitted = model.fit_residual[e].cols() > 0;
-    const MatrixXd& residual = fitted ? model.fit_residual[e] : model.held_out_residual[e];
-    std::vector<double> time = experiment.recording.time;
-    if (fitted) time.resize(static_cast<std::size_t>(residual.cols()));
-    const double level = noise_level(residual, time), stated = experiment.spec.noise;
-    levels.push_back(stated > 0 && !(level >= stated) ? stated : level);
-  }
-  return levels;
-}
-
-std::vector<std::string> noise_in_words(const FittedModel& model) {
+std::vector<NoiseModel> noise_of(const FittedModel& model) {
   const std::vector<Experiment>& experiments = model.problem->experiments();
-  std::map<int, std::vector<NoiseWindow>> windows;  // of each recording
-  std::map<int, std::size_t> first;
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    NoiseWindow window;
-    window.residual.resize(model.predicted[e].rows(), model.predicted[e].cols());
-    window.residual << model.fit_residual[e], model.held_out_residual[e];
-    window.predicted = model.predicted[e];
-    window.time = experiments[e].recording.time;
-    window.fitted = model.fit_residual[e].cols();
-    // A window that is held out whole tells the noise, too: its start is fitted.
-    window.shows_noise = window.fitted > 0 ? window.fitted : window.residual.cols();
-    windows[experiments[e].source].push_back(std::move(window));
-    first.emplace(experiments[e].source, e);
-  }
-  std::vector<std::string> words;
-  for (const auto& [source, parts] : windows) {
-    const Experiment& experiment = experiments[first.at(source)];
+  std::map<int, std::vector<std::size_t>> windows;  // of each recording
+  for (std::size_t e = 0; e < experiments.size(); ++e) windows[experiments[e].source].push_back(e);
+  std::vector<NoiseModel> noise(experiments.size());
+  for (const auto& [source, members] : windows) {
+    std::vector<NoiseWindow> parts;
+    for (const std::size_t e : members) {
+      NoiseWindow& window = parts.emplace_back();
+      window.residual.resize(model.predicted[e].rows(), model.predicted[e].cols());
+      window.residual << model.fit_residual[e], model.held_out_residual[e];
+      window.predicted = model.predicted[e];
+      window.time = experiments[e].recording.time;
+      window.fitted = model.fit_residual[e].cols();
+      // A window that is held out whole tells the noise, too: its start is fitted.
+      window.shows_noise = window.fitted > 0 ? window.fitted : window.residual.cols();
+    }
+    const Experiment& experiment = experiments[members.front()];
     std::vector<int> direction;
     for (const Channel& channel : experiment.recording.channels)
       direction.push_back(channel.component == Component::kSide   ? 0
                           : channel.component == Component::kDown ? 1
                                                                   : -1);
+    std::vector<NoiseModel> found = estimate_noise(parts, direction, experiment.spec.noise);
+    for (std::size_t w = 0; w < members.size(); ++w) noise[members[w]] = std::move(found[w]);
+  }
+  return noise;
+}
+
+std::vector<std::string> noise_in_words(const FittedModel& model,
+                                        const std::vector<NoiseModel>& noise) {
+  std::vector<std::string> words;
+  std::set<int> told;
+  for (std::size_t e = 0; e < noise.size(); ++e) {
+    const int source = model.problem->experiments()[e].source;
+    if (!told.insert(source).second) continue;
     const std::string& name =
         model.problem->the_case().experiments[static_cast<std::size_t>(source)].name;
-    for (const std::string& each : estimate_noise(parts, direction).front().words())
+    for (const std::string& each : noise[e].words())
       words.push_back(fmt::format("{}: {}", name, each));
   }
   return words;
@@ -161,15 +169,17 @@ std::vector<std::string> noise_in_words(const FittedModel& model) {
 namespace {
 
 GapTest gap_of(const FittedModel& model, const std::vector<MatrixXd>& residuals,
-               const std::vector<double>& sigmas) {
+               const std::vector<NoiseModel>& noise, bool held_out) {
   std::vector<MatrixXd> present;
-  std::vector<double> present_sigmas;
+  std::vector<NoiseModel> present_noise;
+  std::vector<Index> first;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
     if (residuals[e].cols() == 0) continue;
     present.push_back(residuals[e]);
-    present_sigmas.push_back(sigmas[e]);
+    present_noise.push_back(noise[e]);
+    first.push_back(held_out ? model.fit_residual[e].cols() : 0);
   }
-  GapTest test = test_gap(present, present_sigmas);
+  GapTest test = test_gap(present, present_noise, first);
   test.good_enough = test.rms <= model.problem->the_case().diagnosis.good_enough;
   test.present = test.present && !test.good_enough;
   return test;
@@ -177,26 +187,38 @@ GapTest gap_of(const FittedModel& model, const std::vector<MatrixXd>& residuals,
 
 }  // namespace
 
-GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas) {
-  return gap_of(model, model.fit_residual, sigmas);
+GapTest fit_gap(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  return gap_of(model, model.fit_residual, noise, false);
 }
 
-GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas) {
-  return gap_of(model, model.held_out_residual, sigmas);
+GapTest held_out_gap(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  return gap_of(model, model.held_out_residual, noise, true);
+}
+
+std::vector<MatrixXd> white_residuals(const FittedModel& model,
+                                      const std::vector<NoiseModel>& noise) {
+  std::vector<MatrixXd> white;
+  for (std::size_t e = 0; e < model.fit_residual.size(); ++e)
+    if (model.fit_residual[e].cols() > 0) white.push_back(noise[e].whitened(model.fit_residual[e]));
+  return white;
 }
 
 VectorXd stacked(const std::vector<MatrixXd>& matrices, const std::vector<MatrixXd>& measured_where,
-                 const std::vector<double>& sigmas) {
+                 const std::vector<NoiseModel>& noise) {
   std::vector<double> values;
-  for (std::size_t e = 0; e < measured_where.size(); ++e)
-    for (Index k = 0; k < measured_where[e].cols(); ++k)
-      for (Index c = 0; c < measured_where[e].rows(); ++c)
-        if (!std::isnan(measured_where[e](c, k)))
-          values.push_back(matrices[e].size() ? matrices[e](c, k) / sigmas[e] : 0.0);
+  for (std::size_t e = 0; e < measured_where.size(); ++e) {
+    const MatrixXd& where = measured_where[e];
+    MatrixXd measured =
+        matrices[e].size() ? matrices[e] : MatrixXd::Zero(where.rows(), where.cols());
+    measured = where.array().isNaN().select(std::numeric_limits<double>::quiet_NaN(), measured);
+    const MatrixXd white = noise[e].whitened(measured);
+    for (const double value : white.reshaped())
+      if (!std::isnan(value)) values.push_back(value);
+  }
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
-MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& sigmas) {
+MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<NoiseModel>& noise) {
   const Evaluation evaluation = evaluate(*model.problem, model.x, false, true);
   const std::size_t unknowns = model.problem->unknowns().size();
   MatrixXd jacobian;
@@ -205,7 +227,7 @@ MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& si
     for (std::size_t e = 0; e < derivative.size(); ++e)
       if (model.fit_residual[e].cols() > 0 && evaluation.predictions[e].ok())
         derivative[e] = evaluation.predictions[e].sensitivity[j];
-    const VectorXd column = stacked(derivative, model.fit_residual, sigmas);
+    const VectorXd column = stacked(derivative, model.fit_residual, noise);
     if (jacobian.size() == 0) jacobian.resize(column.size(), static_cast<Index>(unknowns));
     jacobian.col(static_cast<Index>(j)) = column;
   }
@@ -213,16 +235,18 @@ MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& si
 }
 
 double prediction_distance(const FittedModel& a, const FittedModel& b,
-                           const std::vector<double>& sigmas) {
+                           const std::vector<NoiseModel>& noise) {
   double sum = 0, count = 0;
-  for (std::size_t e = 0; e < a.predicted.size(); ++e)
-    for (Index k = 0; k < a.predicted[e].cols(); ++k)
-      for (Index c = 0; c < a.predicted[e].rows(); ++c) {
-        if (std::isnan(a.problem->experiments()[e].recording.measured(c, k))) continue;
-        const double difference = (a.predicted[e](c, k) - b.predicted[e](c, k)) / sigmas[e];
-        sum += difference * difference;
+  for (std::size_t e = 0; e < a.predicted.size(); ++e) {
+    const MatrixXd& measured = a.problem->experiments()[e].recording.measured;
+    const MatrixXd difference = noise[e].whitened(a.predicted[e] - b.predicted[e]);
+    for (Index k = 0; k < measured.cols(); ++k)
+      for (Index c = 0; c < measured.rows(); ++c) {
+        if (std::isnan(measured(c, k)) || std::isnan(difference(c, k))) continue;
+        sum += difference(c, k) * difference(c, k);
         count += 1;
       }
+  }
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 

@@ -31,33 +31,39 @@ struct FittedModel {
 FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& x,
                    const LeastSquares& least_squares, const std::atomic<bool>* stop);
 
-/// Fits from `start` by least squares and assesses the result.
+/// Fits from `start` and assesses the result. `noise`: of every experiment; least squares make the
+/// residuals white with it. Empty: all values count alike.
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& start,
-                      const LeastSquares& least_squares, const std::atomic<bool>* stop);
+                      const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
+                      const std::atomic<bool>* stop);
 
-/// The noise of every experiment from the residuals of the fitted part (of the held-out part where
-/// nothing is fitted); not below `smallest`. A noise the case states counts where it is larger.
-std::vector<double> noise_levels(const FittedModel& model);
+/// The noise of every experiment: that of its recording, as the residuals show it (of the fitted
+/// part; of windows that are held out whole, too). A noise the case states counts where it is larger.
+std::vector<NoiseModel> noise_of(const FittedModel& model);
 
-/// What is unusual of the noise of each recording, as the residuals show it where the motion has no
-/// power: "run: the tracks look smoothed over 5 frames (...)".
-std::vector<std::string> noise_in_words(const FittedModel& model);
+/// What is unusual of the noise of each recording: "run: the tracks look smoothed over 5 frames".
+std::vector<std::string> noise_in_words(const FittedModel& model,
+                                        const std::vector<NoiseModel>& noise);
 
-GapTest fit_gap(const FittedModel& model, const std::vector<double>& sigmas);
-GapTest held_out_gap(const FittedModel& model, const std::vector<double>& sigmas);
+GapTest fit_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);
+GapTest held_out_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
-/// Residuals of the fitted part in units of the noise, stacked: experiment, frame, channel; those
-/// not measured left out.
+/// Of every experiment with a fitted part: its residuals made white, channels x frames.
+std::vector<Eigen::MatrixXd> white_residuals(const FittedModel& model,
+                                             const std::vector<NoiseModel>& noise);
+
+/// Residuals of the fitted part, or derivatives of them, made white, stacked: experiment, frame,
+/// channel; those not measured or far off left out.
 Eigen::VectorXd stacked(const std::vector<Eigen::MatrixXd>& matrices,
                         const std::vector<Eigen::MatrixXd>& measured_where,
-                        const std::vector<double>& sigmas);
+                        const std::vector<NoiseModel>& noise);
 
 /// Derivative of the stacked residuals of the fitted part by all unknowns.
-Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<double>& sigmas);
+Eigen::MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
 /// Root mean square over the fitted and the held-out parts of the difference of two models'
-/// predictions, in units of the noise.
+/// predictions, made white.
 double prediction_distance(const FittedModel& a, const FittedModel& b,
-                           const std::vector<double>& sigmas);
+                           const std::vector<NoiseModel>& noise);
 
 }  // namespace catena

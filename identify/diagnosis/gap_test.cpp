@@ -12,31 +12,32 @@ namespace catena {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas) {
+GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<NoiseModel>& noise,
+                 const std::vector<Index>& first) {
   GapTest test;
   double noise2 = 0, rms2 = 0, lag1 = 0, lag1_count = 0;
   double products = 0, pairs = 0, size = 0, count = 0;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
     const MatrixXd& r = residuals[e];
-    const double scale = 1 / (sigmas[e] * sigmas[e]);
+    const MatrixXd z = noise[e].whitened(r, first.empty() ? 0 : first[e]);
+    const double variance = noise[e].level * noise[e].level;
     const auto product = [&](Index c, Index k, Index d, Index l) {
-      const double value = r(c, k) * r(d, l);
-      return std::isnan(value) ? 0.0 : (pairs += 1, value * scale);
+      const double value = z(c, k) * z(d, l);
+      return std::isnan(value) ? 0.0 : (pairs += 1, value);
     };
     const Index lags = std::min<Index>(6, r.cols() / 10 + 1);
     for (Index c = 0; c < r.rows(); ++c)
       for (Index k = 0; k < r.cols(); ++k) {
-        const double value = r(c, k);
-        if (std::isnan(value)) continue;
+        if (std::isnan(z(c, k))) continue;
         count += 1;
-        noise2 += sigmas[e] * sigmas[e];
-        rms2 += value * value;
-        size += value * value * scale - 1;
+        noise2 += variance;
+        rms2 += r(c, k) * r(c, k);
+        size += z(c, k) * z(c, k) - 1;
         for (Index l = 1; l <= lags && k + l < r.cols(); ++l) products += product(c, k, c, k + l);
         if (c + 2 < r.rows())
           products += product(c, k, c + 2, k);  // side with side, down with down
-        if (k + 1 < r.cols() && !std::isnan(r(c, k + 1))) {
-          lag1 += value * r(c, k + 1);
+        if (k + 1 < r.cols() && !std::isnan(z(c, k + 1))) {
+          lag1 += variance * z(c, k) * z(c, k + 1);
           lag1_count += 1;
         }
       }

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
-                           const std::vector<double>& sigmas, int max_links,
+                           const std::vector<NoiseModel>& noise, int max_links,
                            DiagnosisContext& context) {
   FinerChain finer;
   const Case& the_case = model.problem->the_case();
@@ -42,23 +42,23 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
     }
     change[e] = prediction.simulated - model.predicted[e].leftCols(fitted);
   }
-  const ScoreTest test(stacked(model.fit_residual, model.fit_residual, sigmas),
-                       fitted_jacobian(model, sigmas));
-  const VectorXd left = test.project(stacked(change, model.fit_residual, sigmas));
-  const GapTest gap = fit_gap(model, sigmas);
+  const ScoreTest test(stacked(model.fit_residual, model.fit_residual, noise),
+                       fitted_jacobian(model, noise));
+  const VectorXd left = test.project(stacked(change, model.fit_residual, noise));
+  const GapTest gap = fit_gap(model, noise);
   finer.predicted = gap.noise * left.norm() / std::sqrt(static_cast<double>(left.size()));
   if (finer.predicted < kThresholds.links_worth_a_fit * gap.misfit) {
     finer.note = "the finer chain would change the prediction by a small part of the misfit only";
     return finer;
   }
   context.begin_task("refitting with " + std::to_string(finer.links) + " links");
-  finer.model = fit_model(problem, start, context.least_squares, context.stop);
+  finer.model = fit_model(problem, start, noise, context.least_squares, context.stop);
   if (!finer.model.ok) {
     finer.note = "the refit failed: " + finer.model.message;
     return finer;
   }
   finer.refitted = true;
-  finer.comparison = compare(model, finer.model, sigmas);
+  finer.comparison = compare(model, finer.model, noise);
   finer.taken = finer.comparison.misfit_share > kThresholds.links_worthwhile &&
                 finer.comparison.log10_p < kThresholds.certain;
   if (!finer.taken) finer.note = "refitted, and no better";
@@ -67,14 +67,14 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
 
 FittedModel refitted_with_links(const FittedModel& model, int links,
                                 const std::vector<std::string>& effects,
-                                DiagnosisContext& context) {
+                                const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
   std::string why_not;
   const std::optional<Case> other = with_links(model.problem->the_case(), links, why_not);
   if (!other) return {};
   const auto problem = std::make_shared<const Problem>(*other, context.model_with(effects, links));
   context.begin_task("refitting with " + std::to_string(links) + " links");
-  return fit_model(problem, transfer(*model.problem, model.x, *problem), context.least_squares,
-                   context.stop);
+  return fit_model(problem, transfer(*model.problem, model.x, *problem), noise,
+                   context.least_squares, context.stop);
 }
 
 }  // namespace catena

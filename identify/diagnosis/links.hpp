@@ -26,11 +26,12 @@ struct FinerChain {
 /// absorb, is no small part of the misfit, refits; taken if that explains a good part of the
 /// misfit.
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
-                           const std::vector<double>& sigmas, int max_links,
+                           const std::vector<NoiseModel>& noise, int max_links,
                            DiagnosisContext& context);
 
 /// The same model with another number of links, fitted; not ok where the case cannot have it.
 FittedModel refitted_with_links(const FittedModel& model, int links,
-                                const std::vector<std::string>& effects, DiagnosisContext& context);
+                                const std::vector<std::string>& effects,
+                                const std::vector<NoiseModel>& noise, DiagnosisContext& context);
 
 }  // namespace catena

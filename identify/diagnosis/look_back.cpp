@@ -46,12 +46,12 @@ Stage stage_without(DiagnosisState& state, const std::string& id,
   const auto problem =
       std::make_shared<const Problem>(the_case, context.model_with(others, the_case.links));
   without.model = fit_model(problem, transfer(*last.model.problem, last.model.x, *problem),
-                            context.least_squares, context.stop);
+                            state.found.noise, context.least_squares, context.stop);
   if (!without.model.ok) return {};
   without.effects = others;
   without.links = the_case.links;
-  without.fit = fit_gap(without.model, state.found.sigmas);
-  without.held_out = held_out_gap(without.model, state.found.sigmas);
+  without.fit = fit_gap(without.model, state.found.noise);
+  without.held_out = held_out_gap(without.model, state.found.noise);
   // Something that nearly fits may stand in the place of the right one.
   const bool nearly = gap_left(last) && last.fit.ratio() <= kThresholds.closed;
   if (!needless(state, without)) without.explanations = look(state, without.model, others, nearly);
@@ -73,9 +73,9 @@ Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
   weighed.effect = explanation.is_effect() ? state.context.find(explanation.id) : nullptr;
   const FittedModel& last = state.last().model;
   weighed.better = state.squares(explanation.model) < state.squares(last);
-  weighed.decision = weighed.better ? decide(explanation.model, last, state.found.sigmas)
-                                    : decide(last, explanation.model, state.found.sigmas);
-  weighed.predicts_worse = predicts_better(last, explanation.model, state.found.sigmas);
+  weighed.decision = weighed.better ? decide(explanation.model, last, state.found.noise)
+                                    : decide(last, explanation.model, state.found.noise);
+  weighed.predicts_worse = predicts_better(last, explanation.model, state.found.noise);
   return weighed;
 }
 
@@ -95,7 +95,7 @@ void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
 /// a better claim to the name, after entering its model; else nothing.
 std::string weigh_alternatives(DiagnosisState& state, const std::string& id, const Stage& without) {
   const Candidate& named = *state.context.find(id);
-  const std::vector<double>& sigmas = state.found.sigmas;
+  const std::vector<NoiseModel>& noise = state.found.noise;
   const Explanation* successor = nullptr;
   for (const Explanation& explanation : without.explanations) {
     if (!explanation.refitted || explanation.id == id) continue;
@@ -105,7 +105,7 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
                              !state.had(with(without.effects, explanation.id));
     // What was held out may decide, too.
     if (may_succeed && !successor && acceptable(state, without.model, explanation) &&
-        predicts_better(explanation.model, state.last().model, sigmas))
+        predicts_better(explanation.model, state.last().model, noise))
       successor = &explanation;
     if (may_succeed && weighed.better && weighed.decision.decided &&
         state.generalises(explanation.held_out) &&
@@ -121,7 +121,7 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
     sort_in(state.found, id, named, weighed, all);
   }
   if (!successor) return {};
-  state.enter(trim(successor->model, sigmas, state.context), with(without.effects, successor->id),
+  state.enter(trim(successor->model, noise, state.context), with(without.effects, successor->id),
               successor->id, id);
   return state.last().added;
 }
@@ -132,7 +132,7 @@ bool needless(const DiagnosisState& state, const Stage& without) {
   if (state.reopens_gap(without.model)) return false;
   const Stage& last = state.last();
   if (!without.fit.present || !predicts_as_well(last.held_out, without.held_out)) return true;
-  const Comparison gain = compare(without.model, last.model, state.found.sigmas);
+  const Comparison gain = compare(without.model, last.model, state.found.noise);
   return gain.log10_p + std::log10(std::max(1, state.found.tried)) > kThresholds.certain ||
          gain.misfit_share < kThresholds.worthwhile ||
          !more_than_a_detail(state, without.model, last.model);

@@ -34,7 +34,8 @@ Stage without_effects(DiagnosisState& state) {
   if (last_bare.links >= state.last().links) return last_bare;
   Stage finer;
   finer.links = state.last().links;
-  finer.model = refitted_with_links(last_bare.model, finer.links, {}, state.context);
+  finer.model =
+      refitted_with_links(last_bare.model, finer.links, {}, state.found.noise, state.context);
   if (!finer.model.ok) return last_bare;
   finer.explanations = look(state, finer.model, {});
   return finer;
@@ -52,7 +53,7 @@ bool looked_beside(const DiagnosisState& state, const std::string& id, int links
 /// beside which nothing was sought yet.
 std::vector<Explanation> firsts_on(const DiagnosisState& state, const Stage& base) {
   std::vector<Explanation> firsts =
-      best_effects(base.explanations, state.found.sigmas, base.explanations.size());
+      best_effects(base.explanations, state.found.noise, base.explanations.size());
   std::erase_if(firsts, [&](const Explanation& each) {
     return !(each.comparison.misfit_share > kThresholds.worthwhile) ||
            looked_beside(state, each.id, base.links);
@@ -69,7 +70,7 @@ bool has(const std::vector<Pair>& pairs, const std::string& a, const std::string
 /// Adds the pairs of `first` with what is best beside it that chance does not explain.
 void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& first,
                   std::vector<Pair>& pairs) {
-  const CandidateSearch search{state.context, first.model, {first.id}, state.found.sigmas};
+  const CandidateSearch search{state.context, first.model, {first.id}, state.found.noise};
   std::vector<Explanation> beside = CandidateScores(search).score(false);
   refit_best(search, beside, kThresholds.seconds_of_pairs, false);
   state.context.stop_if_asked();
@@ -79,7 +80,7 @@ void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& f
         second.comparison.misfit_share < kThresholds.worthwhile ||
         !predicts_as_well(second.held_out, first.held_out))
       continue;
-    const Comparison both = compare(base.model, second.model, state.found.sigmas);
+    const Comparison both = compare(base.model, second.model, state.found.noise);
     if (!has(pairs, first.id, second.id) && both.criterion < 0 &&
         both.log10_p + std::log10(ways) < kThresholds.certain)
       pairs.push_back({first, second, beside, {}});
@@ -95,8 +96,8 @@ void try_with_more_links(DiagnosisState& state, const Stage& base, std::vector<P
   context.begin("refitting pairs with more links", pairs.size());
   in_parallel(pairs.size(), context.threads, [&](std::size_t k) {
     Pair& pair = pairs[k];
-    pair.finer =
-        refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id}, context);
+    pair.finer = refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id},
+                                     state.found.noise, context);
   });
   context.stop_if_asked();
   for (Pair& pair : pairs)
@@ -127,14 +128,14 @@ bool add_pair(DiagnosisState& state) {
   if (!best || state.squares(best->best()) >= state.squares(state.last().model)) return false;
   // Of as many effects, others take their place only where the data decide.
   if ((explained(state.found.stages) || state.last().effects.size() >= 2) &&
-      !decide(best->best(), state.last().model, state.found.sigmas).decided)
+      !decide(best->best(), state.last().model, state.found.noise).decided)
     return false;
-  if (!state.generalises(held_out_gap(best->best(), state.found.sigmas)) ||
+  if (!state.generalises(held_out_gap(best->best(), state.found.noise)) ||
       state.reopens_gap(best->best()))
     return false;
   state.enter(best->first.model, {best->first.id}, best->first.id, listed(state.last().effects));
   state.last().explanations = best->beside;
-  state.enter(trim(best->second.model, state.found.sigmas, state.context),
+  state.enter(trim(best->second.model, state.found.noise, state.context),
               {best->first.id, best->second.id}, best->second.id);
   if (best->finer.ok) state.enter(best->finer, state.last().effects, kTooFewLinks);
   state.found.effects = state.last().effects;

@@ -13,15 +13,16 @@ namespace {
 constexpr std::size_t kRankedBlocks = 12;  // fewer could not be beyond chance of 1 in 1000
 constexpr std::size_t kRankSums = kRankedBlocks * (kRankedBlocks + 1) / 2 + 1;
 
-/// Of every held-out frame: by how much less `model` leaves.
+/// Of every held-out frame in which something was measured: by how much less `model` leaves.
 std::vector<double> leads(const FittedModel& model, const FittedModel& other,
-                          const std::vector<double>& sigmas) {
+                          const std::vector<NoiseModel>& noise) {
   std::vector<double> lead;
   for (std::size_t e = 0; e < model.held_out_residual.size(); ++e) {
     const Eigen::MatrixXd difference =
         (other.held_out_residual[e].cwiseAbs2() - model.held_out_residual[e].cwiseAbs2()) /
-        (sigmas[e] * sigmas[e]);
+        (noise[e].level * noise[e].level);
     for (Eigen::Index k = 0; k < difference.cols(); ++k) {
+      if (difference.col(k).array().isNaN().all()) continue;
       double sum = 0;
       for (const double value : difference.col(k)) sum += std::isnan(value) ? 0 : value;
       lead.push_back(sum);
@@ -45,10 +46,10 @@ double chance_of(std::size_t rank_sum) {
 }  // namespace
 
 double chance_of_lead(const FittedModel& model, const FittedModel& other,
-                      const std::vector<double>& sigmas) {
-  const std::vector<double> lead = leads(model, other, sigmas);
+                      const std::vector<NoiseModel>& noise) {
+  const std::vector<double> lead = leads(model, other, noise);
   const std::size_t length = lead.size() / kRankedBlocks;
-  if (length < 2) return 1;
+  if (lead.size() < kFewestFramesToCompare) return 1;
   std::array<double, kRankedBlocks> blocks{};
   for (std::size_t k = 0; k < kRankedBlocks * length; ++k) blocks[k / length] += lead[k];
   std::sort(blocks.begin(), blocks.end(),
@@ -60,10 +61,10 @@ double chance_of_lead(const FittedModel& model, const FittedModel& other,
 }
 
 bool predicts_better(const FittedModel& model, const FittedModel& other,
-                     const std::vector<double>& sigmas) {
-  return kThresholds.as_good_held_out * held_out_gap(model, sigmas).rms <
-             held_out_gap(other, sigmas).rms &&
-         chance_of_lead(model, other, sigmas) * kThresholds.odds < 1;
+                     const std::vector<NoiseModel>& noise) {
+  return kThresholds.as_good_held_out * held_out_gap(model, noise).rms <
+             held_out_gap(other, noise).rms &&
+         chance_of_lead(model, other, noise) * kThresholds.odds < 1;
 }
 
 }  // namespace catena

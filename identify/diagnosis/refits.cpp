@@ -39,14 +39,14 @@ void fit_from(const CandidateSearch& search, Explanation& explanation,
               const std::shared_ptr<const Problem>& problem, const VectorXd& start) {
   DiagnosisContext& context = search.context;
   if (context.stopped()) return;
-  FittedModel model = fit_model(problem, start, context.least_squares, context.stop);
-  if (!model.ok || (explanation.refitted && sum_of_squares(model, search.sigmas) >=
-                                                sum_of_squares(explanation.model, search.sigmas)))
+  FittedModel model = fit_model(problem, start, search.noise, context.least_squares, context.stop);
+  if (!model.ok || (explanation.refitted && sum_of_squares(model, search.noise) >=
+                                                sum_of_squares(explanation.model, search.noise)))
     return;
   explanation.refitted = true;
-  explanation.comparison = compare(search.base, model, search.sigmas);
-  explanation.fit = fit_gap(model, search.sigmas);
-  explanation.held_out = held_out_gap(model, search.sigmas);
+  explanation.comparison = compare(search.base, model, search.noise);
+  explanation.fit = fit_gap(model, search.noise);
+  explanation.held_out = held_out_gap(model, search.noise);
   explanation.model = std::move(model);
 }
 
@@ -107,7 +107,7 @@ void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, 
            candidate_of(search, *each).own_model;
   });
   std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
-    return sum_of_squares(a->model, search.sigmas) < sum_of_squares(b->model, search.sigmas);
+    return sum_of_squares(a->model, search.noise) < sum_of_squares(b->model, search.noise);
   });
   chosen.resize(std::min(chosen.size(), kThresholds.tried_elsewhere));
   if (chosen.empty()) return;

@@ -17,7 +17,7 @@ namespace {
 /// Takes more links if the data want them.
 bool take_more_links(DiagnosisState& state) {
   FinerChain& finer = state.last().finer;
-  finer = try_finer_chain(state.last().model, state.last().effects, state.found.sigmas,
+  finer = try_finer_chain(state.last().model, state.last().effects, state.found.noise,
                           state.options.max_links, state.context);
   if (finer.taken && state.reopens_gap(finer.model)) {
     finer.taken = false;
@@ -38,7 +38,7 @@ bool take_explanation(DiagnosisState& state) {
     effects.push_back(best->id);
   else
     state.found.freer_start = true;
-  state.enter(trim(best->model, state.found.sigmas, state.context), effects, best->id);
+  state.enter(trim(best->model, state.found.noise, state.context), effects, best->id);
   return true;
 }
 
@@ -65,7 +65,7 @@ std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
                               const std::vector<std::string>& effects, bool all) {
   DiagnosisContext& context = state.context;
   const bool far = state.far();
-  const CandidateSearch search{context, model, effects, state.found.sigmas};
+  const CandidateSearch search{context, model, effects, state.found.noise};
   CandidateScores scores(search);
   std::vector<Explanation> explanations = scores.score(false);
   refit_best(search, explanations,

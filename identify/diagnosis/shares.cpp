@@ -24,7 +24,7 @@ constexpr Index kScatterBlocks = 12;  // of a recording: fewer would say too lit
 // cover 83 to 88 % only.
 constexpr double kHalfWidth = 2.3;
 
-/// Of every frame of all recordings: the sum of the squares over the noise less the number of
+/// Of every frame of all recordings in which something was measured: the sum of the squares over the noise less the number of
 /// values, and that number.
 struct FrameSums {
   VectorXd excess, count;
@@ -36,12 +36,16 @@ FrameSums frame_sums(const std::vector<MatrixXd>& residuals, const std::vector<d
   FrameSums sums{VectorXd::Zero(frames), VectorXd::Zero(frames)};
   Index frame = 0;
   for (std::size_t e = 0; e < residuals.size(); ++e)
-    for (Index k = 0; k < residuals[e].cols(); ++k, ++frame)
+    for (Index k = 0; k < residuals[e].cols(); ++k) {
       for (const double value : residuals[e].col(k)) {
         if (std::isnan(value)) continue;
         sums.excess[frame] += value * value / (sigmas[e] * sigmas[e]) - 1;
         sums.count[frame] += 1;
       }
+      if (sums.count[frame] > 0) ++frame;
+    }
+  sums.excess.conservativeResize(frame);
+  sums.count.conservativeResize(frame);
   return sums;
 }
 
@@ -75,8 +79,8 @@ FittedModel fit_subset(DiagnosisState& state, const std::vector<std::string>& ke
   const auto problem =
       std::make_shared<const Problem>(the_case, context.model_with(kept, the_case.links));
   const auto fit_from = [&](const FittedModel& model) {
-    return fit_model(problem, transfer(*model.problem, model.x, *problem), context.least_squares,
-                     context.stop);
+    return fit_model(problem, transfer(*model.problem, model.x, *problem), state.found.noise,
+                     context.least_squares, context.stop);
   };
   FittedModel best = fit_from(whole);
   // From a far start a fit may end in a minimum of its own. The model without effects was fitted
@@ -156,11 +160,12 @@ Shares shares_of(DiagnosisState& state) {
   }
   constexpr unsigned kSeed = 1;
   Shares result;
-  const std::vector<ShareInterval> in_fit = share_intervals(fitted, state.found.sigmas, kSeed);
+  const std::vector<ShareInterval> in_fit =
+      share_intervals(fitted, levels(state.found.noise), kSeed);
   if (in_fit.empty()) return {};
   result.has_held_out = state.found.final_held_out.count > 0;
   const std::vector<ShareInterval> later =
-      result.has_held_out ? share_intervals(held_out, state.found.sigmas, kSeed)
+      result.has_held_out ? share_intervals(held_out, levels(state.found.noise), kSeed)
                           : std::vector<ShareInterval>(in_fit.size());
   if (later.empty()) return {};
   for (std::size_t i = 0; i < effects.size(); ++i)

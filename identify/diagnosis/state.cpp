@@ -13,11 +13,14 @@
 namespace catena {
 namespace {
 
-/// The noise once this model is the best.
-std::vector<double> lowest(std::vector<double> sigmas, const std::vector<double>& levels) {
-  for (std::size_t e = 0; e < levels.size(); ++e)
-    if (levels[e] < sigmas[e]) sigmas[e] = levels[e];
-  return sigmas;
+/// The noise once this model is the best. What was told from white noise of one size goes first; then
+/// the lower, for what a model misses makes it larger.
+std::vector<NoiseModel> best_known(std::vector<NoiseModel> noise,
+                                   const std::vector<NoiseModel>& of_model) {
+  for (std::size_t e = 0; e < noise.size(); ++e)
+    if (of_model[e].told != noise[e].told ? of_model[e].told : of_model[e].level < noise[e].level)
+      noise[e] = of_model[e];
+  return noise;
 }
 
 std::string described(const Stage& stage) {
@@ -30,31 +33,30 @@ std::string described(const Stage& stage) {
 
 void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
                            const std::string& added, const std::string& removed) {
-  const std::vector<double> levels = noise_levels(model);
-  if (found.sigmas.empty()) {
-    for (const double level : levels) {
-      if (!(level > 0))
+  const std::vector<NoiseModel> of_model = noise_of(model);
+  if (found.noise.empty()) {
+    for (const NoiseModel& each : of_model)
+      if (!(each.level > 0))
         throw InputError(
             "too few neighbouring frames to estimate the noise: give `noise` in the "
             "experiment");
-      found.sigmas.push_back(level);
-    }
+    found.noise = of_model;
   }
-  found.sigmas = lowest(found.sigmas, levels);
+  found.noise = best_known(found.noise, of_model);
   Stage next;
   next.effects = std::move(effects);
   next.added = added;
   next.removed = removed;
   next.links = model.problem->the_case().links;
-  next.fit = fit_gap(model, found.sigmas);
-  next.held_out = held_out_gap(model, found.sigmas);
+  next.fit = fit_gap(model, found.noise);
+  next.held_out = held_out_gap(model, found.noise);
   next.model = std::move(model);
   found.stages.push_back(std::move(next));
   context.tell_best(described(last()));
 }
 
 double DiagnosisState::squares(const FittedModel& model) const {
-  return sum_of_squares(model, found.sigmas);
+  return sum_of_squares(model, found.noise);
 }
 
 bool DiagnosisState::far() const { return last().fit.ratio() > kThresholds.far; }
@@ -64,9 +66,9 @@ bool DiagnosisState::generalises(const GapTest& held_out) const {
 }
 
 bool DiagnosisState::reopens_gap(const FittedModel& model) const {
-  const std::vector<double> sigmas = lowest(found.sigmas, noise_levels(model));
+  const std::vector<NoiseModel> noise = best_known(found.noise, noise_of(model));
   return !gap_left(last().fit, last().held_out) &&
-         gap_left(fit_gap(model, sigmas), held_out_gap(model, sigmas));
+         gap_left(fit_gap(model, noise), held_out_gap(model, noise));
 }
 
 bool DiagnosisState::had(std::vector<std::string> effects) const {

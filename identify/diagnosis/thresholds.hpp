@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "identify/forces/force_law.hpp"
+
 namespace catena {
 
 /// Every number on which a verdict depends. Each says its unit, its reason, and the evidence.
@@ -78,6 +80,9 @@ struct DiagnosisThresholds {
   /// Share of the squared misfit that more links must remove. Chosen; half of `worthwhile`, for a
   /// cable has no links and their number needs no name.
   double links_worthwhile = 0.05;
+
+  /// Does the missing force follow a law? (forces/force_law.cpp)
+  LawThresholds law;
 
   // How far is looked? (search.cpp, refits.cpp, pairs.cpp, look_back.cpp)
 

@@ -31,10 +31,10 @@ const CandidateParameter* parameter_of(const Candidate& candidate, const std::st
 
 }  // namespace
 
-FittedModel trim(const FittedModel& model, const std::vector<double>& sigmas,
+FittedModel trim(const FittedModel& model, const std::vector<NoiseModel>& noise,
                  DiagnosisContext& context) {
   const Problem& problem = *model.problem;
-  const VectorXd errors = standard_errors(model, sigmas);
+  const VectorXd errors = standard_errors(model, noise);
   Case smaller = problem.with(model.x);
   int dropped = 0;
   std::vector<std::string> fixed;
@@ -67,14 +67,14 @@ FittedModel trim(const FittedModel& model, const std::vector<double>& sigmas,
   }
   if (dropped == 0) return model;
   const auto simpler = std::make_shared<const Problem>(smaller, problem.model());
-  FittedModel refitted =
-      fit_model(simpler, transfer(problem, model.x, *simpler), context.least_squares, context.stop);
+  FittedModel refitted = fit_model(simpler, transfer(problem, model.x, *simpler), noise,
+                                   context.least_squares, context.stop);
   if (!refitted.ok) return model;
   const double allowed =
-      dropped * std::log(static_cast<double>(std::max(2L, fit_gap(model, sigmas).count)));
-  const bool as_good = sum_of_squares(refitted, sigmas) < sum_of_squares(model, sigmas) + allowed;
-  const bool opens_gap = gap_left(fit_gap(refitted, sigmas), held_out_gap(refitted, sigmas)) &&
-                         !gap_left(fit_gap(model, sigmas), held_out_gap(model, sigmas));
+      dropped * std::log(static_cast<double>(std::max(2L, fit_gap(model, noise).count)));
+  const bool as_good = sum_of_squares(refitted, noise) < sum_of_squares(model, noise) + allowed;
+  const bool opens_gap = gap_left(fit_gap(refitted, noise), held_out_gap(refitted, noise)) &&
+                         !gap_left(fit_gap(model, noise), held_out_gap(model, noise));
   return as_good && !opens_gap ? refitted : model;
 }
 

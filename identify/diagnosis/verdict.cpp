@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/same_model.hpp"
+#include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/wrong_knowns.hpp"
 
 namespace catena {
 namespace {
@@ -64,21 +67,33 @@ std::string remainder_in_words(const Diagnosis& found) {
   const char* const unit = angles ? "mrad" : "mm";
   std::string words = fmt::format("{:.3g} {} are left, {:.3g} times the noise",
                                   1e3 * found.final_fit.rms, unit, found.final_fit.ratio());
-  if (found.final_held_out.count > 0)
+  const double sealed = sealed_rms(found.final);
+  if (!std::isnan(sealed))
+    words += fmt::format(" ({:.3g} {} in the sealed part)", 1e3 * sealed, unit);
+  else if (found.final_held_out.count > 0)
     words +=
         fmt::format(" ({:.3g} {} where it was not fitted)", 1e3 * found.final_held_out.rms, unit);
-  for (const std::string& place : residual_places(found.final, found.sigmas).words)
+  for (const std::string& place : residual_places(found.final, levels(found.noise)).words)
     words += ", " + place;
   return words;
 }
 
-std::string sentence_of_partly(const Diagnosis& found) {
-  std::string sentence = fmt::format("Missing, but not alone: {}. {}.", listed(found.certain),
-                                     shares_in_words(found, found.certain));
-  std::vector<std::string> doubtful;
+/// "joint_hysteresis (or joint_dry_friction)"
+std::string with_rivals(const Diagnosis& found, const std::string& effect) {
+  std::vector<std::string> rivals;
+  for (const Alternative& other : found.alternatives)
+    if (other.instead_of == effect) rivals.push_back(other.explanation.id);
+  return rivals.empty() ? effect : fmt::format("{} (or {})", effect, listed(rivals));
+}
+
+/// `stand`: effects that stand, each by itself or as one of several that the data do not tell apart.
+std::string sentence_of_partly(const Diagnosis& found, const std::vector<std::string>& stand) {
+  std::vector<std::string> named, doubtful;
+  for (const std::string& id : stand) named.push_back(with_rivals(found, id));
+  std::string sentence =
+      fmt::format("Missing, but not alone: {}. {}.", listed(named), shares_in_words(found, stand));
   for (const std::string& id : found.effects)
-    if (std::find(found.certain.begin(), found.certain.end(), id) == found.certain.end())
-      doubtful.push_back(id);
+    if (std::find(stand.begin(), stand.end(), id) == stand.end()) doubtful.push_back(id);
   if (!doubtful.empty())
     sentence += fmt::format(" Not certain: {}.", shares_in_words(found, doubtful));
   return sentence + fmt::format(" {} stays: {}.", in_percent(found.shares.left_fitted),
@@ -106,6 +121,38 @@ std::string sentence_of_effects(const Diagnosis& found) {
   for (const Alternative& alternative : found.alternatives)
     others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
   return sentence + " These data do not decide against " + listed(others) + ".";
+}
+
+/// "Missing, and in no library: side force = -linear x (side position - rest) at arc length 1.24 m
+/// (discovered_law)."
+std::string sentence_of_law(const Diagnosis& found, bool is_closed) {
+  const MissingForce& force = *found.force;
+  const bool torque = force.best->arc_length == 0;
+  std::string sentence = fmt::format(
+      "Missing, and in no library: {}{} ({}).", force.law->formula.text,
+      torque ? std::string() : fmt::format(" at arc length {:.3g} m", force.best->arc_length),
+      found.law);
+  if (!force.law->rivals.empty())
+    sentence += fmt::format(" These data do not tell it from {} other formula{}.",
+                            force.law->rivals.size(), force.law->rivals.size() > 1 ? "s" : "");
+  if (!found.shares.empty()) sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
+  return is_closed ? sentence
+                   : sentence + fmt::format(" {} stays: {}.", in_percent(found.shares.left_fitted),
+                                            remainder_in_words(found));
+}
+
+/// Of the effects that are certain: " The load is 2.1 % (1.8 to 2.4) heavier than the case says."
+std::string wrong_knowns_in_words(const DiagnosisState& state) {
+  std::string words;
+  for (const std::string& id : state.found.certain)
+    for (std::string sentence :
+         wrong_knowns(state.context.find(id)->effect, state.found.parameters,
+                      state.found.final.problem->the_case().cable.load_mass)) {
+      sentence.front() =
+          static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+      words += fmt::format(" {}.", sentence);
+    }
+  return words;
 }
 
 }  // namespace
@@ -150,20 +197,17 @@ bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
              kThresholds.imitated * std::pow(last_without_effects(stages).fit.misfit, 2);
 }
 
-std::vector<std::string> certain_effects(const Diagnosis& found) {
-  std::vector<std::string> certain;
+std::vector<std::string> standing_effects(const Diagnosis& found) {
+  std::vector<std::string> stand;
   for (const EffectShare& share : found.shares.effects) {
-    const bool rivalled =
-        std::any_of(found.alternatives.begin(), found.alternatives.end(),
-                    [&](const Alternative& other) { return other.instead_of == share.effect; });
     const bool predicts = !found.shares.has_held_out || share.held_out.lower > 0;
     const double most = found.shares.has_held_out
                             ? std::max(share.fitted.lower, share.held_out.lower)
                             : share.fitted.lower;
-    if (!rivalled && predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile)
-      certain.push_back(share.effect);
+    if (predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile)
+      stand.push_back(share.effect);
   }
-  return certain;
+  return stand;
 }
 
 void conclude(DiagnosisState& state, const Case& asked) {
@@ -172,17 +216,21 @@ void conclude(DiagnosisState& state, const Case& asked) {
   const Stage& last = found.stages.back();
   found.final = last.model;
   make_final_model(found, asked, state.context);
-  found.final_fit = fit_gap(found.final, found.sigmas);
-  found.final_held_out = held_out_gap(found.final, found.sigmas);
+  found.final_fit = fit_gap(found.final, found.noise);
+  found.final_held_out = held_out_gap(found.final, found.noise);
   found.parameters = final_parameters(found);
   found.shares = shares_of(state);
+  const auto note = [&](const std::string& words) {  // a discovery concludes twice
+    if (std::find(found.notes.begin(), found.notes.end(), words) == found.notes.end())
+      found.notes.push_back(words);
+  };
   const auto same = names_of_same_models(state.context.library(),
                                          state.context.model_with_all(found.stages.back().links));
   for (const auto& [other, name] : same)
     if (std::find(found.effects.begin(), found.effects.end(), name) != found.effects.end())
-      found.notes.push_back(other + " is the same model as " + name + " here");
-  for (const std::string& words : noise_in_words(found.final))
-    found.notes.push_back("noise of " + words);
+      note(fmt::format("{} is the same model as {} here", other, name));
+  for (const std::string& words : noise_in_words(found.final, found.noise))
+    note("noise of " + words);
 
   const bool is_closed =
       closed(found.stages, !found.effects.empty(), found.final_fit, found.final_held_out);
@@ -194,11 +242,19 @@ void conclude(DiagnosisState& state, const Case& asked) {
     return;
   }
   if (!is_closed || found.effects.empty()) {
-    found.certain = certain_effects(found);
-    found.verdict =
-        found.certain.empty() ? DiagnosisVerdict::kUnexplained : DiagnosisVerdict::kPartly;
-    found.sentence = found.certain.empty() ? sentence_of_unexplained(found, state.options)
-                                           : sentence_of_partly(found);
+    const std::vector<std::string> stand = standing_effects(found);
+    found.certain.clear();
+    for (const std::string& id : stand)
+      if (with_rivals(found, id) == id) found.certain.push_back(id);
+    if (std::find(found.certain.begin(), found.certain.end(), found.law) != found.certain.end()) {
+      found.verdict = DiagnosisVerdict::kDiscovered;
+      found.sentence = sentence_of_law(found, false) + wrong_knowns_in_words(state);
+      return;
+    }
+    found.verdict = stand.empty() ? DiagnosisVerdict::kUnexplained : DiagnosisVerdict::kPartly;
+    found.sentence = stand.empty()
+                         ? sentence_of_unexplained(found, state.options)
+                         : sentence_of_partly(found, stand) + wrong_knowns_in_words(state);
     return;
   }
   std::erase_if(found.alternatives, [](const Alternative& alternative) {
@@ -208,7 +264,9 @@ void conclude(DiagnosisState& state, const Case& asked) {
   found.verdict =
       found.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
   if (found.alternatives.empty()) found.certain = found.effects;
-  found.sentence = sentence_of_effects(found);
+  if (!found.law.empty()) found.verdict = DiagnosisVerdict::kDiscovered;
+  found.sentence = (found.law.empty() ? sentence_of_effects(found) : sentence_of_law(found, true)) +
+                   wrong_knowns_in_words(state);
 }
 
 const char* name_of(DiagnosisVerdict verdict) {
@@ -221,6 +279,8 @@ const char* name_of(DiagnosisVerdict verdict) {
       return "ambiguous";
     case DiagnosisVerdict::kPartly:
       return "partly";
+    case DiagnosisVerdict::kDiscovered:
+      return "discovered";
     case DiagnosisVerdict::kUnexplained:
       return "unexplained";
   }

@@ -36,8 +36,8 @@ bool only_imitated(const std::vector<Stage>& stages, const GapTest& last);
 
 /// Effects that stand whatever else is missing: each takes some of the misfit away where it was
 /// fitted and where it was not, a good part in one of them (which one depends on where the recording
-/// was cut), and nothing that was tried in its place does as well.
-std::vector<std::string> certain_effects(const Diagnosis& found);
+/// was cut). Where the data do not decide against others in its place, one of them is what stands.
+std::vector<std::string> standing_effects(const Diagnosis& found);
 
 /// Divides the misfit among the effects, fits the final model as `asked` says, and tells what the
 /// stages amount to. Throws

@@ -33,6 +33,13 @@ void thin_out(Recording& recording, Index every) {
   recording.fit_frames = kept;
 }
 
+/// Noise of which nothing is known but its level.
+std::shared_ptr<const NoiseModel> white_noise(double level) {
+  NoiseModel noise;
+  noise.level = level;
+  return std::make_shared<const NoiseModel>(std::move(noise));
+}
+
 }  // namespace
 
 Problem shortened(const Problem& problem, double seconds) {
@@ -93,7 +100,9 @@ Problem rough(const Problem& problem) {
     if (!experiment.fitted()) continue;
     const Index every = std::min(experiment.recording.fit_frames / kRoughFrames,
                                  values / std::max<Index>(enough, 1));
-    if (every >= 2) thin_out(experiment.recording, every);
+    if (every < 2) continue;
+    thin_out(experiment.recording, every);
+    if (experiment.noise) experiment.noise = white_noise(experiment.noise->level);
   }
   return Problem(std::move(the_case), problem.model(), std::move(experiments));
 }

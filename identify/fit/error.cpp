@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/fit/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -73,6 +74,46 @@ Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Par
   return residuals;
 }
 
+Residuals fitted_residuals(const Problem& problem, const Evaluation& evaluation) {
+  Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
+  const std::vector<Experiment>& experiments = problem.experiments();
+  std::vector<bool> kept(residuals.index.size(), true);
+  for (std::size_t first = 0, last = 0; first < kept.size(); first = last) {
+    const auto e = static_cast<std::size_t>(residuals.index[first].experiment);
+    while (last < kept.size() &&
+           residuals.index[last].experiment == residuals.index[first].experiment)
+      ++last;
+    if (!experiments[e].noise) continue;
+    const Recording& recording = experiments[e].recording;
+    Eigen::MatrixXd matrix =
+        Eigen::MatrixXd::Constant(recording.measured.rows(), recording.fit_frames, kNotGiven);
+    const auto make_white = [&](auto&& values) {
+      for (std::size_t i = first; i < last; ++i)
+        matrix(residuals.index[i].channel, residuals.index[i].frame) =
+            values[static_cast<Index>(i)];
+      const Eigen::MatrixXd white = experiments[e].noise->whitened(matrix);
+      for (std::size_t i = first; i < last; ++i)
+        values[static_cast<Index>(i)] = white(residuals.index[i].channel, residuals.index[i].frame);
+    };
+    make_white(residuals.value);
+    for (std::size_t i = first; i < last; ++i)
+      kept[i] = !std::isnan(residuals.value[static_cast<Index>(i)]);
+    for (Index j = 0; j < residuals.jacobian.cols(); ++j) make_white(residuals.jacobian.col(j));
+  }
+  if (std::find(kept.begin(), kept.end(), false) == kept.end()) return residuals;
+  Residuals seen;
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) {
+      rows.push_back(static_cast<Index>(i));
+      seen.index.push_back(residuals.index[i]);
+    }
+  seen.value = residuals.value(rows);
+  seen.jacobian =
+      residuals.jacobian(residuals.jacobian.rows() > 0 ? rows : std::vector<Index>{}, Eigen::all);
+  return seen;
+}
+
 std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals) {
   std::vector<Distance> out;
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
@@ -112,8 +153,8 @@ SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& ev
     const Prediction& here = evaluation.predictions[e];
     const Prediction& next = evaluation.predictions[static_cast<std::size_t>(experiment.meets)];
     defects.value.segment(row, size) = here.last - next.first;
-    const double noise = std::isnan(experiment.spec.noise) ? 1 : experiment.spec.noise;
-    defects.weight.segment(row, size).setConstant(experiment.defect_weight / noise);
+    defects.weight.segment(row, size).setConstant(experiment.defect_weight /
+                                                  experiment.noise_level());
     if (evaluation.with_jacobian)
       defects.jacobian.middleRows(row, size) = here.last_along - next.first_along;
     row += size;
@@ -162,9 +203,9 @@ Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
     return noise;
   }
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
-    const double given =
-        problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)].spec.noise;
-    noise[static_cast<Index>(i)] = std::isnan(given) ? 1 : given;
+    const Experiment& experiment =
+        problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)];
+    noise[static_cast<Index>(i)] = experiment.noise ? 1 : experiment.noise_level();
   }
   return noise;
 }
@@ -250,13 +291,16 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
   if (!evaluation.ok) return kInfinite;
   const SoftConstraints constraints =
       part == Part::kFit ? constraints_of(problem, evaluation) : SoftConstraints{};
-  return error_of(problem, residuals_of(problem, evaluation, part), constraints);
+  return error_of(problem,
+                  part == Part::kFit ? fitted_residuals(problem, evaluation)
+                                     : residuals_of(problem, evaluation, part),
+                  constraints);
 }
 
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
   if (!evaluation.ok) return {false, {}, {}, kInfinite};
-  Misfit misfit{true, residuals_of(problem, evaluation, Part::kFit),
-                constraints_of(problem, evaluation), 0};
+  Misfit misfit{true, fitted_residuals(problem, evaluation), constraints_of(problem, evaluation),
+                0};
   misfit.error = error_of(problem, misfit.residuals, misfit.constraints);
   return misfit;
 }

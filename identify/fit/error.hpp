@@ -27,6 +27,10 @@ struct Residuals {
 /// The residuals of an evaluation of the problem. `evaluation` must be ok.
 Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
+/// What a fit makes small: the residuals of the fitted part. Those of an experiment with a noise model
+/// are made white with it, and are then in units of the noise; values far off are left out.
+Residuals fitted_residuals(const Problem& problem, const Evaluation& evaluation);
+
 /// Neighbouring residuals of the same marker and frame (side and down), or one angle: together a
 /// distance.
 struct Distance {
@@ -50,8 +54,9 @@ SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& ev
 /// was measured, in its unit.
 SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation);
 
-/// The noise sigma of each residual, m or rad: the experiment's, or 1 where it states none. Under
-/// the likelihood: what the residuals of its channel show, see channels_of.
+/// The noise sigma of each fitted residual, m or rad: the experiment's, or 1 where it states none and
+/// where the residuals are white already. Under the likelihood: what the residuals of its channel show,
+/// see channels_of.
 Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals);
 
 /// One channel of one recording, over all its windows.

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/fit/fit_journal.hpp"
 
-#include <time.h>
-
 #include <cmath>
 
+#include "common/cpu_seconds.hpp"
 #include "common/special_values.hpp"
 
 namespace catena {
 namespace {
 
 constexpr std::size_t kFailuresKept = 100;
-
-double cpu_now() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 }  // namespace
 
@@ -26,7 +19,7 @@ FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int ma
   result_.error = kInfinite;
   result_.start_error = kInfinite;
   roughly_best_.error = kInfinite;
-  cpu_begin_ = cpu_now();
+  cpu_begin_ = cpu_seconds();
 }
 
 double FitJournal::seconds() const {
@@ -141,7 +134,7 @@ FitResult FitJournal::result(FitStatus status, const std::string& message) {
   if (!std::isfinite(result_.error) && !result_.failed.empty())
     result_.message = "no simulation succeeded; the first: " + result_.failed.front().message;
   result_.seconds = seconds();
-  result_.cpu_seconds = cpu_now() - cpu_begin_;
+  result_.cpu_seconds = cpu_seconds() - cpu_begin_;
   return result_;
 }
 

@@ -63,15 +63,31 @@ std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int
   return results;
 }
 
-int recommended_links(const std::vector<LinksResult>& results, double budget) {
+namespace {
+
+double least_error(const std::vector<LinksResult>& results) {
   double least = std::numeric_limits<double>::infinity();
-  for (const LinksResult& result : results) least = std::min(least, result.fit.error);
+  for (const LinksResult& result : results) least = std::fmin(least, result.fit.error);
+  return least;
+}
+
+}  // namespace
+
+int recommended_links(const std::vector<LinksResult>& results, double budget) {
+  const double most = (1 + budget) * least_error(results);
   int fewest = -1;
   for (const LinksResult& result : results)
-    if (std::isfinite(result.fit.error) && result.fit.error <= (1 + budget) * least &&
+    if (std::isfinite(result.fit.error) && result.fit.error <= most &&
         (fewest < 0 || result.links < fewest))
       fewest = result.links;
   return fewest;
+}
+
+bool more_links_are_worse(const std::vector<LinksResult>& results, double budget) {
+  const auto finest = std::max_element(
+      results.begin(), results.end(),
+      [](const LinksResult& a, const LinksResult& b) { return a.links < b.links; });
+  return finest != results.end() && finest->fit.error > (1 + budget) * least_error(results);
 }
 
 }  // namespace catena

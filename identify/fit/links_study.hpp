@@ -30,4 +30,8 @@ std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int
 /// succeeded.
 int recommended_links(const std::vector<LinksResult>& results, double budget);
 
+/// Whether the most links leave more than (1 + budget) times the least error. Finer chains of a right
+/// model leave less.
+bool more_links_are_worse(const std::vector<LinksResult>& results, double budget);
+
 }  // namespace catena

@@ -85,7 +85,7 @@ std::string run_derivation(const fs::path& derive, const Description& descriptio
   std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
   command.insert(command.end(), options.begin(), options.end());
   std::map<std::string, std::string> originals;
-  if (!description.effects.empty()) {
+  if (!is_plain_chain(description)) {
     const Description copy = copy_as_read(description, copies.path());
     command.insert(command.end(), {"--description", copy.source_file});
     originals[copy.source_file] = description.source_file;
@@ -132,10 +132,10 @@ std::string derived_equations(const fs::path& description, int links) {
 
 Model provide_model(const fs::path& description_file, int links, const ProviderOptions& options) {
   const Description description = description_in(description_file);
-  if (description.effects.empty() && Model::has_built_in(links)) return Model::built_in(links);
+  const bool plain = is_plain_chain(description);
+  if (plain && Model::has_built_in(links)) return Model::built_in(links);
 
-  const bool any_links =
-      description.effects.empty() && links >= kFewestLinks && links <= kMostLinks;
+  const bool any_links = plain && links >= kFewestLinks && links <= kMostLinks;
   if (any_links && options.for_fits) return any_links_model(links);
   const auto without_compiling = [&](const std::string& missing) {
     if (options.notice)

@@ -113,16 +113,16 @@ void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedP
 }
 
 /// Shape, then sizes, of noise whose sizes were known roughly; the first time, not at all. False if
-/// the motion fills the band.
+/// the motion fills the band, or too few channels are there to compare: a misfit is smooth as
+/// smoothed noise is, but alike in neighbouring channels.
 bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& expected) {
   const NoiseBand band = noise_band(segments, noise.direction);
-  if (band.share == 0) return false;
+  if (band.share == 0 || !band.compared) return false;
   if (noise.sigma.size() == 0) {
     noise.sigma = band.sigma;
     noise.common = VectorXd::Zero(band.sigma.size());
   }
-  noise.shape = fit_noise_shape(expected, whitened_power(segments, noise), band.use, segments.seen,
-                                band.compared);
+  noise.shape = fit_noise_shape(expected, whitened_power(segments, noise), band.use, segments.seen);
   find_sizes(segments, band, expected, noise);
   return true;
 }

@@ -20,8 +20,8 @@ std::vector<std::string> NoiseModel::words() const {
   std::vector<std::string> words;
   if (!told)
     words.emplace_back(
-        "the motion fills the frequencies that were recorded; noise cannot be told from what the "
-        "model misses");
+        "fewer than 4 markers, or motion at all frequencies that were recorded: noise cannot be "
+        "told from what the model misses");
   const SmoothingKernel& smoothing = shape.smoothing();
   if (smoothing.frames() > 1)
     words.push_back(fmt::format("the tracks look smoothed over {} frames ({})", smoothing.frames(),
@@ -45,6 +45,7 @@ std::vector<std::string> NoiseModel::words() const {
 }
 
 MatrixXd NoiseModel::whitened(const MatrixXd& matrix, Index first) const {
+  if (sigma.size() == 0) return matrix / level;
   MatrixXd white =
       MatrixXd::Constant(matrix.rows(), matrix.cols(), std::numeric_limits<double>::quiet_NaN());
   const auto number = [&](Index k) { return frame[static_cast<std::size_t>(first + k)]; };
@@ -74,6 +75,13 @@ MatrixXd NoiseModel::whitened(const MatrixXd& matrix, Index first) const {
     }
   }
   return white;
+}
+
+std::vector<double> levels(const std::vector<NoiseModel>& noise) {
+  std::vector<double> levels;
+  levels.reserve(noise.size());
+  for (const NoiseModel& each : noise) levels.push_back(each.level);
+  return levels;
 }
 
 void take_out_common(VectorXd& x, const VectorXd& a) {

@@ -215,7 +215,7 @@ class Whittle {
 }  // namespace
 
 NoiseShape fit_noise_shape(const ExpectedPower& expected, const VectorXd& power,
-                           const std::vector<bool>& use, double count, bool correlated) {
+                           const std::vector<bool>& use, double count) {
   const Whittle whittle(expected, power, use, count);
   struct Fit {
     double criterion, misfit;
@@ -230,10 +230,10 @@ NoiseShape fit_noise_shape(const ExpectedPower& expected, const VectorXd& power,
   const auto better = [](const Fit& a, const Fit& b) { return a.criterion < b.criterion; };
   for (std::size_t k = 0; k < smoothing_kernels().size(); ++k) {
     fit({static_cast<int>(k), {}});
-    if (correlated) fit({static_cast<int>(k), {0.0}});
+    fit({static_cast<int>(k), {0.0}});
   }
   // More than that beside a smoothing would imitate any spectrum.
-  for (NoiseShape shape = fits[1].shape; correlated && shape.partial.size() < kHighestOrder;) {
+  for (NoiseShape shape = fits[1].shape; shape.partial.size() < kHighestOrder;) {
     shape.partial.push_back(0);
     fit(shape);
     shape = fits.back().shape;

@@ -52,8 +52,7 @@ class ExpectedPower {
 /// The shape that explains `power` best, by Whittle's likelihood and the Bayesian information
 /// criterion. `use`: the frequencies that show the noise. What they leave open is decided by the
 /// others, so that what can be noise is taken as noise. `count`: the residuals behind `power`.
-/// `correlated`: whether an autoregression is a choice.
 NoiseShape fit_noise_shape(const ExpectedPower& expected, const Eigen::VectorXd& power,
-                           const std::vector<bool>& use, double count, bool correlated);
+                           const std::vector<bool>& use, double count);
 
 }  // namespace catena

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <vector>
 
 #include "identify/cases/case.hpp"
+#include "identify/noise/noise_model.hpp"
 #include "identify/problem/parameter_map.hpp"
 #include "identify/recordings/recording.hpp"
 #include "runtime/model.hpp"
@@ -23,6 +26,15 @@ struct Experiment {
   /// What a shooting defect costs, as a multiple of a residual of the same number: so much that it
   /// closes. Lower while a fit is on its way.
   double defect_weight = 1e4;
+  /// With which least squares make the fitted residuals white; none: they stay as they are, weighed
+  /// with the noise that the case states.
+  std::shared_ptr<const NoiseModel> noise = {};
+
+  /// m or rad: what the fitted residuals are divided by; 1 where nothing is known of the noise.
+  double noise_level() const {
+    if (noise) return noise->level;
+    return std::isnan(spec.noise) ? 1 : spec.noise;
+  }
 
   /// Whether any of its frames are fitted; else it only validates.
   bool fitted() const { return spec.use == Use::kFit && recording.fit_frames > 0; }

@@ -74,6 +74,19 @@ double common_angle(const Recording& recording) {
   return 0;
 }
 
+/// The state whose links lie in the plane of side and down, turned to the azimuths.
+State in_azimuths(const Model& model, const State& in_plane, const Eigen::VectorXd& rates,
+                  const InitialSpec& initial) {
+  const Eigen::Index n = model.links();
+  const auto of_links = [&](const std::vector<double>& values) -> Eigen::VectorXd {
+    return values.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : as_vector(values);
+  };
+  Eigen::VectorXd angles(n);
+  for (Eigen::Index i = 0; i < n; ++i) angles[i] = std::atan2(in_plane.q[i], in_plane.q[n + i]);
+  return from_directions(
+      model, {angles, of_links(initial.azimuths), rates, of_links(initial.azimuth_rates)});
+}
+
 }  // namespace
 
 int coefficient_count(Shape shape, int links, int terms) {
@@ -132,9 +145,11 @@ State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
       throw ImpossibleValue("hanging equilibrium: " + equilibrium.message);
     state = equilibrium.state;
   } else {
-    state.q.head(model.links()) = initial_angles(initial, lengths);
+    state = from_angles(model, initial_angles(initial, lengths));
   }
-  state.v.head(model.links()) = initial_rates(initial, lengths);
+  const Eigen::VectorXd rates = initial_rates(initial, lengths);
+  if (model.in_space()) return in_azimuths(model, state, rates, initial);
+  state.v.head(model.links()) = rates;
   return state;
 }
 

@@ -31,15 +31,18 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
   if (keep_going) options.keep_going = keep_going;
   Motion motion;
   motion.simulation = simulate(model, parameters, initial, times, options, signals);
-  const Trajectory& path = motion.simulation.trajectory;
+  Trajectory& path = motion.simulation.trajectory;
+  if (model.in_space()) normalise_directions(path);
   const auto count = static_cast<Eigen::Index>(path.time.size());
   motion.side.resize(model.links() + 2, count);
   motion.down.resize(model.links() + 2, count);
+  if (model.in_space()) motion.across.resize(model.links() + 2, count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Positions at = positions(model, parameters, path.time[static_cast<std::size_t>(k)],
                                    path.q.col(k), signals);
     motion.side.col(k) = at.side;
     motion.down.col(k) = at.down;
+    if (model.in_space()) motion.across.col(k) = at.across;
   }
   if (motion.simulation.status == Status::kSuccess && model.table().internal_forces != nullptr)
     motion.forces = internal_forces(model, parameters, path, signals);

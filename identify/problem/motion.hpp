@@ -15,7 +15,8 @@ struct Motion {
   Simulation simulation;
   /// m, (links + 2) x times: the support, the far end of each link, the load.
   Eigen::MatrixXd side, down;
-  InternalForces forces;  ///< empty unless the simulation succeeded
+  Eigen::MatrixXd across;  ///< in space; empty in the plane
+  InternalForces forces;   ///< empty unless the simulation succeeded
 };
 
 /// A chain as the sensors of an experiment report it.

@@ -64,7 +64,8 @@ class Check {
   std::vector<std::string> warnings() {
     check_case();
     if (spec_.kind == DataKind::kMarkers) {
-      if (check_scale()) check_support();
+      if (!check_end()) return std::move(warnings_);  // what follows rests on the length
+      if (check_scale() && (listed_upwards() || check_neighbours())) check_support();
       check_direction();
     } else {
       check_angles();
@@ -113,15 +114,28 @@ class Check {
       warnings_.push_back(std::move(warning));
   }
 
+  /// Whether enough of the cable is marked.
+  bool check_end() {
+    const double last = *std::max_element(arcs_.begin(), arcs_.end());
+    if (last >= limits_.least_marked * length_) return true;
+    warn("length", "the last marker is at " + rounded(last) +
+                       " m along the cable, and the cable is " + rounded(length_) +
+                       " m long; are both in m, and is the length right?");
+    return false;
+  }
+
+  double chord(Index p) const {
+    return quantile(over_frames([&](Index k) { return (at(p, k) - at(p - 1, k)).norm(); }),
+                    kMostFrames);
+  }
+
   /// Chord over arc from marker to marker, or from the support to the only one.
   double chord_over_arc() const {
     std::vector<double> ratios;
     for (Index p = 1; p < points(); ++p) {
       const double between = std::abs(arc(p) - arc(p - 1));
       if (between == 0) continue;
-      const double chord = quantile(
-          over_frames([&](Index k) { return (at(p, k) - at(p - 1, k)).norm(); }), kMostFrames);
-      if (!std::isnan(chord)) ratios.push_back(chord / between);
+      if (const double apart = chord(p); !std::isnan(apart)) ratios.push_back(apart / between);
     }
     if (ratios.empty()) {
       const Index last = points() - 1;
@@ -164,6 +178,24 @@ class Check {
     return false;
   }
 
+  /// Whether neighbours are as near as the cable between them is long: the scale is right, so their
+  /// places along the cable are not.
+  bool check_neighbours() {
+    Index worst = 0;
+    double most = limits_.hardly_beyond * length_;
+    for (Index p = 1; p < points(); ++p) {
+      const double excess = chord(p) - limits_.hardly_longer * std::abs(arc(p) - arc(p - 1));
+      if (excess > most) most = excess, worst = p;
+    }
+    if (worst == 0) return true;
+    report(most > limits_.not_beyond * length_, "markers",
+           name(worst - 1) + " and " + name(worst) + " are " + rounded(chord(worst)) +
+               " m apart, but only " + rounded(std::abs(arc(worst) - arc(worst - 1))) +
+               " m of cable are between them; are the markers in the order of the file, and where "
+               "on the cable are they?");
+    return false;
+  }
+
   /// How far a marker is from the support in most frames, beyond its arc length.
   double beyond(Index p, double arc_length) const {
     return quantile(over_frames([&](Index k) { return at(p, k).norm(); }), kMostFrames) -
@@ -190,25 +222,36 @@ class Check {
     return "`origin` would be about [" + text + "]";
   }
 
+  bool listed_upwards() const {
+    for (Index p = 0; p < points(); ++p)
+      if (beyond(p, limits_.hardly_longer * arc(points() - 1 - p)) >=
+          limits_.hardly_beyond * length_)
+        return false;
+    return points() > 1;
+  }
+
   void check_support() {
     if (points() == 1) return;  // said by the scale
     Index worst = -1;
-    double most = 0;
-    bool reversed_fits = true;
+    double most = limits_.hardly_beyond;
     for (Index p = 0; p < points(); ++p) {
       const double excess = beyond(p, limits_.hardly_longer * arc(p)) / length_;
       if (excess > most) most = excess, worst = p;
-      const Index other = points() - 1 - p;
-      reversed_fits = reversed_fits && beyond(p, limits_.hardly_longer * arc(other)) <
-                                           limits_.hardly_beyond * length_;
     }
-    if (worst < 0 || most < limits_.hardly_beyond) return;
-    const double distance = beyond(worst, 0);
-    report(most > limits_.not_beyond, reversed_fits ? "markers" : "origin",
-           name(worst) + " is " + rounded(distance) + " m from the support, but only " +
+    if (worst < 0) return check_first();
+    const bool upwards = listed_upwards();
+    report(most > limits_.not_beyond, upwards ? "markers" : "origin",
+           name(worst) + " is " + rounded(beyond(worst, 0)) + " m from the support, but only " +
                rounded(arc(worst)) + " m along the cable; " +
-               (reversed_fits ? "the markers seem to be listed from the load upwards"
-                              : origin_remedy()));
+               (upwards ? "the markers seem to be listed from the load upwards" : origin_remedy()));
+  }
+
+  /// The cable is hardly bent above its first marker: an origin below the support is too near to it.
+  void check_first() {
+    const double distance = quantile(over_frames([&](Index k) { return at(0, k).norm(); }), 0.5);
+    if (limits_.hardly_shorter * arc(0) - distance > limits_.hardly_beyond * length_)
+      warn("origin", name(0) + " is only " + rounded(distance) + " m from the support, and " +
+                         rounded(arc(0)) + " m along the cable; " + origin_remedy());
   }
 
   void check_direction() {
@@ -289,7 +332,7 @@ class Check {
                                    ? "is the frame rate that of the camera?"
                                    : "is the first column in s (time_unit \"s\"), ms, or a count "
                                      "of frames (\"frames\" and "
-                                     "frame_rate)?";
+                                     "frame_rate), and is the length in m?";
     const std::string pendulum = "a pendulum as long as the cable takes " + rounded(period_) + " s";
     const double duration = time(frames() - 1) - time(0);
     const double per_period =

@@ -22,6 +22,8 @@ struct PlausibilityLimits {
   /// A marker beyond its arc length from the support, in lengths of the cable: so much more for an
   /// origin that is marked by hand.
   double hardly_beyond = 0.03, not_beyond = 0.1;
+  /// The last marker, in lengths of the cable: below it most of the cable is not seen.
+  double least_marked = 0.5;
   /// rad: the mean direction from the first to the last marker, from the downward vertical. A cable
   /// that swings freely hangs down on average.
   double hardly_sideways = 1.2, hardly_upwards = 2.0;

@@ -2,9 +2,8 @@
 #include "identify/problem/prediction.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "runtime/positions.hpp"
+#include "identify/problem/observer.hpp"
 #include "runtime/sensitivity.hpp"
 
 namespace catena {
@@ -13,175 +12,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Where a point is on the chain. Material points keep their place when the cable bends; those
-/// given by arc length also move along a link whose length changes.
-struct Place {
-  MaterialPoint point;
-  bool at_arc_length = false;
-  bool load = false;
-};
-
-Place place_of(const Model& model, const VectorXd& parameters, const PointSpec& point) {
-  if (point.load) return {{model.links() - 1, 1.0}, false, true};
-  if (point.joint) return {{point.joint - 1, 1.0}, false, false};
-  if (point.link) return {{point.link - 1, 0.0}, false, false};
-  return {point_at_arc_length(model, parameters, point.arc_length), true, false};
-}
-
-/// Model times of the frames, where each is in the list of distinct, increasing times that is
-/// simulated, and whether the cable is still held then.
-struct Clock {
-  std::vector<double> times;  // to simulate; the first is the start
-  std::vector<Index> column;  // of each frame
-  std::vector<bool> held;
-};
-
-Clock clock_of(const Model& model, const Experiment& experiment, const VectorXd& parameters,
-               Index frames) {
-  const double start = experiment.spec.start;
-  std::vector<double> tau(static_cast<std::size_t>(frames));
-  for (std::size_t k = 0; k < tau.size(); ++k) {
-    const double t = experiment.recording.time[k];
-    tau[k] = model.table().observes ? model.clock(t, parameters.data()) : t;
-  }
-  Clock clock;
-  clock.times = {start};
-  for (const double t : tau)
-    if (t > start) clock.times.push_back(t);
-  if (experiment.meets >= 0) clock.times.push_back(experiment.ends);
-  std::sort(clock.times.begin(), clock.times.end());
-  clock.times.erase(std::unique(clock.times.begin(), clock.times.end()), clock.times.end());
-  for (const double t : tau) {
-    clock.held.push_back(t < start);
-    const auto found = std::lower_bound(clock.times.begin(), clock.times.end(), std::max(t, start));
-    clock.column.push_back(found - clock.times.begin());
-  }
-  return clock;
-}
-
 VectorXd or_zero(const VectorXd& vector, Index size) {
   return vector.size() ? vector : VectorXd::Zero(size);
 }
-
-/// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link
-/// (rad).
-using Sight = std::array<double, 3>;
-
-/// Reads a simulation as the sensors of one experiment do.
-class Observer {
- public:
-  /// `along`: the directions of which derivatives will be asked for.
-  Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters,
-           const std::vector<SensitivityDirection>& along)
-      : model_(model),
-        experiment_(experiment),
-        parameters_(parameters),
-        directions_(along),
-        accelerations_(VectorXd::Zero(model.coordinates())),
-        signals_(VectorXd::Zero(3 * model.signals())),
-        no_signals_(signals_),
-        here_(sized(model)),
-        rates_(here_),
-        change_(here_) {
-    for (const PointSpec& point : experiment.recording.points)
-      places_.push_back(place_of(model, parameters, point));
-    for (const SensitivityDirection& direction : directions_) {
-      std::vector<double>& moved = moved_.emplace_back();
-      for (const Place& place : places_)
-        moved.push_back(place.at_arc_length
-                            ? fraction_tangent(model, parameters, direction.parameters, place.point)
-                            : 0);
-    }
-    true_.resize(places_.size());
-    seen_.resize(places_.size());
-  }
-
-  /// Moves on to frame k, which is column `column` of the path.
-  void move_to(const Trajectory& path, Index column, double t) {
-    path_ = &path;
-    column_ = column;
-    t_ = t;
-    experiment_.signals.evaluate(path.time[static_cast<std::size_t>(column)], signals_.data());
-    const catena_point at = point(path, signals_, parameters_);
-    model_.positions(at, here_.side.data(), here_.down.data());
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const Place& place = places_[i];
-      const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
-      true_[i] = {there.side, there.down, path.q(place.point.link, column)};
-      if (model_.table().observes)
-        model_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
-      else
-        seen_[i] = true_[i];
-    }
-  }
-
-  /// From there to the derivatives along direction number `direction`.
-  void look_along(const Trajectory& sensitivity, std::size_t direction, bool held) {
-    const VectorXd& by_parameter = directions_[direction].parameters;
-    const catena_point at = point(*path_, signals_, parameters_);
-    const catena_point along = point(sensitivity, no_signals_, by_parameter);
-    model_.positions_tangent(at, along, change_.side.data(), change_.down.data());
-    double clock_shift = 0;
-    if (model_.table().observes && !held) {
-      clock_shift = model_.clock_tangent(t_, parameters_.data(), by_parameter.data());
-      model_.velocities(at, rates_.side.data(), rates_.down.data());
-      change_.side += clock_shift * rates_.side;
-      change_.down += clock_shift * rates_.down;
-    }
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const Place& place = places_[i];
-      const CablePoint change =
-          place.load ? load_of(change_)
-                     : position_tangent_of(here_, change_, place.point, moved_[direction][i]);
-      const Index link = place.point.link;
-      const Sight din{change.side, change.down,
-                      sensitivity.q(link, column_) + clock_shift * path_->v(link, column_)};
-      if (model_.table().observes)
-        model_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
-                               din.data(), seen_[i].data());
-      else
-        seen_[i] = din;
-    }
-  }
-
-  /// What was seen last.
-  double operator()(const Channel& channel) const {
-    return seen_[static_cast<std::size_t>(channel.point)]
-                [static_cast<std::size_t>(channel.component)];
-  }
-
- private:
-  static Positions sized(const Model& model) {
-    return {VectorXd::Zero(model.links() + 2), VectorXd::Zero(model.links() + 2)};
-  }
-
-  static CablePoint load_of(const Positions& at) {
-    return {at.side[at.side.size() - 1], at.down[at.down.size() - 1]};
-  }
-
-  catena_point point(const Trajectory& path, const VectorXd& signals, const VectorXd& p) const {
-    return {path.time.empty() ? 0.0 : path_->time[static_cast<std::size_t>(column_)],
-            path.q.col(column_).data(),
-            path.v.col(column_).data(),
-            accelerations_.data(),
-            path.z.col(column_).data(),
-            signals.data(),
-            p.data()};
-  }
-
-  const Model& model_;
-  const Experiment& experiment_;
-  const VectorXd& parameters_;
-  const std::vector<SensitivityDirection>& directions_;
-  std::vector<Place> places_;
-  std::vector<std::vector<double>> moved_;  // per direction and place: of points at an arc length
-  VectorXd accelerations_, signals_, no_signals_;  // positions and velocities do not ask for a
-  Positions here_, rates_, change_;
-  std::vector<Sight> true_, seen_;  // per place
-  const Trajectory* path_ = nullptr;
-  Index column_ = 0;
-  double t_ = 0;
-};
 
 }  // namespace
 
@@ -212,7 +45,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   const auto channels = static_cast<Index>(recording.channels.size());
   const Index frames =
       all_frames ? static_cast<Index>(recording.time.size()) : recording.fit_frames;
-  const Clock clock = clock_of(model, experiment, parameters, frames);
+  const FrameClock clock = frame_clock(model, experiment, parameters, frames);
 
   SimulationOptions options = simulation_options(settings);
   options.energy = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/impossible_value.hpp"
+#include "common/input_error.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
 
@@ -16,11 +17,28 @@ ParameterMap checked_map(const Case& the_case, const Model& model) {
   return map;
 }
 
+/// What a case says has to be of the plane or of space, as its model is.
+Model fitting_model(const Case& the_case, Model model) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(the_case.file.string() + ": " + problem);
+  };
+  const InitialSpec& initial = the_case.initial;
+  if (model.in_space() && !the_case.experiments.empty())
+    refuse(
+        "model: it moves in space, and recordings are compared in the plane only; leave out "
+        "[[experiment]] and simulate, or take a model of the plane");
+  if (!model.in_space() && !(initial.azimuths.empty() && initial.azimuth_rates.empty()))
+    refuse(
+        "initial: azimuth: the model moves in the plane; leave it out, or give a model with "
+        "space = \"3d\"");
+  return model;
+}
+
 }  // namespace
 
 Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
     : case_(std::move(the_case)),
-      model_(std::move(model)),
+      model_(fitting_model(case_, std::move(model))),
       map_(checked_map(case_, model_)),
       experiments_(experiments_of(case_, model_, map_, std::move(recordings))),
       unknowns_(case_, experiments_) {

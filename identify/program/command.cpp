@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 
+#include "common/command_line.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/program/progress.hpp"
@@ -45,7 +46,7 @@ void add_common_options(CLI::App& command, CommonOptions& options,
                      "folder for the results; default: CASE" + default_ending + ", here");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
   command.add_flag("--json", options.json, "print the result as JSON instead of tables");
-  command.add_flag("-y,--yes", options.yes, "go on where more than 10 min or 4 GB are needed");
+  add_yes_option(command, options.yes);
 }
 
 const std::atomic<bool>& interrupted() { return g_interrupted; }

@@ -19,7 +19,7 @@ namespace catena {
 enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted = 130 };
 
 /// The most `--threads`: more than any machine has, and a thread costs memory.
-constexpr int kMostThreads = 1024;
+inline constexpr int kMostThreads = 1024;
 
 /// What every command that works on a case takes.
 struct CommonOptions {

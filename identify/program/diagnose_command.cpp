@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/diagnose_command.hpp"
 
+#include <cmath>
 #include <iostream>
 #include <mutex>
 
 #include "identify/cases/case_reader.hpp"
+#include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/results/output_folder.hpp"
 
@@ -22,6 +25,18 @@ struct DiagnoseOptions : CommonOptions {
   DiagnosisOptions diagnosis;
   int threads = 2;
 };
+
+/// What the fits of the baseline take at least; every look at candidates takes longer.
+WorkEstimate estimate_of(const Problem& problem, const DiagnoseOptions& options) {
+  const double rounds = std::ceil(kBaselineStarts / static_cast<double>(options.threads)) +
+                        kShareOfRefit * kBaselineRefits;
+  const double simulations = simulations_of_a_fit(problem) * rounds;
+  Evaluation start;
+  WorkEstimate estimate = estimate_of(
+      problem, [&](double simulation) { return simulation * simulations; }, options.yes, start);
+  estimate.or_more = true;
+  return estimate;
+}
 
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
@@ -49,12 +64,13 @@ int diagnose_case(const DiagnoseOptions& options) {
     now = progress_line(news);
   };
   OutputFolder output(output_folder(options), kDiagnosisNames);
-  show_warnings(Problem(the_case, context.model_with({}, the_case.links)), options);
-  Diagnosis found;
-  DiagnosisFindings findings;
+  const Problem problem(for_the_search(the_case), context.model_with({}, the_case.links));
+  show_warnings(problem, options);
+  require_yes(options.yes, "the diagnosis", estimate_of(problem, options));
+  DiagnosisRecord record;
   try {
-    found = diagnose(the_case, context, options.diagnosis);
-    findings = find_out(found);
+    const Diagnosis found = diagnose(the_case, context, options.diagnosis);
+    record = record_of(found, find_out(found), context);
     context.stop_if_asked();
   } catch (const std::exception&) {
     progress.clear();
@@ -65,15 +81,11 @@ int diagnose_case(const DiagnoseOptions& options) {
                                             : "nothing was written; best so far: " + best);
   }
   progress.clear();
-  std::string json;
-  output.publish([&](const fs::path& folder) {
-    json = write_diagnosis(found, findings, context, folder, output.path());
-  });
+  output.publish([&](const fs::path& folder) { write_diagnosis(record, folder, output.path()); });
   if (options.json)
-    std::cout << json;
+    std::cout << record.files.back().second;
   else if (!options.quiet)
-    std::cout << diagnosis_table(found, findings) << "written to " << output.path().string()
-              << "\n";
+    std::cout << record.table << "written to " << output.path().string() << "\n";
   return context.stopped() ? report_interruption("the best so far was written") : kExitSuccess;
 }
 
@@ -85,9 +97,10 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
       program.add_subcommand("diagnose", "find what a model lacks, add it, show the gap shrink");
   command->footer(
       "Example:\n  catena diagnose cable.toml --output found\n"
-      "prints the verdict first: none, named, ambiguous, partly or unexplained (exit\n"
-      "status 0 for all five), and writes found/diagnosis.json, diagnosed.toml (the\n"
-      "case with the effect), model.toml and the emitted code in found/model.");
+      "prints the verdict first: none, named, ambiguous, partly, discovered or\n"
+      "unexplained (exit status 0 for all six), and writes found/diagnosis.json,\n"
+      "diagnosed.toml (the case with the effect), model.toml, the emitted code in\n"
+      "found/model, and the effect file of a law that no library has.");
   add_common_options(*command, options, "_diagnosis");
   command
       ->add_option("--effect", options.effects,

@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <thread>
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
-#include "common/large_work.hpp"
 #include "common/most_links.hpp"
 #include "common/sha256.hpp"
 #include "description/description.hpp"
@@ -21,11 +19,12 @@
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
 #include "identify/least_squares/least_squares.hpp"
-#include "identify/noise/noise_level.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"
+#include "identify/results/fit_remarks.hpp"
 #include "identify/results/result_writer.hpp"
 #include "identify/uncertainty/bootstrap.hpp"
 #include "identify/uncertainty/profile.hpp"
@@ -98,51 +97,36 @@ int check_case(const Problem& problem, const IdentifyOptions& options) {
   return kExitSuccess;
 }
 
-/// Simulations' worth of time that a fit takes, by experience: of least squares about 10 evaluations
-/// with sensitivities, of which each costs a third of a simulation.
-double simulations_of_a_fit(const Problem& problem) {
-  const auto unknowns = static_cast<double>(problem.unknowns().size());
-  const OptimiserSpec& spec = problem.the_case().optimiser;
-  if (spec.method == FitMethod::kNelderMead)
-    return std::min<double>(40 * unknowns, spec.max_evaluations);
-  const double evaluations = spec.method == FitMethod::kLeastSquares ? 10 : 30;
-  return std::min<double>(evaluations, spec.max_evaluations) * (1 + unknowns / 3);
-}
+/// The refits of a profile, by experience: of the 16 that are possible, those within its interval.
+constexpr double kRefitsOfProfile = 10;
 
-/// What a bootstrap's refit takes of that: it begins near its end.
-constexpr double kShareOfRefit = 0.3;
-
-/// The time of fits and bootstrap, from that of a simulation, which is put into `start`.
+/// The time of fits, profiles and bootstrap, from that of a simulation, which is put into `start`.
 WorkEstimate estimate_of(const Problem& problem, const IdentifyOptions& options,
                          Evaluation& start) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const double threads = std::min(options.threads, cores);
   const double fit = simulations_of_a_fit(problem);
   const double fits = fit * std::ceil(problem.the_case().optimiser.starts / threads);
-  const double refits = kShareOfRefit * fit * std::ceil(options.bootstrap / threads);
-  WorkEstimate estimate;
-  const auto begin = std::chrono::steady_clock::now();
-  const auto measure = [&] {
-    const std::chrono::duration<double> simulation = std::chrono::steady_clock::now() - begin;
-    const double of_fits = simulation.count() * fits;
-    estimate.seconds = simulation.count() * refits +
-                       (options.time_limit > 0 ? std::min(of_fits, options.time_limit) : of_fits);
-    return simulation.count();
-  };
-  constexpr double kPatience = 1;  // s; a simulation that is shorter is measured whole
-  const auto keep_going = [&] {
-    estimate.or_more = measure() > kPatience && estimate.seconds > kMostUnasked.seconds;
-    return (options.yes || !estimate.or_more) && !interrupted();
-  };
-  start = evaluate(problem, problem.start(), true, false, keep_going);
-  measure();
-  return estimate;
+  double rounds_of_refits = std::ceil(options.bootstrap / threads);
+  if (options.profiles)
+    rounds_of_refits +=
+        kRefitsOfProfile * std::ceil(static_cast<double>(problem.unknowns().size()) / threads);
+  const double refits = kShareOfRefit * fit * rounds_of_refits;
+  return estimate_of(
+      problem,
+      [&](double simulation) {
+        const double of_fits = simulation * fits;
+        return simulation * refits +
+               (options.time_limit > 0 ? std::min(of_fits, options.time_limit) : of_fits);
+      },
+      options.yes, start);
 }
 
 int study_links(const Case& the_case, const IdentifyOptions& options) {
   WorkEstimate whole;
   IdentifyOptions single = options;  // a study takes one fit for each number of links
   single.bootstrap = 0;
+  single.profiles = false;
   for (const int links : options.links_study) {
     Case other = with_links(the_case, links);
     other.optimiser.starts = 1;
@@ -164,11 +148,15 @@ int study_links(const Case& the_case, const IdentifyOptions& options) {
   write_output(output, {{"links_study.json", text}});
   if (options.json) std::cout << text;
   if (!options.quiet && !options.json)
-    std::cout << links_table(results)
-              << fmt::format("fewest links within {:.3g} % of the least error: {}\n",
-                             100 * options.error_budget,
-                             recommended_links(results, options.error_budget))
-              << "written to " << output_folder(options).string() << "\n";
+    std::cout
+        << links_table(results)
+        << fmt::format("fewest links within {:.3g} % of the least error: {}\n",
+                       100 * options.error_budget, recommended_links(results, options.error_budget))
+        << (more_links_are_worse(results, options.error_budget)
+                ? "more links leave a larger error: the model lacks something else, so this does "
+                  "not say how many are enough; catena diagnose\n"
+                : "")
+        << "written to " << output_folder(options).string() << "\n";
   return interrupted() ? kExitInterrupted : kExitSuccess;
 }
 
@@ -204,29 +192,12 @@ std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluati
                      defects.value.size() / (2 * n), angle, rate);
 }
 
-/// Where the fit ends far above the noise, more than noise is left: the next step is a diagnosis.
-std::string remark_on_gap(const Problem& problem, const Evaluation& evaluation) {
-  // A right model ends at 1; too few links, or smoothed tracks, at about 1.5.
-  constexpr double kFarAbove = 2;
+/// What the end of the fit says, a line for an experiment.
+std::string remark_lines(const Problem& problem, const Evaluation& evaluation) {
   std::string out;
-  for (std::size_t e = 0; e < problem.experiments().size(); ++e) {
-    const Experiment& experiment = problem.experiments()[e];
-    const Eigen::MatrixXd residual =
-        (evaluation.predictions[e].simulated - experiment.recording.measured)
-            .leftCols(experiment.recording.fit_frames);
-    double noise = experiment.spec.noise;
-    if (std::isnan(noise)) noise = noise_level(residual, experiment.recording.time);
-    const double rms = std::sqrt(
-        residual.array().isNaN().select(0, residual.array().square()).sum() /
-        static_cast<double>(std::max<Eigen::Index>(1, (!residual.array().isNaN()).count())));
-    if (!(rms > kFarAbove * noise)) continue;
-    const bool angles = experiment.spec.kind == DataKind::kAngles;
-    out += fmt::format(
-        "{}: the fit leaves {:.2g} times the noise ({:.3g} {}). Something is missing: a measure of "
-        "the cable, or an effect; catena diagnose {}\n",
-        experiment.spec.name, rms / noise, 1e3 * noise, angles ? "mrad" : "mm",
-        problem.the_case().file.string());
-  }
+  const std::vector<std::string> remarks = remarks_on_fit(problem, evaluation);
+  for (std::size_t e = 0; e < remarks.size(); ++e)
+    if (!remarks[e].empty()) out += problem.experiments()[e].spec.name + ": " + remarks[e] + "\n";
   return out;
 }
 
@@ -280,7 +251,7 @@ int identify_case(const IdentifyOptions& options) {
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
                      name_of(found.fit.status))
-              << remark_on_gap(problem, found.after) << "written to "
+              << remark_lines(problem, found.after) << "written to "
               << output_folder(options).string() << "\n";
   }
   if (interrupted()) return report_interruption("the best so far was written");

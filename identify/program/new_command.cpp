@@ -40,8 +40,10 @@ double asked(const std::string& question) {
     if (!std::getline(std::cin, line)) throw InputError("no answer");
     std::istringstream in(line);
     double value = 0;
-    if (in >> value && value >= 0 && std::isfinite(value)) return value;
-    std::cout << "a number that is not negative, with a decimal point, is wanted\n";
+    const bool whole = in >> value && (in >> std::ws).eof();
+    if (whole && value >= 0 && std::isfinite(value)) return value;
+    std::cout
+        << "a number that is not negative, with a decimal point and without a unit, is wanted\n";
   }
 }
 
@@ -175,7 +177,7 @@ int make_case(NewOptions options) {
   write_whole_file(output, text);
   write_whole_file(picture,
                    recording_picture(recording, find_outliers(recording, options.known.length),
-                                     options.recording.filename().string()));
+                                     options.recording.filename().string(), options.known.length));
   if (!options.quiet)
     for (const std::string& line : found.understood) std::cout << line << "\n";
   // What the case would say; it is there to be corrected, whatever that is.

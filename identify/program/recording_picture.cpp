@@ -85,7 +85,7 @@ std::string axes_of(const Frame& frame) {
 }  // namespace
 
 std::string recording_picture(const Recording& recording, const std::vector<Outlier>& outliers,
-                              const std::string& title) {
+                              const std::string& title, double length) {
   const Frame frame(recording);
   const auto points = static_cast<Index>(recording.points.size());
   const auto& measured = recording.measured;
@@ -96,10 +96,9 @@ std::string recording_picture(const Recording& recording, const std::vector<Outl
       "<style>text {{ fill: #222; stroke: none }}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<text x=\"16\" y=\"24\" font-size=\"15\">{2}</text>\n"
-      "<text x=\"16\" y=\"42\" font-size=\"12\">Black: the first frame, from the support. "
-      "Coloured: "
-      "the tracks. {3}</text>\n",
-      width, frame.height(), escaped(title),
+      "<text x=\"16\" y=\"42\" font-size=\"12\">Black: the first sight of each marker, from the "
+      "support, with its place along the cable of {3:.3g} m. Coloured: the tracks. {4}</text>\n",
+      width, frame.height(), escaped(title), length,
       outliers.empty() ? "No outliers." : fmt::format("Rings: {} outliers.", outliers.size()));
   out += axes_of(frame);
   const auto at = [&](Index p, Index k) {
@@ -117,17 +116,17 @@ std::string recording_picture(const Recording& recording, const std::vector<Outl
     out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1\"/>\n", track,
                        kColours[p % static_cast<Index>(std::size(kColours))]);
   }
-  Index first = 0;  // frame in which anything is seen
-  while (first + 1 < measured.cols() && measured.col(first).array().isNaN().all()) ++first;
   std::string cable = fmt::format("M{:.1f} {:.1f}", frame.x(0), frame.y(0)), dots;
   for (Index p = 0; p < points; ++p) {
+    Index first = 0;  // frame in which the marker is seen
+    while (first + 1 < measured.cols() && !seen(p, first)) ++first;
     if (!seen(p, first)) continue;
     cable += fmt::format("L{}", at(p, first));
     const double x = frame.x(measured(2 * p, first)), y = frame.y(measured(2 * p + 1, first));
     dots += fmt::format(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-        "font-size=\"12\">{}</text>\n",
-        x, y, x + 7, y + 4, p + 1);
+        "font-size=\"12\">{}: {:.3g} m</text>\n",
+        x, y, x + 7, y + 4, p + 1, recording.points[static_cast<std::size_t>(p)].arc_length);
   }
   out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>\n{}",
                      cable, dots);

@@ -9,9 +9,9 @@
 
 namespace catena {
 
-/// A recording of markers as an SVG in the model's axes: the support, the first frame, the track of
-/// every marker, rings around outliers, axes in m.
+/// A recording of markers as an SVG in the model's axes: the support, every marker where it is first
+/// seen, with its place along the cable of `length` (m), its track, rings around outliers, axes in m.
 std::string recording_picture(const Recording& recording, const std::vector<Outlier>& outliers,
-                              const std::string& title);
+                              const std::string& title, double length);
 
 }  // namespace catena

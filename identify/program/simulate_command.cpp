@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "common/large_work.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/program/command.hpp"
+#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"
@@ -18,16 +18,21 @@
 namespace catena {
 namespace {
 
-/// The time that a simulation has come to, for whoever waits.
+/// The time that a simulation has come to, for whoever waits. Ends one that takes too long.
 class Watch {
  public:
-  Watch(const CommonOptions& options, double end)
-      : end_(end), waiting_(!options.quiet, [this] { return text(); }) {}
+  /// `begin`, `end`: s, of the simulation; `before`: s of motion of those before it.
+  Watch(const CommonOptions& options, Forecast& forecast, double begin, double end, double before)
+      : forecast_(forecast),
+        begin_(begin),
+        end_(end),
+        before_(before),
+        waiting_(!options.quiet, [this] { return text(); }) {}
 
   std::function<bool(double)> keep_going() {
     return [this](double time) {
       time_ = time;
-      return !interrupted();
+      return !interrupted() && forecast_.goes_on(before_ + time - begin_);
     };
   }
 
@@ -39,7 +44,8 @@ class Watch {
   }
 
   std::atomic<double> time_ = kNotGiven;
-  double end_;
+  Forecast& forecast_;
+  double begin_, end_, before_;
   Waiting waiting_;
 };
 
@@ -51,24 +57,20 @@ bool succeeded(const Simulation& simulation, const std::string& name) {
   return true;
 }
 
-/// Motion and files are in memory until they are written, whole.
-WorkEstimate estimate_of(const Case& the_case) {
-  constexpr double kBytes = 1100;  // an output and link: measured with 12 links, 50 000 outputs
-  return {.bytes = kBytes * the_case.simulation.duration / the_case.simulation.step *
-                   (the_case.links + 1)};
-}
-
 /// The case alone, for as long as it says.
 int simulate_alone(const Problem& problem, const CommonOptions& options) {
   std::vector<std::string> names = motion_file_names(problem);
   names.emplace_back("result.json");
   require_yes(options.yes, "keeping the outputs of every simulation.step",
-              estimate_of(problem.the_case()));
+              {.bytes = memory_of_motions(problem)});
   OutputFolder output(output_folder(options), names);
+  const double duration = problem.the_case().simulation.duration;
+  Forecast forecast(options.yes, duration, 1);
   const Motion motion = [&] {
-    Watch watch(options, problem.the_case().simulation.duration);
+    Watch watch(options, forecast, 0, duration, 0);
     return motion_alone(problem, problem.start(), watch.keep_going());
   }();
+  forecast.require_yes("the simulation");
   if (!succeeded(motion.simulation, "simulation"))
     return report_interruption("nothing was written");
   OutputFiles files;
@@ -84,31 +86,43 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
   return kExitSuccess;
 }
 
+/// s, of the motion of an experiment.
+double length_of(const Experiment& experiment) {
+  return experiment.recording.time.back() - experiment.spec.start;
+}
+
 /// Every experiment of the case, compared with what was measured.
 int simulate_experiments(const Problem& problem, const CommonOptions& options) {
   const Eigen::VectorXd x = problem.start();
   std::vector<std::string> names = motion_file_names(problem);
   names.insert(names.end(), {"result.json", "residuals.csv"});
+  require_yes(options.yes, "keeping the motions", {.bytes = memory_of_motions(problem)});
   OutputFolder output(output_folder(options), names);
+  double whole = 0, before = 0;  // s of motion
+  for (const Experiment& experiment : problem.experiments()) whole += length_of(experiment);
+  Forecast forecast(options.yes, whole, 2);  // once for the motions, once for the comparison
+  OutputFiles files;
+  std::vector<Motion> motions;
+  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e) {
+    const Experiment& experiment = problem.experiments()[static_cast<std::size_t>(e)];
+    motions.push_back([&] {
+      Watch watch(options, forecast, experiment.spec.start, experiment.recording.time.back(),
+                  before);
+      return motion_of(problem, x, e, watch.keep_going());
+    }());
+    forecast.require_yes("the simulation");
+    if (!succeeded(motions.back().simulation, experiment.spec.name))
+      return report_interruption("nothing was written");
+    std::cerr << energy_warning(motions.back().simulation);
+    add_motion_files(problem, e, motions.back(), files);
+    before += length_of(experiment);
+  }
   const Evaluation evaluation = [&] {
     const Waiting waiting(!options.quiet, [] { return std::string("comparing with the data"); });
     return evaluate(problem, x, true, false, [] { return !interrupted(); });
   }();
   if (interrupted()) return report_interruption("nothing was written");
   if (!evaluation.ok) throw std::runtime_error(evaluation.message);
-  OutputFiles files;
-  std::vector<Motion> motions;
-  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e) {
-    const Experiment& experiment = problem.experiments()[static_cast<std::size_t>(e)];
-    motions.push_back([&] {
-      Watch watch(options, experiment.recording.time.back());
-      return motion_of(problem, x, e, watch.keep_going());
-    }());
-    if (!succeeded(motions.back().simulation, experiment.spec.name))
-      return report_interruption("nothing was written");
-    std::cerr << energy_warning(motions.back().simulation);
-    add_motion_files(problem, e, motions.back(), files);
-  }
   const std::string result = comparison_result_text(problem, x, evaluation, motions);
   files.emplace_back("result.json", result);
   files.emplace_back("residuals.csv", residuals_csv(problem, evaluation));

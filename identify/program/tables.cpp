@@ -121,6 +121,7 @@ std::string parameter_table(const Problem& problem, const FitResult& fit,
     if (unknown.group != Unknown::Group::kInitial) name.see(unknown.name);
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>25}  unit\n", "parameter", name.width,
                                 "start", "identified", "95 % interval");
+  std::string at_bound;
   std::size_t initial = 0;
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
@@ -130,6 +131,8 @@ std::string parameter_table(const Problem& problem, const FitResult& fit,
     }
     std::string interval, remark;
     if (uncertainty) {
+      if (uncertainty->estimates[j].verdict == Verdict::kAtBound)
+        at_bound += (at_bound.empty() ? "" : ", ") + unknown.name;
       const Estimate& estimate = uncertainty->estimates[j];
       interval = fmt::format("{:.5g} .. {:.5g}", estimate.lower, estimate.upper);
       if (estimate.verdict != Verdict::kIdentifiable)
@@ -140,6 +143,10 @@ std::string parameter_table(const Problem& problem, const FitResult& fit,
                        remark);
   }
   if (initial > 0) out += fmt::format("and {} numbers of the initial state\n", initial);
+  if (!at_bound.empty())
+    out += at_bound +
+           " ended at a bound: the data want a value beyond it, or the model is wrong; the other "
+           "intervals hold only with it there\n";
   return out;
 }
 
@@ -161,7 +168,8 @@ std::string identifiability_table(const Problem& problem, const Uncertainty& unc
                            ? fmt::format("to {:.2g}", uncertainty.weak[i].deviation)
                            : "at all",
                        uncertainty.weak[i].text, uncertainty.suggestions[i]);
-  if (uncertainty.weak.empty()) out += "every unknown can be determined from this data\n";
+  if (uncertainty.weak.empty())
+    out += "every unknown can be determined from this data, if the model is right\n";
   return out;
 }
 

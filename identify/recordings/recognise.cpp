@@ -140,6 +140,15 @@ double in_seconds(const ExperimentSpec& spec) {
   return spec.time_unit == "ms" ? 1e-3 : spec.time_unit == "frames" ? 1 / spec.frame_rate : 1;
 }
 
+/// The mean step between frames; steps over frames that are missing are left out.
+double frame_step(const std::vector<double>& steps, double median_step) {
+  double sum = 0;
+  int count = 0;
+  for (const double step : steps)
+    if (step < 1.5 * median_step) sum += step, ++count;
+  return sum / count;
+}
+
 void recognise_time(const Table& table, const KnownOfRecording& known, RecognisedRecording& found) {
   const std::vector<double>& time = table.columns.front();
   std::vector<double> steps;
@@ -154,6 +163,10 @@ void recognise_time(const Table& table, const KnownOfRecording& known, Recognise
     // Whole numbers one apart count frames; no film has a second from frame to frame.
     unit = step == 1 ? "frames" : step > 1 ? "ms" : "s";
   found.spec.time_unit = unit;
+  if (unit != "frames" && !std::isnan(known.frame_rate))
+    throw InputError("--frame-rate: " + number_text(known.frame_rate) + "; column \"" +
+                     table.names.front() + "\" of " + table.file + " is a time in " + unit +
+                     ", not a count of frames");
   if (unit == "frames") {
     found.spec.frame_rate = known.frame_rate;
     if (std::isnan(known.frame_rate))
@@ -161,7 +174,7 @@ void recognise_time(const Table& table, const KnownOfRecording& known, Recognise
                        "\" counts frames; give the frames per second by --frame-rate");
   }
   found.understood.push_back("time: column \"" + table.names.front() + "\" in " + unit + ", " +
-                             number_text(1 / (step * in_seconds(found.spec))) +
+                             number_text(1 / (frame_step(steps, step) * in_seconds(found.spec))) +
                              " frames per second, " + std::to_string(table.rows()) + " frames");
 }
 
@@ -271,8 +284,10 @@ void recognise_start(const KnownOfRecording& known, RecognisedRecording& found) 
   if (recording.time.size() > kShort && release > recording.time[kShort]) {
     found.spec.from = release;
     found.estimated.emplace_back("from");
+    const auto next = std::upper_bound(recording.time.begin(), recording.time.end(), release);
     found.understood.push_back("start: nothing moves until " + number_text(release) +
-                               " s, the release");
+                               " s; the release, before the next frame at " + number_text(*next) +
+                               " s");
     return;
   }
   // While a fall from rest goes some way, its first half goes a quarter as far; any other, half.
@@ -300,6 +315,7 @@ RecognisedRecording recognise_recording(const std::filesystem::path& file,
   RecognisedRecording found;
   found.spec.data = file;
   found.spec.name = file.stem().string();
+  found.spec.where = file.string();
   found.spec.source = source_of(file);
   const Table table = import_tracker_table(found.spec.source, file, found.spec.likelihood_floor);
   if (table.rows() < 2) throw InputError(file.string() + ": fewer than two frames");

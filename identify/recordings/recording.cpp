@@ -229,6 +229,17 @@ void leave_out_outliers(Recording& recording, const ExperimentSpec& experiment, 
       " left out of " + table.file + ": " + named + "; outliers = \"keep\" uses them");
 }
 
+/// Moves what was measured after a time, s, to `sealed`.
+void seal(Recording& recording, double from) {
+  const auto open =
+      std::upper_bound(recording.time.begin(), recording.time.end(), from) - recording.time.begin();
+  const Eigen::Index sealed = recording.measured.cols() - open;
+  if (sealed == 0) return;
+  recording.sealed = recording.measured;
+  recording.sealed.leftCols(open).setConstant(kNotGiven);
+  recording.measured.rightCols(sealed).setConstant(kNotGiven);
+}
+
 }  // namespace
 
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
@@ -274,7 +285,15 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
   if (!experiment.keep_outliers)
     leave_out_outliers(recording, experiment, cable_length, table, rows);
   if (experiment.kind == DataKind::kMarkers) warn_of_motion_out_of_plane(recording);
+  seal(recording, experiment.sealed_from);
   return recording;
+}
+
+void open_seal(Recording& recording) {
+  if (recording.sealed.size() == 0) return;
+  recording.measured =
+      recording.sealed.array().isNaN().select(recording.measured, recording.sealed);
+  recording.sealed.resize(0, 0);
 }
 
 }  // namespace catena

@@ -25,6 +25,7 @@ struct Recording {
   std::vector<PointSpec> points;
   std::vector<Channel> channels;      ///< markers: side and down of point 1, of point 2, ...
   Eigen::MatrixXd measured;           ///< channels x frames; NaN: not seen
+  Eigen::MatrixXd sealed;             ///< measured, but kept from `measured`; empty: nothing is
   Eigen::Index fit_frames = 0;        ///< the first so many are to be fitted, the rest validates
   std::vector<std::string> warnings;  ///< e.g. motion out of the plane
 };
@@ -32,5 +33,8 @@ struct Recording {
 /// Reads the data of an experiment, from its file or from the table handed in, with a cable of `links` links and length `cable_length` (m;
 /// default markers are spread evenly over it). Throws InputError naming file, line or column.
 Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length);
+
+/// Moves what is sealed back to `measured`.
+void open_seal(Recording& recording);
 
 }  // namespace catena

@@ -36,22 +36,26 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   Figure figure;
   figure.title = "Gap, round by round";
   figure.caption =
-      "Root mean square of the residuals, on the part that was fitted and on the part held out.";
+      "Root mean square of the residuals on the part that was fitted, on the part held out, by "
+      "which "
+      "effects were chosen, and on the sealed part, which no choice has seen.";
   figure.x.label = "model";
   figure.y = {"gap", milli(diagnosis.unit)};
-  Series fit{"fitted part", {}, {}, Mark::kLineWithPoints, 1};
-  Series validate{"held out", {}, {}, Mark::kLineWithPoints, 2};
-  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
+  for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k)
     figure.x.categories.push_back(name_of(diagnosis, k));
-    fit.x.push_back(static_cast<double>(k + 1));
-    fit.y.push_back(1e3 * diagnosis.rounds[k].gap.fit);
-    validate.x.push_back(static_cast<double>(k + 1));
-    validate.y.push_back(1e3 * diagnosis.rounds[k].gap.validate);
+  int colour = 0;
+  for (const auto& [name, part] : {std::pair{"fitted part", &Gap::fit},
+                                   {"held out", &Gap::validate},
+                                   {"sealed", &Gap::sealed}}) {
+    Series series{name, {}, {}, Mark::kLineWithPoints, ++colour};
+    for (std::size_t k = 0; k < diagnosis.rounds.size(); ++k) {
+      series.x.push_back(static_cast<double>(k + 1));
+      series.y.push_back(1e3 * (diagnosis.rounds[k].gap.*part));
+    }
+    const bool known = std::any_of(series.y.begin(), series.y.end(),
+                                   [](double value) { return !std::isnan(value); });
+    if (known) figure.series.push_back(std::move(series));
   }
-  figure.series.push_back(std::move(fit));
-  const bool held_out = std::any_of(validate.y.begin(), validate.y.end(),
-                                    [](double value) { return !std::isnan(value); });
-  if (held_out) figure.series.push_back(std::move(validate));
   figure.rules.push_back({false, 0, ""});
   if (!std::isnan(diagnosis.noise)) figure.rules.push_back({false, 1e3 * diagnosis.noise, "noise"});
   add_diagnosis_figure(figures, "gap", std::move(figure));
@@ -292,20 +296,106 @@ void add_before_after(const Diagnosis& diagnosis, std::vector<ReportFigure>& fig
     compare(name_of(diagnosis, rounds[k]), rounds[k - 1], rounds[k]);
 }
 
-void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
-  if (!diagnosis.missing_force) return;
-  const MissingForce& force = *diagnosis.missing_force;
+/// A density over place and time.
+Figure density_map(const ForceHistory& history, double maximum) {
   Figure figure;
-  figure.title = "Force that would close the gap";
+  figure.title = fmt::format("Missing force: {} by arc length and time", history.quantity);
+  figure.caption = history.quantity.starts_with("side")
+                       ? "Positive values push to the side that counts as positive. The maps of "
+                         "both directions share one scale of colours."
+                       : "Positive values push down. The maps of both directions share one scale "
+                         "of colours.";
   figure.x = {"time", "s"};
-  HeatMap map;
-  map.x = force.time;
-  map.rows = force.rows;
-  map.value = force.value;
-  map.scale = {"missing force", force.unit};
+  HeatMap& map = figure.heat_map.emplace();
+  map.x = history.time;
+  map.rows = history.rows;
+  map.value = history.value;
+  map.scale = {history.quantity, history.unit};
   map.is_signed = true;
-  figure.heat_map = std::move(map);
-  add_diagnosis_figure(figures, "missing_force", std::move(figure));
+  map.maximum = maximum;
+  return figure;
+}
+
+/// Values over time, each with the ends of its interval of 95 % as thinner company.
+Figure bands(const ForceHistory& history, const std::vector<std::size_t>& rows,
+             const std::string& title) {
+  Figure figure;
+  figure.title = title;
+  figure.caption = "Estimate, and the ends of its interval of 95 %.";
+  figure.x = {"time", "s"};
+  figure.y = {"force", history.unit};
+  figure.rules = {{false, 0, ""}};
+  int colour = 1;
+  for (const std::size_t i : rows) {
+    figure.series.push_back({history.rows[i], history.time, history.value[i], Mark::kLine, colour});
+    Series ends{history.rows[i] + ", 95 %", {}, {}, Mark::kLine, colour + 3};
+    for (const double sign : {-1.96, 1.96}) {
+      for (std::size_t k = 0; k < history.time.size(); ++k) {
+        ends.x.push_back(history.time[k]);
+        ends.y.push_back(history.value[i][k] + sign * history.deviation[i][k]);
+      }
+      ends.x.push_back(kAbsent);
+      ends.y.push_back(kAbsent);
+    }
+    figure.series.push_back(std::move(ends));
+    ++colour;
+  }
+  return figure;
+}
+
+std::size_t strongest_row(const ForceHistory& history) {
+  std::size_t strongest = 0;
+  for (std::size_t i = 1; i < history.value.size(); ++i)
+    if (root_mean_square(history.value[i]) > root_mean_square(history.value[strongest]))
+      strongest = i;
+  return strongest;
+}
+
+/// Where, when, which way and how strong.
+void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  if (!diagnosis.missing_force || !diagnosis.missing_force->found) return;
+  const MissingForce& force = *diagnosis.missing_force;
+  double maximum = 0;
+  for (const ForceHistory& history : force.densities)
+    maximum = std::max(maximum, largest(history.value));
+  if (!force.places.empty()) {
+    Figure figure;
+    figure.title = "Missing force: a force at one place alone";
+    figure.caption =
+        "Log of the odds for a force that acts there and nowhere else, against no force.";
+    figure.x = {"arc length", "m"};
+    figure.y = {"log evidence", "1"};
+    Series series{"force at one place", {}, {}, Mark::kLineWithPoints, 1};
+    for (const ForcePlace& place : force.places) {
+      if (place.arc_length <= 0) continue;  // the torque at the support
+      series.x.push_back(place.arc_length);
+      series.y.push_back(place.log_evidence);
+    }
+    figure.series.push_back(std::move(series));
+    if (force.best && force.best->arc_length > 0)
+      figure.rules.push_back({true, force.best->arc_length, "best"});
+    add_diagnosis_figure(figures, "missing_force_place", std::move(figure));
+  }
+  if (force.one_place)
+    for (const ForceHistory& history : force.at_best) {
+      std::vector<std::size_t> rows(history.rows.size());
+      for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+      add_diagnosis_figure(figures, "missing_force_bands",
+                           bands(history, rows, fmt::format("Missing {}", history.quantity)), "",
+                           "", history.experiment);
+    }
+  for (const ForceHistory& history : force.densities) {
+    const bool side = history.quantity.starts_with("side");
+    add_diagnosis_figure(figures, side ? "missing_force_side" : "missing_force_down",
+                         density_map(history, maximum), "", "", history.experiment);
+    if (force.one_place) continue;
+    const std::size_t row = strongest_row(history);
+    add_diagnosis_figure(
+        figures, side ? "missing_force_bands_side" : "missing_force_bands_down",
+        bands(history, {row},
+              fmt::format("Missing force: {} at {}", history.quantity, history.rows[row])),
+        "", "", history.experiment);
+  }
 }
 
 }  // namespace

@@ -186,7 +186,8 @@ void add_frames(const Experiment& experiment, std::vector<ReportFigure>& figures
 
 void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures) {
   const Channels& motion = experiment.drawn();
-  if (motion.time.size() > 1 && !motion.side.empty()) {
+  const double span = motion.time.empty() ? 0 : motion.time.back() - motion.time.front();
+  if (std::isnormal(span) && span > 0 && !motion.side.empty()) {
     add_shapes(experiment, figures);
     add_frames(experiment, figures);
   }

@@ -99,10 +99,10 @@ std::string to_html(const Document& document, const std::vector<ReportFigure>& f
             document.diagnosis
                 ? diagnosis_section(*document.diagnosis) + frames("diagnosis", figures)
                 : Html()},
+           {"parameters", "Parameters", parameters_section(result)},
            {"motion", "Motion", frames("motion", figures, player)},
            {"forces", "Forces inside the cable", frames("forces", figures)},
            {"residuals", "Residuals", residuals_section(result) + frames("residuals", figures)},
-           {"parameters", "Parameters", parameters_section(result)},
            {"fit", "Fit", fit_section(result) + frames("fit", figures)},
            {"energy", "Energy", frames("energy", figures)},
            {"equations", "Equations", equations_section(result)},

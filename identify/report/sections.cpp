@@ -66,7 +66,7 @@ Html warnings(const Result& result) {
   for (const Experiment& experiment : result.experiments)
     for (const std::string& warning : experiment.warnings)
       items.push_back(experiment.name + ": " + warning);
-  return list("Warnings about the data", items);
+  return list("Warnings", items);
 }
 
 std::string interval(const Parameter& parameter) {
@@ -243,7 +243,8 @@ Html summary_section(const Document& document) {
   }
   if (!result.message.empty()) html += element("p", {}, result.message);
   Facts facts;
-  if (!result.status.empty()) facts.emplace_back("Status", spaced(result.status));
+  if (!result.status.empty() && result.status != "success")
+    facts.emplace_back("Status", spaced(result.status));
   if (result.model && result.model->links > 0)
     facts.emplace_back("Links", std::to_string(result.model->links));
   if (result.model && !std::isnan(result.model->load_mass))
@@ -361,7 +362,7 @@ Html diagnosis_section(const Diagnosis& diagnosis) {
     html += list("The force that is missing", diagnosis.missing_force->words);
   html += list("Notes", diagnosis.notes);
   std::vector<Cells> rows = {
-      {"Model", "Links", "Gap, fitted part", "Gap, held out", "Fitted / noise"}};
+      {"Model", "Links", "Gap, fitted part", "Gap, held out", "Gap, sealed", "Fitted / noise"}};
   for (const Round& round : diagnosis.rounds) {
     std::string name = round.model;
     const bool said = round.model.find(round.added) != std::string::npos;
@@ -369,10 +370,10 @@ Html diagnosis_section(const Diagnosis& diagnosis) {
     if (!round.removed.empty() && round.removed != kTooFewLinks)
       name += ", no longer " + round.removed;
     const double noise = std::isnan(round.gap.noise) ? diagnosis.noise : round.gap.noise;
-    rows.push_back({name, round.links > 0 ? std::to_string(round.links) : "–",
-                    length(round.gap.fit, diagnosis.unit),
-                    length(round.gap.validate, diagnosis.unit),
-                    for_people(round.gap.fit / noise, 3)});
+    rows.push_back(
+        {name, round.links > 0 ? std::to_string(round.links) : "–",
+         length(round.gap.fit, diagnosis.unit), length(round.gap.validate, diagnosis.unit),
+         length(round.gap.sealed, diagnosis.unit), for_people(round.gap.fit / noise, 3)});
   }
   if (rows.size() > 1) {
     const std::string level =

@@ -49,6 +49,7 @@ std::string positions_csv(const Motion& motion) {
     const std::string place = i < ends ? std::to_string(i) : "load";
     csv.name("side_" + place + "_m");
     csv.name("down_" + place + "_m");
+    if (motion.across.size()) csv.name("across_" + place + "_m");
   }
   csv.end_line();
   for (Eigen::Index k = 0; k < motion.side.cols(); ++k) {
@@ -56,6 +57,7 @@ std::string positions_csv(const Motion& motion) {
     for (Eigen::Index i = 1; i <= ends; ++i) {
       csv.number(motion.side(i, k));
       csv.number(motion.down(i, k));
+      if (motion.across.size()) csv.number(motion.across(i, k));
     }
     csv.end_line();
   }

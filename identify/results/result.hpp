@@ -25,6 +25,7 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 struct Channels {
   Row time;
   Rows side, down, angle;
+  Rows across = {};  ///< of motions in space
 };
 
 struct Point {
@@ -43,6 +44,7 @@ struct Measured {
 /// Root mean square of the residuals, and what noise alone would leave.
 struct Gap {
   double fit = kAbsent, validate = kAbsent;
+  double sealed = kAbsent;  ///< of a diagnosis: where nothing was fitted and nothing chosen
   std::string unit;
   double noise = kAbsent;
   double misfit = kAbsent;      ///< in squared noise levels
@@ -285,20 +287,60 @@ struct OtherEffect {
   std::optional<TellingExperiment> experiment_that_tells;
 };
 
-struct Dependence {
-  std::string on;
-  double share = kAbsent;
+/// A parameter of the final model.
+struct FinalEstimate {
+  std::string name, unit, effect;
+  double value = kAbsent, standard_error = kAbsent;
+  std::optional<Interval> interval;
+};
+
+/// Sizes of forces over time, with standard deviations.
+struct ForceHistory {
+  std::string experiment;
+  std::string quantity;  ///< "side density"
+  std::string unit;
+  Row time;
+  Words rows;             ///< places, or what acts at one place
+  Rows value, deviation;  ///< [row][time]
+};
+
+struct ForcePattern {
+  std::string name, unit;
+  double prior_deviation = kAbsent;
+  double resolved = kAbsent;  ///< 1 - variance afterwards / before
+};
+
+struct ForcePlace {
+  std::string name;
+  double arc_length = kAbsent;    ///< m
+  double log_evidence = kAbsent;  ///< of a force there alone, against none
+};
+
+/// What a missing force at one place goes with.
+struct ForceLaw {
+  bool found = false;
+  std::string force, variable;  ///< of the best candidate
+  std::string formula;          ///< empty where no law is found
+  std::vector<FinalEstimate> constants;
+  int candidates = 0;
+  double confirmed = kAbsent;  ///< explained in the second part, 1 is all
+  double chance = kAbsent;     ///< that a random force seems to follow a law as well
+  Words rivals;                ///< formulas that are not told from it
 };
 
 struct MissingForce {
-  std::string experiment;
-  Row time;
-  std::string unit;
-  Words rows;
-  Rows value;  ///< [row][time]
-  double noise = kAbsent, resolution = kAbsent;
-  std::vector<Dependence> depends;
-  Words words;  ///< where it is and what it goes with
+  bool found = false;
+  double log_evidence = kAbsent;
+  double share = kAbsent;  ///< of the squared residuals
+  Words words;             ///< where, when and how strong it is
+  std::vector<ForcePlace> places;
+  std::optional<ForcePlace> best;
+  bool one_place = false;  ///< a force at the best place alone is as likely as forces everywhere
+  std::optional<ForceLaw> law;  ///< of a force at one place
+  std::vector<ForceHistory> densities, at_best, patterns_over_time;
+  std::vector<ForcePattern> patterns;
+  std::vector<FinalEstimate> parameters;  ///< estimated together with the forces
+  double seconds = kAbsent;               ///< CPU time
 };
 
 struct ExperimentNoise {
@@ -313,13 +355,6 @@ struct LinksUsed {
 struct PointErrors {
   Words name;
   Row rms;
-};
-
-/// A parameter of the final model.
-struct FinalEstimate {
-  std::string name, unit, effect;
-  double value = kAbsent, standard_error = kAbsent;
-  std::optional<Interval> interval;
 };
 
 /// Of the squared misfit of the model without effects; 1 is all of it.

@@ -35,10 +35,11 @@ void fields(auto& archive, Is<Channels> auto& channels) {
   archive.optional("side", channels.side);
   archive.optional("down", channels.down);
   archive.optional("angle", channels.angle);
+  archive.optional("across", channels.across);
   if (channels.time.empty()) return;
   for (const auto& [key, rows] :
        {std::pair("side", &channels.side), std::pair("down", &channels.down),
-        std::pair("angle", &channels.angle)})
+        std::pair("angle", &channels.angle), std::pair("across", &channels.across)})
     archive.rows(key, *rows, channels.time.size());
   archive.rule(
       channels.side.size() == channels.down.size(), "down",
@@ -61,6 +62,7 @@ void fields(auto& archive, Is<Measured> auto& measured) {
 void fields(auto& archive, Is<Gap> auto& gap) {
   archive("fit", gap.fit);
   archive("validate", gap.validate);
+  archive.optional("sealed", gap.sealed);
   archive("unit", gap.unit);
   archive.optional("noise_level", gap.noise);
   archive.optional("misfit", gap.misfit);
@@ -275,25 +277,6 @@ void fields(auto& archive, Is<Share> auto& share) {
   archive.optional("validate_interval", share.validate_interval);
 }
 
-CATENA_FIELDS(Dependence, on, share)
-void fields(auto& archive, Is<MissingForce> auto& force) {
-  archive("experiment", force.experiment);
-  archive("time", force.time);
-  archive("unit", force.unit);
-  archive("rows", force.rows);
-  archive("value", force.value);
-  archive("noise", force.noise);
-  archive("resolution", force.resolution);
-  archive("depends", force.depends);
-  archive("words", force.words);
-  archive.rows("value", force.value, force.time.size());
-  archive.rule(force.value.size() == force.rows.size(), "value",
-               "it must have one row of numbers per name in rows");
-}
-
-CATENA_FIELDS(ExperimentNoise, experiment, noise_level)
-CATENA_FIELDS(LinksUsed, given, used)
-CATENA_FIELDS(PointErrors, name, rms)
 void fields(auto& archive, Is<FinalEstimate> auto& estimate) {
   archive("name", estimate.name);
   archive("unit", estimate.unit);
@@ -302,6 +285,45 @@ void fields(auto& archive, Is<FinalEstimate> auto& estimate) {
   archive("standard_error", estimate.standard_error);
   archive("interval", estimate.interval);
 }
+
+void fields(auto& archive, Is<ForceHistory> auto& history) {
+  archive("experiment", history.experiment);
+  archive("quantity", history.quantity);
+  archive.optional("unit", history.unit);
+  archive("time", history.time);
+  archive("rows", history.rows);
+  for (const auto& [key, rows] :
+       {std::pair("value", &history.value), std::pair("deviation", &history.deviation)}) {
+    archive(key, *rows);
+    archive.rows(key, *rows, history.time.size());
+    archive.rule(rows->size() == history.rows.size(), key,
+                 "it must have one row of numbers per name in rows");
+  }
+}
+CATENA_FIELDS(ForcePattern, name, unit, prior_deviation, resolved)
+CATENA_FIELDS(ForcePlace, name, arc_length, log_evidence)
+CATENA_FIELDS(ForceLaw, found, force, variable, formula, constants, candidates, confirmed, chance,
+              rivals)
+void fields(auto& archive, Is<MissingForce> auto& force) {
+  archive("found", force.found);
+  archive("log_evidence", force.log_evidence);
+  archive("share", force.share);
+  archive("words", force.words);
+  archive.optional("places", force.places);
+  archive.optional("best", force.best);
+  archive("one_place", force.one_place);
+  archive.optional("law", force.law);
+  archive.optional("densities", force.densities);
+  archive.optional("at_best", force.at_best);
+  archive.optional("patterns_over_time", force.patterns_over_time);
+  archive.optional("patterns", force.patterns);
+  archive.optional("parameters", force.parameters);
+  archive("seconds", force.seconds);
+}
+
+CATENA_FIELDS(ExperimentNoise, experiment, noise_level)
+CATENA_FIELDS(LinksUsed, given, used)
+CATENA_FIELDS(PointErrors, name, rms)
 
 void fields(auto& archive, Is<Diagnosis> auto& diagnosis) {
   archive.head("diagnosis");

@@ -10,6 +10,7 @@
 #include "description/formula.hpp"
 #include "identify/cases/case_words.hpp"
 #include "identify/models/model_provider.hpp"
+#include "identify/results/fit_remarks.hpp"
 #include "identify/results/result_file.hpp"
 #include "identify/uncertainty/profile.hpp"
 
@@ -58,8 +59,15 @@ results::Result result_for(const Problem& problem, const char* command) {
 void put_motion(results::Experiment& experiment, const Problem& problem, const Motion& motion) {
   const Simulation& simulation = motion.simulation;
   const Trajectory& path = simulation.trajectory;
+  const Eigen::Index links = problem.model().links();
   experiment.trajectory = {path.time, rows_of(motion.side), rows_of(motion.down),
-                           rows_of(path.q.topRows(problem.model().links()))};
+                           rows_of(path.q.topRows(links))};
+  if (problem.model().in_space()) {  // q is directions
+    const Eigen::MatrixXd down = path.q.middleRows(links, links);
+    experiment.trajectory.angle =
+        rows_of(down.cwiseMin(1.0).cwiseMax(-1.0).array().acos().matrix());
+    experiment.trajectory.across = rows_of(motion.across);
+  }
   if (motion.forces.tension.size())
     experiment.forces = {rows_of(motion.forces.tension), rows_of(motion.forces.moment)};
   if (path.energy.size()) {
@@ -342,6 +350,9 @@ std::string identification_result_text(const Problem& problem, const Identificat
   result.message = found.fit.message;
   result.experiments =
       experiments_of(problem, found.fit.x, &found.before, found.after, found.motions);
+  const std::vector<std::string> remarks = remarks_on_fit(problem, found.after);
+  for (std::size_t e = 0; e < remarks.size(); ++e)
+    if (!remarks[e].empty()) result.experiments[e].warnings.push_back(remarks[e]);
   result.measure = measure_of(problem, found.after);
   result.parameters = parameters_of(problem, found.fit.x);
   result.optimiser = optimiser_of(problem, found.fit);

@@ -47,7 +47,7 @@ double best_square(const Problem& problem, int unknown, double value, VectorXd& 
   const auto square_at = [&](const VectorXd& x) {
     const Evaluation evaluation = evaluate(held, x, false, false);
     if (!evaluation.ok) return std::numeric_limits<double>::infinity();
-    const Residuals residuals = residuals_of(held, evaluation, Part::kFit);
+    const Residuals residuals = fitted_residuals(held, evaluation);
     return minus_log_likelihood(held, residuals);
   };
   if (rest.size() == 0) return square_at(rest);
@@ -79,7 +79,7 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
     if (problem.unknowns()[j].parameter >= 0 && problem.unknowns()[j].experiment < 0)
       chosen.push_back(static_cast<int>(j));
   const Evaluation best = evaluate(problem, fit.x, false, false);
-  const Residuals residuals = residuals_of(problem, best, Part::kFit);
+  const Residuals residuals = fitted_residuals(problem, best);
   const double least = minus_log_likelihood(problem, residuals);
   const bool by_likelihood = problem.the_case().error.measure == Measure::kLikelihood;
   const double variance = by_likelihood ? 1 : uncertainty.noise * uncertainty.noise;

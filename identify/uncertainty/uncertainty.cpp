@@ -169,7 +169,7 @@ const char* name_of(Verdict verdict) {
 Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double expected_noise) {
   const Evaluation evaluation = evaluate(problem, x, false, true);
   if (!evaluation.ok) throw std::runtime_error(evaluation.message);
-  const Residuals residuals = residuals_of(problem, evaluation, Part::kFit);
+  const Residuals residuals = fitted_residuals(problem, evaluation);
   const VectorXd weights = noise_of(problem, residuals).cwiseInverse();
   const VectorXd range = ranges(problem, x);
   MatrixXd jacobian = weights.asDiagonal() * residuals.jacobian * range.asDiagonal();

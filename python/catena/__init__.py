@@ -10,15 +10,11 @@ from ._core import (
     AdjointSimulation,
     Case,
     ComputationError,
-    Diagnosis,
-    DiagnosisGap,
     Experiment,
-    FoundParameter,
     Gap,
     Identification,
     InputError,
     Model,
-    OtherEffect,
     SensitiveSimulation,
     SensitivityDirection,
     Simulation,
@@ -38,6 +34,7 @@ from ._core import (
     straight,
 )
 from ._core import __version__ as __version__
+from ._diagnosis import Diagnosis, DiagnosisGap, FoundParameter, OtherEffect
 
 
 def show_progress(*now: object) -> None:

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -82,6 +83,14 @@ def write(folder, times, places):
     )
 
 
+def written(diagnosis, folder):
+    """The files that it writes, by name."""
+    diagnosis.write(folder)
+    return {
+        file.relative_to(folder): file.read_text() for file in folder.rglob("*") if file.is_file()
+    }
+
+
 class Diagnoses(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -111,6 +120,7 @@ class Diagnoses(unittest.TestCase):
         self.assertIn(found.sentence, str(found))
         self.assertLess(found.gap.fit, 1.2 * found.gap.noise_level)
         self.assertLess(found.gap.held_out, 1.35 * found.gap.noise_level)
+        self.assertLess(found.gap.sealed, 1.35 * found.gap.noise_level)
         stiffness = next(p for p in found.parameters if p.name == "EI")
         self.assertEqual(stiffness.unit, "N m^2")
         self.assertLess(stiffness.standard_error, 0.1 * stiffness.value)
@@ -172,6 +182,14 @@ class FindsWhatIsMissing(unittest.TestCase):
                 stdout=subprocess.DEVNULL,
             )
             found = catena.diagnose(pathlib.Path(folder, "case.toml"))
+            again = pickle.loads(pickle.dumps(found))
+            files = written(found, pathlib.Path(folder, "found"))
+            self.assertIn(pathlib.Path("model.toml"), files)
+            self.assertEqual(written(again, pathlib.Path(folder, "again")), files)
+            again.report(folder + "/report.html")
+            self.assertIn("air_drag_quadratic", pathlib.Path(folder, "report.html").read_text())
+        self.assertEqual(str(again), str(found))
+        self.assertEqual(again.parameters, found.parameters)
         self.assertEqual(found.verdict, "named")
         self.assertEqual(found.effects, ["air_drag_quadratic"])
         self.assertLess(found.gap.held_out, 1.2 * found.gap.noise_level)

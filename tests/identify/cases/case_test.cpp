@@ -301,6 +301,8 @@ TEST_CASE("each mistake is named with its line, key, value and rule") {
       {"every = 2", "every = 0", "from 1 to 1000000000"},
       {"noise = 0.001", "noise = 0.0", "must be positive"},
       {"metres_per_pixel = 0.002", "", "lengths in px need it"},
+      {"metres_per_pixel = 0.002", "meters_per_pixel = 0.002",
+       "there is \"meters_per_pixel\" on line"},
       {"frame_rate = 30.0", "", "frames per second"},
       {"joint = 2", "joint = 5", "there are 4"},
       {"arc_length = 0.75", "arc_length = 0.75, joint = 1", "one of arc_length, joint and load"},

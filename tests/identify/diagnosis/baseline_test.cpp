@@ -82,5 +82,5 @@ TEST_CASE("a baseline that loses the phase of a long motion is fitted over growi
   const FittedModel model = fit_baseline(the_case, context);
   REQUIRE(model.ok);
   CHECK(model.x[0] == doctest::Approx(0.4).epsilon(0.01));
-  CHECK(fit_gap(model, {noise}).ratio() < 1.1);
+  CHECK(fit_gap(model, {{.level = noise}}).ratio() < 1.1);
 }

@@ -14,6 +14,7 @@ using namespace catena;
 
 namespace {
 
+const std::vector<NoiseModel> kNoise = {{.level = 1e-3}};
 constexpr int kFrames = 200, kFitted = 121;
 constexpr double kStep = 0.05;  // s: 6 s are fitted, 4 s are held out
 
@@ -40,7 +41,7 @@ FittedModel with_sine(double hertz, double good_enough = std::nan("")) {
 TEST_CASE("a gap that the case accepts is closed, in both parts") {
   for (const double good_enough : {std::nan(""), 3e-3, 4e-3}) {
     const FittedModel model = with_sine(1.0, good_enough);  // 3.5 mm RMS
-    for (const GapTest& gap : {fit_gap(model, {1e-3}), held_out_gap(model, {1e-3})}) {
+    for (const GapTest& gap : {fit_gap(model, kNoise), held_out_gap(model, kNoise)}) {
       CHECK(gap.rms == doctest::Approx(5e-3 / std::numbers::sqrt2).epsilon(0.02));
       CHECK(gap.good_enough == (good_enough == 4e-3));
       CHECK(gap.present == !gap.good_enough);

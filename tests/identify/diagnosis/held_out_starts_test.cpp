@@ -58,10 +58,10 @@ TEST_CASE(
   the_case.experiments[0].window = 0.5;
   const auto problem =
       std::make_shared<const Problem>(the_case, Model::built_in(2), std::vector<Recording>{film()});
-  const FittedModel found = fit_model(problem, problem->start(), fit_least_squares, nullptr);
+  const FittedModel found = fit_model(problem, problem->start(), {}, fit_least_squares, nullptr);
   REQUIRE(found.ok);
-  const std::vector<double> sigmas(problem->experiments().size(), kNoise);
-  const GapTest held_out = held_out_gap(found, sigmas);
+  const std::vector<NoiseModel> noise(problem->experiments().size(), {.level = kNoise});
+  const GapTest held_out = held_out_gap(found, noise);
   CHECK(held_out.count == 2 * (kFrames - kFitted));
   CHECK(held_out.ratio() == doctest::Approx(1).epsilon(0.1));
 
@@ -69,5 +69,5 @@ TEST_CASE(
   wrong[0] *= 3;
   const FittedModel other = assess(problem, wrong, fit_least_squares, nullptr);
   REQUIRE(other.ok);
-  CHECK(held_out_gap(other, sigmas).ratio() > 2);
+  CHECK(held_out_gap(other, noise).ratio() > 2);
 }

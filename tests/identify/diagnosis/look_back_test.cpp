@@ -36,20 +36,22 @@ FittedModel leaving(double fitted, double held_out) {
   Case the_case = testing::sections(testing::kTwoLinks);
   testing::add_experiment(the_case, "run");
   FittedModel model;
-  model.problem = std::make_shared<const Problem>(
-      the_case, Model::built_in(2),
-      std::vector<Recording>{testing::empty_markers({0.5}, kFrames, 1 / kRate)});
+  model.problem =
+      std::make_shared<const Problem>(the_case, Model::built_in(2),
+                                      std::vector<Recording>{testing::empty_markers(
+                                          {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, 2 * kFrames, 1 / kRate)});
   model.x = model.problem->start();
   model.ok = true;
   model.fit_residual = {residuals(fitted, 1)};
   model.held_out_residual = {residuals(held_out, 2)};
+  model.predicted = {Eigen::MatrixXd::Zero(kChannels, 2 * kFrames)};
   return model;
 }
 
 Stage stage_of(const DiagnosisState& state, FittedModel model) {
   Stage stage;
-  stage.fit = fit_gap(model, state.found.sigmas);
-  stage.held_out = held_out_gap(model, state.found.sigmas);
+  stage.fit = fit_gap(model, state.found.noise);
+  stage.held_out = held_out_gap(model, state.found.noise);
   stage.model = std::move(model);
   return stage;
 }
@@ -105,10 +107,10 @@ Explanation explanation_of(const DiagnosisState& state, const std::string& id, i
   explanation.id = id;
   explanation.candidate = 0;
   explanation.refitted = true;
-  explanation.comparison = compare(state.last().model, model, state.found.sigmas);
+  explanation.comparison = compare(state.last().model, model, state.found.noise);
   explanation.comparison.added = unknowns;
-  explanation.fit = fit_gap(model, state.found.sigmas);
-  explanation.held_out = held_out_gap(model, state.found.sigmas);
+  explanation.fit = fit_gap(model, state.found.noise);
+  explanation.held_out = held_out_gap(model, state.found.noise);
   explanation.model = std::move(model);
   return explanation;
 }
@@ -155,18 +157,16 @@ TEST_CASE("what was the best once is known in any order") {
   CHECK_FALSE(effects.state.had({"clock_offset"}));
 }
 
-TEST_CASE("an effect is certain that shows in both parts, and well in one, without a rival") {
+TEST_CASE("an effect stands that shows in both parts, and well in one") {
   Diagnosis found;
   found.shares.has_held_out = true;
-  const auto certain = [&](ShareInterval fitted, ShareInterval held_out) {
+  const auto stands = [&](ShareInterval fitted, ShareInterval held_out) {
     found.shares.effects = {{"drag", fitted, held_out}};
-    return !certain_effects(found).empty();
+    return !standing_effects(found).empty();
   };
-  CHECK(certain({0.2, 0.06, 0.3}, {0.9, 0.86, 0.95}));
-  CHECK(certain({0.8, 0.7, 0.9}, {0.1, 0.01, 0.2}));
-  CHECK_FALSE(certain({0.8, 0.7, 0.9}, {0.1, -0.01, 0.2}));
-  CHECK_FALSE(certain({0.1, -0.01, 0.2}, {0.9, 0.86, 0.95}));
-  CHECK_FALSE(certain({0.1, 0.01, 0.2}, {0.1, 0.01, 0.2}));
-  found.alternatives = {{"drag", {}, {}}};
-  CHECK_FALSE(certain({0.8, 0.7, 0.9}, {0.8, 0.7, 0.9}));
+  CHECK(stands({0.2, 0.06, 0.3}, {0.9, 0.86, 0.95}));
+  CHECK(stands({0.8, 0.7, 0.9}, {0.1, 0.01, 0.2}));
+  CHECK_FALSE(stands({0.8, 0.7, 0.9}, {0.1, -0.01, 0.2}));
+  CHECK_FALSE(stands({0.1, -0.01, 0.2}, {0.9, 0.86, 0.95}));
+  CHECK_FALSE(stands({0.1, 0.01, 0.2}, {0.1, 0.01, 0.2}));
 }

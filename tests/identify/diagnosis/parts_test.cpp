@@ -61,8 +61,8 @@ TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the 
   int alarms = 0, found = 0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const MatrixXd noise = white(24, 120, 1e-3, seed);
-    alarms += catena::test_gap({noise}, {1e-3}).present;
-    found += catena::test_gap({noise + smooth(24, 120, 5e-4, 1, 30)}, {1e-3}).present;
+    alarms += catena::test_gap({noise}, {{.level = 1e-3}}).present;
+    found += catena::test_gap({noise + smooth(24, 120, 5e-4, 1, 30)}, {{.level = 1e-3}}).present;
   }
   CHECK(alarms == 0);
   CHECK(found == 200);
@@ -70,7 +70,7 @@ TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the 
 
 TEST_CASE("the misfit is the part that neighbouring frames share") {
   const MatrixXd both = white(24, 600, 1e-3, 3) + smooth(24, 600, 2e-3, 1, 60);
-  const catena::GapTest gap = catena::test_gap({both}, {1e-3});
+  const catena::GapTest gap = catena::test_gap({both}, {{.level = 1e-3}});
   CHECK(gap.misfit == doctest::Approx(2e-3).epsilon(0.03));
   CHECK(gap.ratio() == doctest::Approx(std::sqrt(5.0)).epsilon(0.03));
 }

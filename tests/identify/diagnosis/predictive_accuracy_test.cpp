@@ -14,13 +14,13 @@ using namespace catena;
 namespace {
 
 constexpr int kChannels = 4;
-const std::vector<double> kSigmas = {1e-3};
+const std::vector<catena::NoiseModel> kNoise = {{.level = 1e-3}};
 
 /// A model that leaves noise, the same for all of a seed, and a motion of so much rms and of random
 /// phases of its own in the held-out part.
 FittedModel leaving(double misfit, int frames, unsigned seed, unsigned phases) {
   std::mt19937_64 random(seed), of_motion(phases);
-  std::normal_distribution<double> gauss(0, kSigmas[0]);
+  std::normal_distribution<double> gauss(0, kNoise[0].level);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
   FittedModel model;
   Case the_case = testing::sections(testing::kTwoLinks);
@@ -43,27 +43,27 @@ FittedModel leaving(double misfit, int frames, unsigned seed, unsigned phases) {
 
 TEST_CASE("a model that leaves less of what was held out predicts better, and not the reverse") {
   const FittedModel good = leaving(0, 240, 1, 1), bad = leaving(1e-3, 240, 1, 1);
-  CHECK(predicts_better(good, bad, kSigmas));
-  CHECK_FALSE(predicts_better(bad, good, kSigmas));
+  CHECK(predicts_better(good, bad, kNoise));
+  CHECK_FALSE(predicts_better(bad, good, kNoise));
   // 4 % more is a detail.
-  CHECK_FALSE(predicts_better(good, leaving(0.28e-3, 240, 1, 1), kSigmas));
+  CHECK_FALSE(predicts_better(good, leaving(0.28e-3, 240, 1, 1), kNoise));
   // Few frames prove nothing.
-  CHECK(chance_of_lead(leaving(0, 23, 1, 1), leaving(1e-3, 23, 1, 1), kSigmas) == 1);
-  CHECK(chance_of_lead(good, bad, kSigmas) == doctest::Approx(1.0 / 4096));
+  CHECK(chance_of_lead(leaving(0, 23, 1, 1), leaving(1e-3, 23, 1, 1), kNoise) == 1);
+  CHECK(chance_of_lead(good, bad, kNoise) == doctest::Approx(1.0 / 4096));
 }
 
 TEST_CASE("a lead that grows is one from the beginning") {
   FittedModel growing = leaving(2e-3, 240, 1, 1);
   for (Eigen::Index k = 0; k < 240; ++k)
     growing.held_out_residual[0].col(k) *= std::exp(0.03 * static_cast<double>(k));
-  CHECK(predicts_better(leaving(0, 240, 1, 1), growing, kSigmas));
+  CHECK(predicts_better(leaving(0, 240, 1, 1), growing, kNoise));
 }
 
 TEST_CASE("of two models that predict alike, one leads by chance as rarely as it says") {
   int one_in_20 = 0, one_in_1000 = 0;
   for (unsigned seed = 1; seed <= 1000; ++seed) {
     const double chance = chance_of_lead(leaving(0.5e-3, 240, seed, 2 * seed),
-                                         leaving(0.5e-3, 240, seed + 5000, 2 * seed + 1), kSigmas);
+                                         leaving(0.5e-3, 240, seed + 5000, 2 * seed + 1), kNoise);
     one_in_20 += chance < 0.05;
     one_in_1000 += chance < 0.001;
   }

@@ -7,6 +7,7 @@
 #include "identify/fit/error.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 
 using namespace catena;
@@ -123,15 +124,12 @@ TEST_CASE("derivatives of the shooting defects agree with differences") {
   const Eigen::VectorXd x = problem.start();
   const SoftConstraints defects = shooting_defects_of(problem, evaluate(problem, x, false, true));
   REQUIRE(defects.jacobian.cols() == x.size());
+  const auto defects_at = [&](const Eigen::VectorXd& at_x) {
+    return shooting_defects_of(problem, evaluate(problem, at_x, false, false)).value;
+  };
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double h = 1e-4 * std::max(std::abs(x[j]), 1e-2);
-    Eigen::VectorXd above = x, below = x;
-    above[j] += h;
-    below[j] -= h;
-    const Eigen::VectorXd difference =
-        (shooting_defects_of(problem, evaluate(problem, above, false, false)).value -
-         shooting_defects_of(problem, evaluate(problem, below, false, false)).value) /
-        (2 * h);
+    const Eigen::VectorXd difference = testing::central_difference(defects_at, x, j, h);
     CHECK((difference - defects.jacobian.col(j)).norm() <= 1e-3 * (1 + difference.norm()));
   }
 }

@@ -11,6 +11,7 @@
 
 #include "common/input_error.hpp"
 #include "identify/fit/error.hpp"
+#include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -209,16 +210,12 @@ angle = 0.6
   const Problem problem(the_case, model, {recording});
   const Eigen::VectorXd x = problem.start();
   const Residuals at = residuals_of(problem, evaluate(problem, x, true, true), Part::kFit);
+  const auto residuals = [&](const Eigen::VectorXd& at_x) {
+    return residuals_of(problem, evaluate(problem, at_x, true, false), Part::kFit).value;
+  };
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
-    const double h = 1e-4;
-    Eigen::VectorXd plus = x, minus = x;
-    plus[j] += h;
-    minus[j] -= h;
-    const Eigen::VectorXd difference =
-        (residuals_of(problem, evaluate(problem, plus, true, false), Part::kFit).value -
-         residuals_of(problem, evaluate(problem, minus, true, false), Part::kFit).value) /
-        (2 * h);
+    const Eigen::VectorXd difference = testing::central_difference(residuals, x, j, 1e-4);
     CHECK((difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() <
           1e-4 * at.jacobian.col(j).cwiseAbs().maxCoeff());
     CHECK(at.jacobian.col(j).cwiseAbs().maxCoeff() > 1e-3);

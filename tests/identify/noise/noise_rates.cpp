@@ -143,7 +143,7 @@ bool gap_found(const Kind& kind, std::uint64_t seed, double misfit) {
   std::vector<int> direction;
   for (int c = 0; c < kChannels; ++c) direction.push_back(c % 2);
   const catena::NoiseModel noise = catena::estimate_noise({window}, direction)[0];
-  return catena::test_gap({noise.whitened(residual)}, {1.0}).present;
+  return catena::test_gap({residual}, {noise}).present;
 }
 
 /// Upper end of the 95 % interval of a rate: where so few would be found in one of 20 studies.

@@ -5,6 +5,7 @@
 
 #include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
+#include "tests/identify/differences.hpp"
 #include "tests/runtime/reference_model.hpp"
 
 using namespace catena;
@@ -77,10 +78,7 @@ TEST_CASE("the Jacobian is the derivative of the map") {
   const Eigen::MatrixXd jacobian = map.jacobian(values);
   for (Eigen::Index j = 0; j < values.size(); ++j) {
     const double h = 1e-6 * values[j];  // central differences: h^2 times the third derivative
-    Eigen::VectorXd plus = values, minus = values;
-    plus[j] += h;
-    minus[j] -= h;
-    const Eigen::VectorXd difference = (map(plus) - map(minus)) / (2 * h);
+    const Eigen::VectorXd difference = testing::central_difference(map, values, j, h);
     CHECK((difference - jacobian.col(j)).cwiseAbs().maxCoeff() <
           1e-8 * jacobian.col(j).cwiseAbs().maxCoeff());
   }

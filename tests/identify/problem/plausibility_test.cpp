@@ -164,6 +164,37 @@ TEST_CASE("a wrong origin, order or direction is named") {
   expect(film.said(), {"markers: ", "sideways"});
 }
 
+TEST_CASE("a length, and places along the cable, that do not fit the markers are named") {
+  Film film;
+  film.mistake = [](Case& the_case) { the_case.cable.length = 1600; };  // mm
+  expect(film.said(), {"length: the last marker is at 1.6 m", "1600 m long"});
+  film.mistake = [](Case& the_case) { the_case.cable.length = 3.1; };  // more than half is marked
+  CHECK(film.said().find("length: ") == std::string::npos);
+  film.mistake = [](Case& the_case) {  // uneven markers taken as even
+    std::vector<PointSpec>& points = spec_of(the_case).points;
+    for (PointSpec& point : points)
+      point.arc_length = kLength * static_cast<double>(&point - points.data() + 1) / 3;
+  };
+  expect(film.said(), {"markers: marker 2 and marker 3 are 0.7 m apart, but only 0.533 m"});
+  film.mistake = [](Case& the_case) {  // 0.1 m farther from the next than the cable is long
+    spec_of(the_case).points[1].arc_length = 1.03;
+  };
+  expect(film.said(), {"markers: marker 2 and marker 3 are 0.7 m apart"});
+  film.mistake = [](Case& the_case) {  // the columns of two markers exchanged
+    std::vector<PointSpec>& points = spec_of(the_case).points;
+    std::swap(points[1].side_column, points[2].side_column);
+    std::swap(points[1].down_column, points[2].down_column);
+  };
+  expect(film.said(),
+         {"error: ", "markers: marker 1 and marker 2 are 1.2 m apart", "in the order of the file"});
+}
+
+TEST_CASE("an origin near the first marker is named") {
+  Film film;  // the support of the film is at 0, 0; the case puts it near marker 1
+  film.mistake = [](Case& the_case) { spec_of(the_case).origin = {0, 0.35}; };
+  expect(film.said(), {"origin: marker 1 is only", "about [0, "});
+}
+
 TEST_CASE("a wrong unit of time is named") {
   Film film;
   film.time_unit = "ms";

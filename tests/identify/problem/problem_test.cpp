@@ -3,6 +3,7 @@
 
 #include "common/impossible_value.hpp"
 #include "identify/fit/error.hpp"
+#include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
 
@@ -53,16 +54,14 @@ upper = 1.0
 void check_jacobian(const Problem& problem) {
   const Eigen::VectorXd x = problem.start();
   const Residuals at = residuals_of(problem, evaluate(problem, x, true, true), Part::kFit);
+  const auto residuals = [&](const Eigen::VectorXd& at_x) {
+    return residuals_of(problem, evaluate(problem, at_x, true, false), Part::kFit).value;
+  };
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double h = 1e-4 * std::max(0.1, std::abs(x[j]));
-    Eigen::VectorXd plus = x, minus = x;
-    plus[j] += h;
-    minus[j] -= h;
-    const Eigen::VectorXd difference =
-        (residuals_of(problem, evaluate(problem, plus, true, false), Part::kFit).value -
-         residuals_of(problem, evaluate(problem, minus, true, false), Part::kFit).value) /
-        (2 * h);
-    const double error = (difference - at.jacobian.col(j)).cwiseAbs().maxCoeff() /
+    const double error = (testing::central_difference(residuals, x, j, h) - at.jacobian.col(j))
+                             .cwiseAbs()
+                             .maxCoeff() /
                          at.jacobian.col(j).cwiseAbs().maxCoeff();
     CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
     CHECK(error < 2e-3);

@@ -138,6 +138,10 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
        "kind = \"markers\"",
        "kind = \"markers\"\nuse = \"validate\"",
        {"case.toml", "without data"}},
+      {"too many starts",
+       "measure = \"mean_distance\"",
+       "measure = \"mean_distance\"\n[optimiser]\nstarts = 2000000000",
+       {"optimiser.starts: 2000000000; must be a whole number from 1 to 100000"}},
       {"nothing free", "free = true\nlower = 0.001\nupper = 1.0", "", {"case.toml"}},
       {"window without frames",
        "kind = \"markers\"",
@@ -186,29 +190,6 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
   }
   folder.write("data.csv", "");
   check_refused(folder, "identify", the_case, {"data.csv", "empty"});
-}
-
-TEST_CASE("fits that would take hours are begun with --yes only") {
-  const testing::TemporaryFolder folder;
-  folder.write("data.csv", kData);
-  const std::string whole =
-      replaced(replaced(testing::kFit, "swing/positions.csv", "data.csv"), "fit_until = 0.6\n", "");
-  const std::string starts = whole + "[optimiser]\nmethod = \"nelder_mead\"\nstarts = ";
-  check_refused(folder, "identify", folder.write("case.toml", starts + "2000000000\n"),
-                {"optimiser.starts: 2000000000; must be a whole number from 1 to 100000"});
-  const auto many = folder.write("case.toml", starts + "100000\n");
-  const auto out = folder.path() / "out";
-  const auto run = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"identify", many, "--output", out, "--threads", "1"});
-    return run_catena(more);
-  };
-  const ProcessResult refused = run({"--bootstrap", "100000"});
-  CHECK(refused.exit_status == 2);
-  CHECK_MESSAGE(refused.output.find("the identification needs about ") != std::string::npos,
-                refused.output);
-  CHECK_FALSE(std::filesystem::exists(out));
-  CHECK(run({"--time-limit", "0.3"}).exit_status == 0);  // that is the time then
-  CHECK(run({"--time-limit", "0.3", "--bootstrap", "1", "--yes"}).exit_status == 0);
 }
 
 TEST_CASE("mistakes on the command line") {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -28,6 +27,13 @@ struct Twin {
         0);
   }
 };
+
+/// Lines written so far; 0 of a file that is not there.
+int lines_of(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return 0;
+  const std::string text = testing::text_of(file);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
 
 }  // namespace
 
@@ -104,11 +110,11 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
                                           "\n[simulation]\nrelative_tolerance = 1e-9\n");
     const std::filesystem::path whole = twin.folder.path() / method / "whole";
     const std::filesystem::path killed = twin.folder.path() / method / "killed";
-    const auto begin = std::chrono::steady_clock::now();
     REQUIRE(run_catena({"identify", the_case, "--output", whole, "-q"}).exit_status == 0);
-    const std::chrono::duration<double> needed = std::chrono::steady_clock::now() - begin;
+    const int all_lines = lines_of(whole / "run.log");
 
     std::mt19937_64 random(simplex ? 1 : 2);
+    std::uniform_real_distribution<double> shares(0, 1);
     int kills = 0, logged = 0, grew = 0;
     for (int attempt = 0; attempt < 6; ++attempt) {
       const pid_t child = fork();
@@ -117,15 +123,18 @@ TEST_CASE("a run killed at random times and resumed ends as an undisturbed one d
               "--resume", "-q", nullptr);
         _exit(127);
       }
-      // The log keeps what came before: six delays of these shares are less than the whole run.
-      const double share = 0.02 + 0.14 * static_cast<double>(random() % 1000) / 1000;
-      usleep(static_cast<useconds_t>(1e6 * share * needed.count()));
-      kill(child, SIGKILL);
+      // In lines of the log, for seconds depend on the machine: six shares are less than the whole.
+      const int until = logged + static_cast<int>(all_lines * 0.14 * shares(random));
       int status = 0;
-      waitpid(child, &status, 0);
+      while (lines_of(killed / "run.log") < until && waitpid(child, &status, WNOHANG) == 0)
+        usleep(200);
+      if (status == 0) {
+        usleep(static_cast<useconds_t>(5000 * shares(random)));
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+      }
       kills += WIFSIGNALED(status);
-      const std::string log = testing::text_of(killed / "run.log");
-      const auto lines = static_cast<int>(std::count(log.begin(), log.end(), '\n'));
+      const int lines = lines_of(killed / "run.log");
       grew += lines > logged;
       logged = lines;
     }

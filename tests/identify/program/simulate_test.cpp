@@ -50,6 +50,46 @@ TEST_CASE("simulate writes what it says, the same every time") {
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);
 }
 
+TEST_CASE("a case of a model in space starts in azimuths and has a third component") {
+  const testing::TemporaryFolder folder;
+  folder.write("space.toml", "format = 1\nkind = \"model\"\nid = \"space\"\nspace = \"3d\"\n");
+  const std::string model = "[model]\n", angle = "angle = 0.6\n";
+  const std::string in_space =
+      testing::replaced(testing::kSwing, model, model + "description = \"space.toml\"\n");
+  const std::string turned =
+      testing::replaced(in_space, angle,
+                        angle +
+                            "azimuth = 0.4\n[initial.velocity]\nshape = \"straight\"\nrates = [0]\n"
+                            "azimuth_rates = [2, 3]\n");
+  const auto the_case = folder.write("turned.toml", turned);
+  const std::string output = folder.path() / "turned";
+  const ProcessResult run = run_catena({"simulate", the_case, "--output", output});
+  REQUIRE_MESSAGE(run.exit_status == 0, run.output);
+  const Table positions = read_table(std::filesystem::path(output) / "positions.csv");
+  const Table directions = read_table(std::filesystem::path(output) / "angles.csv");
+  const double sine = std::sin(0.6);
+  CHECK(positions.column("side_1_m").front() ==
+        doctest::Approx(0.5 * sine * std::cos(0.4)).epsilon(1e-14));
+  CHECK(positions.column("across_2_m").front() ==
+        doctest::Approx(sine * std::sin(0.4)).epsilon(1e-14));
+  CHECK(directions.column("direction_across_2_rate_1_s").front() ==
+        doctest::Approx(3 * sine * std::cos(0.4)).epsilon(1e-14));
+  CHECK(positions.column("across_load_m").back() != doctest::Approx(sine * std::sin(0.4)));
+  const auto refused = [&](const std::string& text, const std::string& said) {
+    const ProcessResult result =
+        run_catena({"simulate", folder.write("refused.toml", text), "--output", output + "_not"});
+    CHECK(result.exit_status == 2);
+    CHECK_MESSAGE(result.output.find(said) != std::string::npos, result.output);
+  };
+  refused(testing::replaced(testing::kSwing, angle, angle + "azimuth = 0.4\n"),
+          "initial: azimuth: the model moves in the plane");
+  refused(testing::replaced(turned, "[2, 3]", "[2, 3, 4]"), "azimuth_rates: 3 numbers");
+  refused(in_space +
+              "[[experiment]]\nname = \"a\"\ndata = \"turned/positions.csv\"\n"
+              "kind = \"markers\"\n",
+          "model: it moves in space");
+}
+
 TEST_CASE("without --output no command replaces what another one wrote") {
   const testing::TemporaryFolder folder;
   folder.write("swing.toml", testing::kSwing);

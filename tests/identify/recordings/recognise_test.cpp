@@ -19,8 +19,9 @@ struct Style {
   double time = 1, length = 1;  // one s, one m in units of the file
   double support[2] = {0, 0};
   int down = 1;
-  double held = 0;   // s
-  double start = 0;  // s after the release
+  double held = 0;    // s
+  double start = 0;   // s after the release
+  double jitter = 0;  // s: every second of three frames is late by it, every third by twice
 };
 
 RecognisedRecording recognised(const Style& style, KnownOfRecording known = {}) {
@@ -28,7 +29,7 @@ RecognisedRecording recognised(const Style& style, KnownOfRecording known = {}) 
   std::string text = style.names + "\n";
   const char separator = style.names.find(';') == std::string::npos ? ',' : ';';
   for (int k = 0; k < 150; ++k) {
-    std::string row = std::to_string(k / 30.0 * style.time);
+    std::string row = std::to_string((k / 30.0 + k % 3 * style.jitter) * style.time);
     const double angle = 0.7 * std::cos(2.6 * std::max(0.0, k / 30.0 - style.held + style.start));
     for (const double arc : {0.6, 1.5}) {
       row += ";" + std::to_string(style.support[0] + style.length * arc * std::sin(angle));
@@ -114,6 +115,15 @@ TEST_CASE("what is read with the recognised case is the motion") {
                                                }());
   CHECK(found.spec.points[0].side_column == "p1x");
   CHECK(found.spec.points[1].down_column == "p2y");
+}
+
+TEST_CASE("the frame rate is that of the whole film, whatever single steps are") {
+  const RecognisedRecording found = recognised({.jitter = 0.004});
+  CHECK_MESSAGE(found.understood[0].find("in s, 29.9") != std::string::npos, found.understood[0]);
+  KnownOfRecording known;
+  known.frame_rate = 25;
+  const std::string refused = failure([&] { recognised({}, known); });
+  CHECK_MESSAGE(refused.find("--frame-rate: 25; column \"time_s\"") != std::string::npos, refused);
 }
 
 TEST_CASE("a file without markers is refused with what is wanted") {

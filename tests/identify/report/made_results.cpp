@@ -334,7 +334,7 @@ json made_diagnosis() {
   json force = json::array();
   json names = json::array();
   for (int joint = 1; joint <= 12; ++joint) {
-    names.push_back("joint " + std::to_string(joint));
+    names.push_back(std::to_string(joint) + " m");
     json row = json::array();
     for (const double at : t)
       row.push_back(0.01 * joint * std::sin(1.95 * at) * std::exp(-0.1 * at));
@@ -352,10 +352,14 @@ json made_diagnosis() {
       {"unit", "m"},
       {"where", json::array({"largest at the load, at high speed, after 2 s"})},
       {"missing_force",
-       {{"unit", "N m"},
-        {"time", t},
-        {"rows", names},
-        {"value", force},
+       {{"found", true},
+        {"densities", json::array({{{"experiment", "release 1"},
+                                    {"quantity", "side density"},
+                                    {"unit", "N/m"},
+                                    {"time", t},
+                                    {"rows", names},
+                                    {"value", force},
+                                    {"deviation", force}}})},
         {"words", json::array({"it opposes the motion and grows with its square"})}}},
       {"links", {{"given", 12}, {"used", 12}}},
       {"equality_at_neutral", 3e-15},

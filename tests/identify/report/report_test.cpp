@@ -228,7 +228,7 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
         Row{made_diagnosis(),
             with(seen, {"gap", "shares", "scores", "before_after_error", "before_after_position",
                         "residual_map_before", "residual_map_after", "before_after_spectrum",
-                        "missing_force"})}}) {
+                        "missing_force_side", "missing_force_bands_side"})}}) {
     const auto figures = report_figures(read(row.result));
     CHECK(families(figures) == row.families);
     std::set<std::string> ids;

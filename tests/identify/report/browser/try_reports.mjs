@@ -225,6 +225,7 @@ await attempt('a chart is saved as SVG, PNG and CSV, the player as SVG and PNG',
     const [download] = await Promise.all([begun, scope.getByRole('button', {name}).click()]);
     const path = join(folder, download.suggestedFilename());
     await download.saveAs(path);
+    await page.waitForTimeout(150);  // Chromium silently drops the 11th download of a second
     return readFileSync(path);
   };
   for (const [family, words] of [['energy', 'kinetic'], ['residual_map', 'distance'], ['shapes', 'measured'], ['frames', 'simulated']]) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "identify/problem/experiment.hpp"
+#include "runtime/positions.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/trajectory.hpp"
+
+namespace catena {
+
+/// Model times of the frames, where each is in the list of distinct, increasing times that is
+/// simulated, and whether the cable is still held then.
+struct FrameClock {
+  std::vector<double> times;         ///< s, to simulate; the first is the start
+  std::vector<Eigen::Index> column;  ///< of each frame, in `times`
+  std::vector<bool> held;            ///< of each frame: before the start
+};
+
+/// Of the first `frames` frames. `parameters`: the model's array.
+FrameClock frame_clock(const Model& model, const Experiment& experiment,
+                       const Eigen::VectorXd& parameters, Eigen::Index frames);
+
+/// Reads a motion as the sensors of one experiment do.
+class Observer {
+ public:
+  /// `along`: the directions of which derivatives will be asked for; only their parameters are
+  /// read. All three references must outlive the observer. Throws ImpossibleValue for markers
+  /// beyond the end of the cable.
+  Observer(const Model& model, const Experiment& experiment, const Eigen::VectorXd& parameters,
+           const std::vector<SensitivityDirection>& along);
+
+  /// Moves on to the frame at time t (s), which is column `column` of the path.
+  void move_to(const Trajectory& path, Eigen::Index column, double t);
+
+  /// From there to the derivatives along direction number `direction`, `sensitivity` those of the
+  /// path along it.
+  void look_along(const Trajectory& sensitivity, std::size_t direction, bool held);
+
+  /// What was seen last, m or rad.
+  double operator()(const Channel& channel) const {
+    return seen_[static_cast<std::size_t>(channel.point)]
+                [static_cast<std::size_t>(channel.component)];
+  }
+
+ private:
+  /// Where a point is on the chain. Material points keep their place when the cable bends; those
+  /// given by arc length also move along a link whose length changes.
+  struct Place {
+    MaterialPoint point;
+    bool at_arc_length = false;
+    bool load = false;
+  };
+  /// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link
+  /// (rad).
+  using Sight = std::array<double, 3>;
+
+  static Place place_of(const Model& model, const Eigen::VectorXd& parameters,
+                        const PointSpec& point);
+  catena_point point(const Trajectory& path, const Eigen::VectorXd& signals,
+                     const Eigen::VectorXd& p) const;
+
+  const Model& model_;
+  const Experiment& experiment_;
+  const Eigen::VectorXd& parameters_;
+  const std::vector<SensitivityDirection>& directions_;
+  std::vector<Place> places_;
+  std::vector<std::vector<double>> moved_;  // per direction and place: of points at an arc length
+  Eigen::VectorXd accelerations_, signals_, no_signals_;  // positions do not ask for a
+  Positions here_, rates_, change_;
+  std::vector<Sight> true_, seen_;  // per place
+  const Trajectory* path_ = nullptr;
+  Eigen::Index column_ = 0;
+  double t_ = 0;
+};
+
+}  // namespace catena

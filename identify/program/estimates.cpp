@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/program/estimates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identify/program/command.hpp"
+
+namespace catena {
+
+double memory_of_motions(const Problem& problem) {
+  constexpr double kBytes = 1100;  // an output and link: measured with 12 links, 50 000 outputs
+  const SimulationSpec& simulation = problem.the_case().simulation;
+  double outputs = problem.experiments().empty() ? simulation.duration / simulation.step : 0;
+  for (const Experiment& experiment : problem.experiments())
+    outputs += static_cast<double>(experiment.recording.time.size());
+  return kBytes * outputs * (problem.model().links() + 1);
+}
+
+double simulations_of_a_fit(const Problem& problem) {
+  const auto unknowns = static_cast<double>(problem.unknowns().size());
+  const OptimiserSpec& spec = problem.the_case().optimiser;
+  if (spec.method == FitMethod::kNelderMead)
+    return std::min<double>(40 * unknowns, spec.max_evaluations);
+  const double evaluations = spec.method == FitMethod::kLeastSquares ? 10 : 30;
+  return std::min<double>(evaluations, spec.max_evaluations) * (1 + unknowns / 3);
+}
+
+WorkEstimate estimate_of(const Problem& problem, const std::function<double(double)>& seconds_of,
+                         bool yes, Evaluation& start) {
+  WorkEstimate estimate = {.bytes = memory_of_motions(problem)};
+  const double begin = cpu_seconds();
+  constexpr double kPatience = 1;  // s; a simulation that is shorter is measured whole
+  const auto keep_going = [&] {
+    const double simulation = cpu_seconds() - begin;
+    estimate.seconds = seconds_of(simulation);
+    estimate.or_more = simulation > kPatience && estimate.seconds > kMostUnasked.seconds;
+    return (yes || !estimate.or_more) && !interrupted();
+  };
+  start = evaluate(problem, problem.start(), true, false, keep_going);
+  estimate.seconds = seconds_of(cpu_seconds() - begin);
+  return estimate;
+}
+
+bool Forecast::goes_on(double done) {
+  constexpr double kPatience = 3;  // s; the beginning may be slower than the rest
+  const double seconds = cpu_seconds() - begin_;
+  if (yes_ || seconds < kPatience || !(done > 0)) return true;
+  const double all = times_ * seconds * whole_ / done;
+  if (all <= kMostUnasked.seconds) return true;
+  estimate_.seconds = all;
+  return false;
+}
+
+}  // namespace catena
