@@ -114,6 +114,10 @@ void check_first_argument(const CLI::App& program, int argc, const char* const* 
   throw InputError(word + " is not a command" + suggestion(word, names));
 }
 
+void add_yes_option(CLI::App& command, bool& yes) {
+  command.add_flag("-y,--yes", yes, "go on where more than 10 min or 4 GB are needed");
+}
+
 CLI::Validator positive_number() {
   return number_that([](double value) { return value > 0; }, "above 0", "POSITIVE");
 }

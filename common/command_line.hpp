@@ -19,6 +19,9 @@ int status_of(const CLI::App& program, const CLI::ParseError& error);
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 
+/// --yes, with which a command begins work above kMostUnasked (large_work.hpp), too.
+void add_yes_option(CLI::App& command, bool& yes);
+
 /// Some functions of libraries that must not throw ask for memory: where there is none, the program
 /// ends with status 1 and says so, instead of by a signal.
 void end_where_memory_is_short(const char* program);

@@ -142,12 +142,14 @@ std::string toml_remedy(std::string_view text, int line) {
   const std::string there(text);
   std::smatch found;
   // Values: a number with a decimal comma, a word without quotes. A [table] that is there twice.
-  if (std::regex_match(there, found, std::regex(R"(\s*[\w.-]+\s*=\s*(-?\d+),(\d+)\s*(#.*)?)")))
+  if (static const std::regex number(R"(\s*[\w.-]+\s*=\s*(-?\d+),(\d+)\s*(#.*)?)");
+      std::regex_match(there, found, number))
     return "; a decimal point is wanted: " + found[1].str() + "." + found[2].str();
-  if (std::regex_match(there, found,
-                       std::regex(R"(\s*[\w.-]+\s*=\s*([A-Za-z_][\w./-]*)\s*(#.*)?)")))
+  if (static const std::regex word(R"(\s*[\w.-]+\s*=\s*([A-Za-z_][\w./-]*)\s*(#.*)?)");
+      std::regex_match(there, found, word))
     return "; a text is written in quotes: \"" + found[1].str() + "\"";
-  if (std::regex_match(there, found, std::regex(R"(\s*\[([\w.]+)\]\s*(#.*)?)")))
+  if (static const std::regex table(R"(\s*\[([\w.]+)\]\s*(#.*)?)");
+      std::regex_match(there, found, table))
     return "; where a table comes several times, each begins with [[" + found[1].str() + "]]";
   if (line == 1 && there.find_first_of("=[#") == std::string::npos)
     return "; if this is a recording, catena new makes a case from it";

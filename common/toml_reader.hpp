@@ -66,6 +66,9 @@ class TomlTable {
   /// The same at the table itself.
   [[noreturn]] void fail(const std::string& problem) const;
 
+  /// The same at the table itself, where a key is missing: "KEY" is missing; give WHAT (there is ...),
+  /// with the unknown key that is spelt alike.
+  [[noreturn]] void fail_missing(std::string_view key, std::string_view what) const;
   /// The same where exactly one of several keys is wanted, and none or several are there.
   [[noreturn]] void fail_choice(const std::vector<std::string>& keys) const;
 
@@ -83,7 +86,6 @@ class TomlTable {
   struct Document;
   TomlTable(std::shared_ptr<Document> document, const void* table, std::string path);
   std::string key_like(std::string_view key) const;
-  [[noreturn]] void fail_missing(std::string_view key, std::string_view what) const;
   [[noreturn]] void fail_type(std::string_view key, std::string_view wanted) const;
 
   std::shared_ptr<Document> document_;

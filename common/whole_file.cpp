@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/input_error.hpp"
 
@@ -137,22 +138,33 @@ std::string read_whole_file(const std::filesystem::path& path) {
   return text;
 }
 
+namespace {
+
+/// A file that goes again, unless it was renamed. It needs no memory for that.
+struct TemporaryFile {
+  std::filesystem::path path;
+  explicit TemporaryFile(std::filesystem::path file) : path(std::move(file)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() { unlink(path.c_str()); }
+};
+
+}  // namespace
+
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  std::filesystem::path temporary = path;
-  temporary += ".part" + std::to_string(getpid());
+  std::filesystem::path part = path;
+  part += ".part" + std::to_string(getpid());
+  const TemporaryFile temporary(std::move(part));
   errno = 0;
-  std::ofstream stream(temporary, std::ios::binary);
+  std::ofstream stream(temporary.path, std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   std::error_code error(errno, std::generic_category());
-  if (stream) std::filesystem::rename(temporary, path, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+  if (stream) std::filesystem::rename(temporary.path, path, error);
+  if (!stream || error)
     throw InputError(path.string() + ": cannot be written" +
                      (error ? " (" + error.message() + ")" : "") +
                      "; check that the folder exists, is writable and has room");
-  }
   const std::scoped_lock lock(texts().mutex);
   texts().by_path.erase(key_of(path));
 }
