@@ -51,17 +51,30 @@ PAIRS = [
 ]
 # Joints of a finer chain turn less: the same cable has amplitudes that go with this power of n.
 JOINT_POWERS = {"joint_damping_quadratic": 2, "joint_stiffness_cubic": 3}
+# Noise that is not white, not normal or not alike for all markers, as make_recording's options.
+DIRT = {
+    "correlated_0.3": ["--autocorrelation", "0.3"],
+    "correlated_0.6": ["--autocorrelation", "0.6"],
+    "smoothed": ["--smoothed"],
+    "noisy_marker": ["--noisy-marker", "3"],
+    "shaking": ["--shaking", "1"],
+    "tails": ["--tails", "4"],
+    "outliers": ["--outliers", "0.001"],
+    "all": ["--autocorrelation", "0.3", "--noisy-marker", "3", "--shaking", "1", "--tails", "4",
+            "--outliers", "0.001"],
+}
 STRENGTHS = (1, 3, 10)  # times the noise, in what a refitted baseline leaves
 NOISES = (0.001, 0.0005, 0.003)  # m
 RATES = (60, 30, 120)  # frames/s
 LINKS = (24, 48, 36, 60)  # of the hidden chain; the case has 12
 SEEDS, QUIET, DOUBLE, OUT = 20, 500, 60, 60
-FIRST_SEED = 30000  # others were used while the limits of the diagnosis were set
+FIRST_SEED = 40000  # others were used while the limits of the diagnosis were set
+KINDS = ("quiet", "single", "double", "outside", "dirty_quiet", "dirty_single")
 
 
 @dataclasses.dataclass(frozen=True)
 class Trial:
-    kind: str  # quiet, single, double, outside
+    kind: str  # of KINDS
     hidden: tuple  # names
     strength: int
     noise: float
@@ -70,6 +83,7 @@ class Trial:
     lost: float
     pixel: float
     seed: int
+    dirt: str = ""  # of DIRT; empty: white noise
 
     def key(self):
         return (self.kind, "+".join(self.hidden), str(self.strength), str(self.noise), str(self.seed))
@@ -80,10 +94,11 @@ def trials():
     result = []
     count = {"quiet": 0, "double": 0, "outside": 0}
 
-    def add(kind, hidden, strength, noise, k):
+    def add(kind, hidden, strength, noise, k, dirt=""):
         result.append(Trial(kind, hidden, strength, noise, RATES[k % 3], LINKS[k % 4],
-                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, FIRST_SEED + k))
+                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, FIRST_SEED + k, dirt))
 
+    effects, dirt = list(EFFECTS), list(DIRT)
     rounds = len(STRENGTHS) * len(NOISES) * SEEDS
     for r in range(rounds):
         for i, effect in enumerate(EFFECTS):
@@ -93,7 +108,10 @@ def trials():
             k = count["quiet"]
             if k < QUIET:
                 add("quiet", (), 0, NOISES[k % 3], k)
+                add("dirty_quiet", (), 0, NOISES[k // len(dirt) % 3], k, dirt[k % len(dirt)])
                 count["quiet"] += 1
+        add("dirty_single", (effects[r % len(effects)],), STRENGTHS[1 + r // len(effects) % 2],
+            NOISES[r // len(dirt) % 3], r, dirt[r % len(dirt)])
         k = count["double"]
         if k < DOUBLE:
             add("double", PAIRS[k % len(PAIRS)], STRENGTHS[1 + k // len(PAIRS) % 2],

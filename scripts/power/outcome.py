@@ -10,9 +10,9 @@ import signal
 import subprocess
 import tempfile
 
-from power import strength
+from power import design, strength
 
-FIELDS = ["kind", "hidden", "strength", "noise_m", "seed", "rate", "links", "amplitudes", "verdict",
+FIELDS = ["kind", "hidden", "strength", "noise_m", "seed", "dirt", "rate", "links", "amplitudes", "verdict",
           "effects", "members", "right", "farthest_member", "links_used", "fit_ratio",
           "held_out_ratio"]
 SECONDS = ["kind", "hidden", "strength", "noise_m", "seed", "cpu_seconds"]  # no machine repeats them
@@ -23,7 +23,7 @@ TIME_LIMIT = 300  # s of CPU
 def of(trial, strengths, binaries):
     """The line of a trial, and the CPU seconds of its diagnosis (None where there was none)."""
     row = {"kind": trial.kind, "hidden": "+".join(trial.hidden), "strength": trial.strength,
-           "noise_m": trial.noise, "seed": trial.seed, "rate": trial.rate, "links": trial.links}
+           "noise_m": trial.noise, "seed": trial.seed, "dirt": trial.dirt, "rate": trial.rate, "links": trial.links}
     effects, amplitudes = [], []
     for name in trial.hidden:
         amplitude = strengths.amplitude(name, trial.strength * trial.noise, trial.links)
@@ -37,13 +37,13 @@ def of(trial, strengths, binaries):
             [binaries / "bin" / "make_recording", "--output", folder, *strength.CABLE,
              "--links", str(trial.links), "--case-links", "12", "--noise", str(trial.noise),
              "--rate", str(trial.rate), "--seed", str(trial.seed), "--lost", str(trial.lost),
-             "--pixel", str(trial.pixel), *effects], capture_output=True, check=False)
+             "--pixel", str(trial.pixel), *design.DIRT.get(trial.dirt, []), *effects], capture_output=True, check=False)
         if made.returncode != 0:
             return row | {"verdict": "not filmed"}, None
         pathlib.Path(folder, "truth.toml").unlink()  # the trial itself is the truth
         status, seconds = run(
             [binaries / "bin" / "catena", "diagnose", f"{folder}/case.toml", "--quiet",
-             "--threads", "1", "--output", f"{folder}/found"])
+             "--yes", "--threads", "1", "--output", f"{folder}/found"])
         if status != 0:
             out_of_time = status in (-signal.SIGXCPU, -signal.SIGKILL)
             return row | {"verdict": "out of time" if out_of_time else "failed", "right": "no"}, seconds
@@ -75,8 +75,8 @@ def judged(trial, found):
     elif found["verdict"] == "partly":
         right = all(a in truth or any(a == of and b in truth for of, b in forms) for a in named)
     else:
-        right = found["verdict"] == ("none" if trial.kind == "quiet" else "unexplained") and \
-            trial.kind in ("quiet", "outside")
+        right = found["verdict"] == ("unexplained" if trial.hidden else "none") and \
+            trial.kind in ("quiet", "dirty_quiet", "outside")
     gap = found["rounds"][-1]["gap"]
     held = gap["validate"]
     return {"verdict": found["verdict"], "effects": "+".join(sorted(named)),

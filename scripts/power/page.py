@@ -10,14 +10,16 @@ HEAD = """# How often a diagnosis is right
 
 Made by `scripts/power_study`, which also goes on with it: {done} of {all} trials so far. They stand in a
 fixed order in which every beginning is balanced; of each kind (quiet, single, double, outside the
-library) a beginning was run (`--kind`). Every line of `docs/power/trials.csv` is one: a cable of 1.2 m
-with EI 0.1 N m², 24 to 60 links (the case has 12), filmed for 4 s at 30, 60 or 120 Hz with 12 markers
-and 0.5, 1 or 3 mm of noise, now and then with lost markers or whole pixels; the last 30 % held out.
-What is hidden is coded apart from the models (`truth`) and integrated by another method. An
-effect's strength is what a refitted baseline leaves of it, in units of the noise
-(`docs/power/strengths.csv`). Rates are the observed ones with their 95 % intervals (Wilson). The limits
-of the diagnosis were set while looking at other seeds of the same kinds of recordings. An effect whose
-other form is named (`form_of`) counts as named. {program}
+library, and quiet and single with noise of other kinds) a beginning was run (`--kind`). Every line of
+`docs/power/trials.csv` is one: a cable of 1.2 m with EI 0.1 N m², 24 to 60 links (the case has 12),
+filmed for 4 s at 30, 60 or 120 Hz with 12 markers and 0.5, 1 or 3 mm of noise, now and then with lost
+markers or whole pixels; the last 30 % held out. Noise is white, or of other kinds: correlated in time,
+smoothed tracks, one marker three times noisier, a camera that shakes, Student's t with 4 degrees of
+freedom, 0.1 % outliers of 20 standard deviations, or all but smoothing. What is hidden is coded apart
+from the models (`truth`) and integrated by another method. An effect's strength is what a refitted
+baseline leaves of it, in units of the noise (`docs/power/strengths.csv`). Rates are the observed ones
+with their 95 % intervals (Wilson). The limits of the diagnosis were set while looking at other seeds of
+the same kinds of recordings. An effect whose other form is named (`form_of`) counts as named. {program}
 
 """
 KNOWN_PROGRAM = "All trials are of the sources with SHA-256 `{hash}` (`docs/power/program.txt`)."
@@ -41,7 +43,7 @@ def write(file, rows, seconds, program):
     ran = [r for r in rows if r["verdict"] not in ("not reached", "not filmed")]
     text = HEAD.format(done=len(rows), all=len(design.trials()),
                        program=KNOWN_PROGRAM.format(hash=program) if program else OLD_PROGRAM)
-    text += rates(ran, seconds) + by_effect(ran) + confusion(ran) + others(ran) + not_run(rows)
+    text += rates(ran, seconds) + by_effect(ran) + confusion(ran) + by_dirt(ran) + others(ran) + not_run(rows)
     file.write_text(text)
 
 
@@ -60,14 +62,20 @@ def rates(rows, seconds):
     outside, double = of_kind(rows, "outside"), of_kind(rows, "double")
     count = lambda some, test: interval(sum(map(bool, map(test, some))), len(some))
     wrong = lambda r: r["verdict"] == "named" and r["right"] == "no"
+    dirty_quiet, dirty = of_kind(rows, "dirty_quiet"), of_kind(rows, "dirty_single")
     partly = [r for r in rows if r["verdict"] == "partly"]
     right_name = lambda r: r["right"] == "yes" and r["verdict"] != "partly"
     lines = [
         ["false alarms on quiet recordings", "at most 2 %", count(quiet, lambda r: r["effects"])],
         ["quiet recordings not called `none`", "", count(quiet, lambda r: r["verdict"] != "none")],
+        ["false alarms, noise of other kinds", "at most 2 %", count(dirty_quiet, lambda r: r["effects"])],
+        ["not called `none`, noise of other kinds", "",
+         count(dirty_quiet, lambda r: r["verdict"] != "none")],
         ["strength 3 and more: right name, or among indistinguishable ones", "at least 95 %",
          count(strong, right_name)],
+        ["right name, noise of other kinds", "at least 90 %", count(dirty, right_name)],
         ["strength 3 and more: named wrongly", "at most 2 %", count(strong, wrong)],
+        ["named wrongly, noise of other kinds", "at most 2 %", count(dirty, wrong)],
         ["both of two effects", "at least 80 %", count(double, lambda r: r["right"] == "yes")],
         ["outside the library: called unexplained", "at least 90 %",
          count(outside, lambda r: r["verdict"] == "unexplained")],
@@ -97,6 +105,18 @@ def by_effect(rows):
         lines.append(line)
     return "## Right, by effect and strength\n\n" + table(
         ["hidden", *(f"strength {s}" for s in design.STRENGTHS)], lines)
+
+
+def by_dirt(rows):
+    lines = []
+    for dirt in design.DIRT:
+        quiet = [r for r in of_kind(rows, "dirty_quiet") if r["dirt"] == dirt]
+        single = [r for r in of_kind(rows, "dirty_single") if r["dirt"] == dirt]
+        hits = lambda some, test: f"{sum(map(bool, map(test, some)))}/{len(some)}"
+        lines.append([dirt, hits(quiet, lambda r: r["effects"]), hits(quiet, lambda r: r["verdict"] != "none"),
+                      hits(single, lambda r: r["right"] == "yes")])
+    return "## By kind of noise\n\n" + table(
+        ["noise", "something named, nothing hidden", "not called `none`", "right, strength 3 and 10"], lines)
 
 
 def said(row):
