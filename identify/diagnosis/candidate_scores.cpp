@@ -9,6 +9,7 @@
 #include "common/parallel.hpp"
 #include "identify/diagnosis/residual_frequencies.hpp"
 #include "identify/diagnosis/same_model.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {
@@ -198,7 +199,7 @@ MatrixXd CandidateScores::columns(const Run& run) const {
   return result;
 }
 
-std::vector<Explanation> CandidateScores::score(bool own_models) const {
+std::vector<Explanation> CandidateScores::score(bool own_models) {
   DiagnosisContext& context = search_.context;
   context.begin("scoring what may be missing");
   Plan plan = this->plan(own_models);
@@ -211,35 +212,36 @@ std::vector<Explanation> CandidateScores::score(bool own_models) const {
   context.stop_if_asked();  // runs that were left out have no columns
 
   const MatrixXd& common = plan.runs.front().columns;
-  ScoreTest test(stacked(search_.base.fit_residual, search_.base.fit_residual, search_.noise),
-                 common.leftCols(plan.fitted));
+  if (!test_)
+    test_ = std::make_unique<ScoreTest>(
+        stacked(search_.base.fit_residual, search_.base.fit_residual, search_.noise),
+        common.leftCols(plan.fitted));
   std::vector<Explanation> found;
-  score_start(test, common.middleCols(plan.fitted, plan.start), found);
+  score_start(common.middleCols(plan.fitted, plan.start), found);
   for (std::size_t i = 0; i < context.library().size(); ++i)
-    if (is_asked(context.library()[i], own_models)) found.push_back(score_candidate(test, plan, i));
+    if (is_asked(context.library()[i], own_models)) found.push_back(score_candidate(plan, i));
   std::stable_sort(found.begin(), found.end(), [](const Explanation& a, const Explanation& b) {
     return a.score.removed > b.score.removed;
   });
   return found;
 }
 
-void CandidateScores::score_start(ScoreTest& test, const MatrixXd& derivatives,
-                                  std::vector<Explanation>& out) const {
+void CandidateScores::score_start(const MatrixXd& derivatives, std::vector<Explanation>& out) {
   if (derivatives.cols() == 0) return;
   Explanation rival;
   rival.id = kStartShape;
   rival.title = "A start that bends more, or moves";
   std::vector<int> columns;
   for (Index j = 0; j < derivatives.cols(); ++j)
-    columns.push_back(test.add({derivatives.col(j), -std::numeric_limits<double>::infinity(),
-                                std::numeric_limits<double>::infinity()}));
-  rival.score = test.score(columns);
-  if (rival.score.admissible) rival.log10_p = significance(test, columns, rival.score);
+    columns.push_back(test_->add({derivatives.col(j), -std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::infinity()}));
+  tried_[rival.id].push_back(columns);
+  rival.score = test_->score(columns);
+  if (rival.score.admissible) rival.log10_p = significance(columns, rival.score);
   out.push_back(std::move(rival));
 }
 
-Explanation CandidateScores::score_candidate(ScoreTest& test, const Plan& plan,
-                                             std::size_t index) const {
+Explanation CandidateScores::score_candidate(const Plan& plan, std::size_t index) {
   const Candidate& candidate = search_.context.library()[index];
   const Place& place = plan.places[index];
   Explanation explanation;
@@ -252,13 +254,14 @@ Explanation CandidateScores::score_candidate(ScoreTest& test, const Plan& plan,
   if (!explanation.note.empty()) return explanation;
   const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
   if (amplitudes.empty()) {
-    score_limit(test, candidate, explanation);
+    score_limit(candidate, explanation);
     return explanation;
   }
   std::vector<ScoredStart> scores;
   const auto consider = [&](const MatrixXd& at_zero, const MatrixXd* at_quarter,
                             const VectorXd& shape) {
-    ScoredStart scored = scored_at(test, candidate, at_zero, at_quarter, shape);
+    ScoredStart scored = scored_at(*test_, candidate, at_zero, at_quarter, shape);
+    tried_[candidate.id].push_back(scored.columns);
     if (scored.score.admissible) scores.push_back(std::move(scored));
   };
   if (place.column >= 0) {
@@ -272,14 +275,13 @@ Explanation CandidateScores::score_candidate(ScoreTest& test, const Plan& plan,
   }
   take_best(explanation, scores);
   if (explanation.score.admissible)
-    explanation.log10_p = significance(test, scores.front().columns, explanation.score);
+    explanation.log10_p = significance(scores.front().columns, explanation.score);
   else
     explanation.note = kOtherWayRound;
   return explanation;
 }
 
-void CandidateScores::score_limit(ScoreTest& test, const Candidate& candidate,
-                                  Explanation& explanation) const {
+void CandidateScores::score_limit(const Candidate& candidate, Explanation& explanation) {
   const auto limits = candidate.with_role(ParameterRole::kLimit);
   if (limits.size() != 1) {
     explanation.note = "not one parameter whose limit is the plain model";
@@ -308,10 +310,11 @@ void CandidateScores::score_limit(ScoreTest& test, const Candidate& candidate,
     VectorXd column = stacked(difference, base.fit_residual, search_.noise);
     if (column.norm() < kMovesTheData * std::sqrt(static_cast<double>(column.size()))) continue;
     column *= value;
-    const std::vector<int> columns = {test.add({column, 0.0, 1 / std::max(limit.lower, 1e-3)})};
-    explanation.score = test.score(columns);
+    const std::vector<int> columns = {test_->add({column, 0.0, 1 / std::max(limit.lower, 1e-3)})};
+    tried_[candidate.id].push_back(columns);
+    explanation.score = test_->score(columns);
     if (explanation.score.admissible) {
-      explanation.log10_p = significance(test, columns, explanation.score);
+      explanation.log10_p = significance(columns, explanation.score);
       explanation.start.emplace_back(limit.name, 1 / explanation.score.estimate[0]);
     }
     break;
@@ -319,24 +322,36 @@ void CandidateScores::score_limit(ScoreTest& test, const Candidate& candidate,
   if (!explanation.score.admissible) explanation.note = kOtherWayRound;
 }
 
-double CandidateScores::significance(const ScoreTest& test, const std::vector<int>& columns,
-                                     const Score& score) const {
-  const VectorXd rest = test.residual_after(columns, score.estimate);
+double CandidateScores::significance(const std::vector<int>& columns, const Score& score) const {
+  const VectorXd rest = test_->residual_after(columns, score.estimate);
   // Back into channels x frames, for the correlations of what would be left.
-  std::vector<MatrixXd> left;
+  std::vector<MatrixXd> left = white_residuals(search_.base, search_.noise);
   Index next = 0;
-  for (const MatrixXd& shape : search_.base.fit_residual) {
-    if (shape.cols() == 0) continue;
-    MatrixXd part = shape;
-    for (Index k = 0; k < part.cols(); ++k)
-      for (Index c = 0; c < part.rows(); ++c)
-        if (!std::isnan(part(c, k))) part(c, k) = rest[next++];
-    left.push_back(std::move(part));
-  }
+  for (MatrixXd& part : left)
+    for (double& value : part.reshaped())
+      if (!std::isnan(value)) value = rest[next++];
   const double variance =
       std::max(1.0, rest.squaredNorm() / static_cast<double>(std::max<Index>(1, rest.size())));
   return log10_chi_square_tail(score.removed / (variance * autocorrelation_factor(left)),
                                static_cast<int>(columns.size()));
+}
+
+void CandidateScores::set_chances(std::vector<Explanation>& explanations) const {
+  std::vector<Explanation*> judged;
+  for (Explanation& each : explanations)
+    if (each.refitted && each.comparison.misfit_share > kThresholds.worthwhile)
+      judged.push_back(&each);
+  if (judged.empty()) return;
+  const auto left = [&](const Explanation* each) {
+    return white_residuals(each->model, search_.noise);
+  };
+  const auto best = std::min_element(
+      judged.begin(), judged.end(), [&](const Explanation* a, const Explanation* b) {
+        return sum_of_squares(a->model, search_.noise) < sum_of_squares(b->model, search_.noise);
+      });
+  const MaximumStatistic statistic(*test_, tried_, left(*best));
+  const std::vector<MatrixXd> before = white_residuals(search_.base, search_.noise);
+  for (Explanation* each : judged) each->chance = statistic.chance(each->id, before, left(each));
 }
 
 }  // namespace catena

@@ -9,6 +9,7 @@
 
 #include "identify/diagnosis/candidate_search.hpp"
 #include "identify/diagnosis/explanation.hpp"
+#include "identify/diagnosis/maximum_statistic.hpp"
 
 namespace catena {
 
@@ -23,7 +24,11 @@ class CandidateScores {
   /// The most promising first: of a freer start and of the candidates that share a model, or of
   /// those that need models of their own (`own_models`). What cannot be tried says why. Throws
   /// Interrupted; std::runtime_error where the model cannot be simulated at the fit.
-  std::vector<Explanation> score(bool own_models) const;
+  std::vector<Explanation> score(bool own_models);
+
+  /// Sets the chance of every explanation that was refitted and leaves clearly less: that the best of
+  /// all scored so far does as well (maximum_statistic.hpp).
+  void set_chances(std::vector<Explanation>& explanations) const;
 
  private:
   /// One simulation with derivatives of the stacked residuals by some unknowns.
@@ -51,18 +56,18 @@ class CandidateScores {
   void add_runs_of(const Candidate& candidate, Plan& plan, Place& place) const;
   Eigen::MatrixXd columns(const Run& run) const;
 
-  void score_start(ScoreTest& test, const Eigen::MatrixXd& derivatives,
-                   std::vector<Explanation>& out) const;
-  Explanation score_candidate(ScoreTest& test, const Plan& plan, std::size_t index) const;
-  void score_limit(ScoreTest& test, const Candidate& candidate, Explanation& explanation) const;
-  double significance(const ScoreTest& test, const std::vector<int>& columns,
-                      const Score& score) const;
+  void score_start(const Eigen::MatrixXd& derivatives, std::vector<Explanation>& out);
+  Explanation score_candidate(const Plan& plan, std::size_t index);
+  void score_limit(const Candidate& candidate, Explanation& explanation);
+  double significance(const std::vector<int>& columns, const Score& score) const;
 
   const CandidateSearch& search_;
   std::shared_ptr<const Problem> all_;       // the model with all effects, everything free
   Eigen::VectorXd x_;                        // the base in it
   std::vector<double> frequencies_;          // Hz, where the residuals have lines
   std::map<std::string, std::string> same_;  // those that go by the name of another one
+  std::unique_ptr<ScoreTest> test_;          // of the base
+  TriedColumns tried_;                       // in it
 };
 
 }  // namespace catena

@@ -61,8 +61,7 @@ bool acceptable(const DiagnosisState& state, const FittedModel& base,
                 const Explanation& explanation) {
   if (!explanation.refitted) return false;
   const Comparison& comparison = explanation.comparison;
-  const double log10_p = comparison.log10_p + std::log10(std::max(1, state.found.tried));
-  return log10_p < kThresholds.certain && comparison.criterion < 0 &&
+  return explanation.chance <= kThresholds.chance && comparison.criterion < 0 &&
          comparison.misfit_share > kThresholds.worthwhile &&
          state.generalises(explanation.held_out) &&
          more_than_a_detail(state, base, explanation.model) &&

@@ -42,6 +42,10 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
   return result;
 }
 
+double chance_of_any(const Comparison& comparison, int tried) {
+  return std::min(1.0, std::pow(10, comparison.log10_p) * std::max(1, tried));
+}
+
 Decision decide(const FittedModel& better, const FittedModel& worse,
                 const std::vector<NoiseModel>& noise) {
   Decision decision;

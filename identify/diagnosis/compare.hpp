@@ -21,6 +21,9 @@ struct Comparison {
   double misfit_share = 0;     ///< fall of the squared misfit, as a share of what it was
 };
 
+/// An upper bound (Bonferroni) of the probability that the best of so many models removes as much.
+double chance_of_any(const Comparison& comparison, int tried);
+
 /// From `base` to `larger`, which has `base` as a special case.
 Comparison compare(const FittedModel& base, const FittedModel& larger,
                    const std::vector<NoiseModel>& noise);

@@ -58,7 +58,7 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
     refit.fit = explanation.fit.rms;
     refit.validate = rms_of(explanation.held_out);
     refit.criterion = explanation.comparison.criterion;
-    refit.log10_p = explanation.comparison.log10_p + log10_tried;
+    refit.log10_p = std::log10(explanation.chance);
     refit.misfit_share = explanation.comparison.misfit_share;
     refit.autocorrelation = explanation.comparison.autocorrelation;
     const auto& unknowns = explanation.model.problem->unknowns();

@@ -60,6 +60,7 @@ Explanation refitted_with(const DiagnosisState& state, const FittedModel& base,
   explanation.refitted = model.ok;
   if (!model.ok) return explanation;
   explanation.comparison = compare(base, model, state.found.noise);
+  explanation.chance = chance_of_any(explanation.comparison, state.found.tried);
   explanation.fit = fit_gap(model, state.found.noise);
   explanation.held_out = held_out_gap(model, state.found.noise);
   explanation.model = std::move(model);

@@ -43,6 +43,7 @@ bool add_with_more_links(DiagnosisState& state) {
       state.squares(finer) < state.squares(looked.model) ? finer : looked.model;
   for (Explanation& each : explanations) {
     each.comparison = compare(base, each.model, state.found.noise);
+    each.chance = chance_of_any(each.comparison, state.found.tried);
     each.fit = fit_gap(each.model, state.found.noise);
     each.held_out = held_out_gap(each.model, state.found.noise);
   }

@@ -26,6 +26,9 @@ struct Explanation {
   bool refitted = false;
   FittedModel model;      ///< of the refit
   Comparison comparison;  ///< with the model it was added to
+  /// Probability that the best of all that was tried removes as much by chance; 1 where too little was
+  /// removed to ask.
+  double chance = 1;
   GapTest fit, held_out;  ///< after the refit
 
   bool is_effect() const { return candidate >= 0; }

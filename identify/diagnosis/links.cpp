@@ -60,7 +60,7 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   finer.refitted = true;
   finer.comparison = compare(model, finer.model, noise);
   finer.taken = finer.comparison.misfit_share > kThresholds.links_worthwhile &&
-                finer.comparison.log10_p < kThresholds.certain;
+                finer.comparison.log10_p < -std::log10(kThresholds.odds);
   if (!finer.taken) finer.note = "refitted, and no better";
   return finer;
 }

@@ -133,7 +133,7 @@ bool needless(const DiagnosisState& state, const Stage& without) {
   const Stage& last = state.last();
   if (!without.fit.present || !predicts_as_well(last.held_out, without.held_out)) return true;
   const Comparison gain = compare(without.model, last.model, state.found.noise);
-  return gain.log10_p + std::log10(std::max(1, state.found.tried)) > kThresholds.certain ||
+  return gain.log10_p > -std::log10(kThresholds.odds) ||
          gain.misfit_share < kThresholds.worthwhile ||
          !more_than_a_detail(state, without.model, last.model);
 }

@@ -71,10 +71,11 @@ bool has(const std::vector<Pair>& pairs, const std::string& a, const std::string
 void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& first,
                   std::vector<Pair>& pairs) {
   const CandidateSearch search{state.context, first.model, {first.id}, state.found.noise};
-  std::vector<Explanation> beside = CandidateScores(search).score(false);
+  CandidateScores scores(search);
+  std::vector<Explanation> beside = scores.score(false);
   refit_best(search, beside, kThresholds.seconds_of_pairs, false);
   state.context.stop_if_asked();
-  const double ways = std::pow(std::max(1, state.found.tried), 2);
+  scores.set_chances(beside);
   for (const Explanation& second : beside) {
     if (!second.refitted || !second.is_effect() ||
         second.comparison.misfit_share < kThresholds.worthwhile ||
@@ -82,7 +83,7 @@ void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& f
       continue;
     const Comparison both = compare(base.model, second.model, state.found.noise);
     if (!has(pairs, first.id, second.id) && both.criterion < 0 &&
-        both.log10_p + std::log10(ways) < kThresholds.certain)
+        second.chance <= kThresholds.chance)
       pairs.push_back({first, second, beside, {}});
   }
 }

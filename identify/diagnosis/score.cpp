@@ -60,26 +60,28 @@ int ScoreTest::add(const ScoreColumn& column) {
   return static_cast<int>(columns_.size()) - 1;
 }
 
-Score ScoreTest::score(const std::vector<int>& columns) const {
-  const std::size_t count = columns.size();
-  const auto column = [&](std::size_t i) -> const Kept& {
-    return columns_[static_cast<std::size_t>(columns[i])];
-  };
-  MatrixXd gram(count, count);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = 0; j <= i; ++j)
-      gram(static_cast<Index>(i), static_cast<Index>(j)) =
-          gram(static_cast<Index>(j), static_cast<Index>(i)) =
-              column(i).size > 0 && column(j).size > 0
-                  ? column(i).projected.dot(column(j).projected)
-                  : 0.0;
+MatrixXd ScoreTest::products_of(const std::vector<int>& columns) const {
+  const auto count = static_cast<Index>(columns.size());
+  MatrixXd result = MatrixXd::Zero(count, count);
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j <= i; ++j) {
+      const Kept& a = kept(columns[static_cast<std::size_t>(i)]);
+      const Kept& b = kept(columns[static_cast<std::size_t>(j)]);
+      if (a.size > 0 && b.size > 0) result(i, j) = result(j, i) = a.projected.dot(b.projected);
+    }
+  return result;
+}
 
-  Score best;
-  best.estimate = VectorXd::Zero(static_cast<Index>(count));
+ScoreTest::Step ScoreTest::best_step(const std::vector<int>& columns, const MatrixXd& products,
+                                     const VectorXd& residual) const {
+  const std::size_t count = columns.size();
+  Step best;
+  best.along = VectorXd::Zero(static_cast<Index>(count));
   // Columns without bounds are in every subset; there may be many of them.
   std::vector<std::size_t> bounded;
   for (std::size_t i = 0; i < count; ++i)
-    if (!std::isinf(column(i).lowest) || !std::isinf(column(i).highest)) bounded.push_back(i);
+    if (!std::isinf(kept(columns[i]).lowest) || !std::isinf(kept(columns[i]).highest))
+      bounded.push_back(i);
   if (bounded.size() > kMostBoundedColumns)
     throw std::invalid_argument("score: " + std::to_string(bounded.size()) +
                                 " columns with bounds; at most " +
@@ -88,55 +90,61 @@ Score ScoreTest::score(const std::vector<int>& columns) const {
   for (std::size_t subset = subsets; subset-- > 0;) {
     std::vector<bool> left_out(count);
     for (std::size_t b = 0; b < bounded.size(); ++b) left_out[bounded[b]] = !(subset >> b & 1u);
-    std::vector<std::size_t> used;
+    std::vector<Index> used;
     for (std::size_t i = 0; i < count; ++i)
-      if (!left_out[i]) used.push_back(i);
+      if (!left_out[i]) used.push_back(static_cast<Index>(i));
     if (used.empty()) break;
-    const auto k = static_cast<Index>(used.size());
-    MatrixXd matrix(k, k);
-    VectorXd right(k);
-    bool usable = true;
-    for (Index a = 0; a < k; ++a) {
-      const std::size_t i = used[static_cast<std::size_t>(a)];
-      usable = usable && column(i).size > 0;
-      right[a] = -column(i).along;
-      for (Index b = 0; b < k; ++b)
-        matrix(a, b) =
-            gram(static_cast<Index>(i), static_cast<Index>(used[static_cast<std::size_t>(b)]));
-    }
-    if (!usable) continue;
+    const MatrixXd matrix = products(used, used);
+    const VectorXd right = -residual(used);
+    if (matrix.diagonal().minCoeff() == 0) continue;  // the fit can imitate a column
     const SymmetricFactors factors(matrix);
     if (factors.reciprocal_condition() < 1e-10) continue;  // two columns that say the same
     VectorXd step = factors.solve(right);
     bool allowed = true, beyond = false;
-    for (Index a = 0; a < k && allowed; ++a) {
-      const Kept& kept = column(used[static_cast<std::size_t>(a)]);
-      double value = step[a] / kept.size;
-      if ((value < 0 && kept.lowest >= 0) || (value > 0 && kept.highest <= 0)) allowed = false;
-      const double cut = std::clamp(value, kept.lowest, kept.highest);
+    for (std::size_t a = 0; a < used.size() && allowed; ++a) {
+      const Kept& column = kept(columns[static_cast<std::size_t>(used[a])]);
+      double& size = step[static_cast<Index>(a)];
+      const double value = size / column.size;
+      if ((value < 0 && column.lowest >= 0) || (value > 0 && column.highest <= 0)) allowed = false;
+      const double cut = std::clamp(value, column.lowest, column.highest);
       beyond = beyond || cut != value;
-      step[a] = cut * kept.size;
+      size = cut * column.size;
     }
     if (!allowed) continue;
     const double removed = 2 * step.dot(right) - step.dot(matrix * step);
     if (removed <= best.removed) continue;
     best.removed = removed;
-    best.admissible = true;
     best.beyond = beyond;
-    best.estimate.setZero();
-    VectorXd whole = VectorXd::Zero(residual_.size());
-    double sum_whole = 0;
-    for (Index a = 0; a < k; ++a) {
-      const std::size_t i = used[static_cast<std::size_t>(a)];
-      best.estimate[static_cast<Index>(i)] = step[a] / column(i).size;
-      whole += step[a] * column(i).projected;
-      sum_whole += std::pow(best.estimate[static_cast<Index>(i)] * column(i).whole, 2);
-    }
-    best.survives = sum_whole > 0 ? std::min(1.0, whole.norm() / std::sqrt(sum_whole)) : 0;
+    best.along.setZero();
+    best.along(used) = step;
     if (used.size() == count && !beyond) break;  // no subset can remove more
   }
-  best.share = squares_ > 0 ? best.removed / squares_ : 0;
   return best;
+}
+
+Score ScoreTest::score(const std::vector<int>& columns) const {
+  VectorXd residual(static_cast<Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    residual[static_cast<Index>(i)] = kept(columns[i]).along;
+  const Step best = best_step(columns, products_of(columns), residual);
+  Score score;
+  score.estimate = VectorXd::Zero(best.along.size());
+  score.removed = best.removed;
+  score.share = squares_ > 0 ? best.removed / squares_ : 0;
+  score.admissible = best.removed > 0;
+  score.beyond = best.beyond;
+  VectorXd whole = VectorXd::Zero(residual_.size());
+  double sum_whole = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double step = best.along[static_cast<Index>(i)];
+    if (step == 0) continue;
+    const Kept& column = kept(columns[i]);
+    score.estimate[static_cast<Index>(i)] = step / column.size;
+    whole += step * column.projected;
+    sum_whole += std::pow(step / column.size * column.whole, 2);
+  }
+  if (sum_whole > 0) score.survives = std::min(1.0, whole.norm() / std::sqrt(sum_whole));
+  return score;
 }
 
 VectorXd ScoreTest::residual_after(const std::vector<int>& columns,

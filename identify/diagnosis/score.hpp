@@ -58,6 +58,22 @@ class ScoreTest {
 
   const Eigen::VectorXd& residual() const { return residual_; }
 
+  // The same score for many other residuals, in steps.
+
+  /// The part of a column that the fit cannot imitate, of size 1; anything where nothing is left.
+  const Eigen::VectorXd& direction(int column) const { return kept(column).projected; }
+  /// The products of the directions of some columns with each other; 0 where nothing is left.
+  Eigen::MatrixXd products_of(const std::vector<int>& columns) const;
+  /// The best step of some columns within their bounds.
+  struct Step {
+    Eigen::VectorXd along;  ///< each direction; 0 for those left out
+    double removed = 0;     ///< fall of the sum of squares
+    bool beyond = false;    ///< cut back to a bound
+  };
+  /// `products`: of the directions with each other; `residual`: products of them with the residual.
+  Step best_step(const std::vector<int>& columns, const Eigen::MatrixXd& products,
+                 const Eigen::VectorXd& residual) const;
+
  private:
   struct Kept {
     Eigen::VectorXd projected;  // divided by `size`
@@ -66,6 +82,7 @@ class ScoreTest {
     double lowest = 0, highest = 0;
     double along = 0;  // projected . r
   };
+  const Kept& kept(int column) const { return columns_[static_cast<std::size_t>(column)]; }
   Eigen::VectorXd residual_;  // projected as well
   double squares_ = 0;
   Eigen::MatrixXd orthogonal_;  // Q

@@ -90,6 +90,7 @@ std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
                      });
   }
   context.stop_if_asked();
+  scores.set_chances(explanations);
   int tried = 0;
   for (const Explanation& each : explanations) tried += each.score.admissible || each.note.empty();
   state.found.tried = std::max(state.found.tried, tried);

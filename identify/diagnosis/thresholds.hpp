@@ -52,9 +52,10 @@ struct DiagnosisThresholds {
 
   // Is an explanation acceptable? (choice.cpp)
 
-  /// log10 of the probability that chance explains as much, times the number of candidates tried.
-  /// One in a thousand diagnoses may name by chance. Evidence: no false alarm on 500 recordings.
-  double certain = -3;
+  /// Probability that the best of all that was tried explains as much by chance
+  /// (maximum_statistic.hpp). Of 100 gaps with another cause one gets a name; a level that was chosen
+  /// before any outcome was seen.
+  double chance = 0.01;
   /// Share of the squared misfit that an explanation must remove. Less is a detail. Chosen.
   double worthwhile = 0.1;
   /// Share of the squared misfit before the first effect that a further one must remove. What the
@@ -66,8 +67,8 @@ struct DiagnosisThresholds {
 
   // Do the data decide between two models? (compare.cpp)
 
-  /// Odds at which chance explains a lead, in what was fitted and in what was held out. The same as
-  /// `certain`.
+  /// Odds at which chance explains a lead, in what was fitted and in what was held out: one in a
+  /// thousand comparisons of two models is decided by chance.
   double odds = 1000;
   /// Over noise: the error that two models share at least, for no law is exact. Chosen.
   double shared_error = 0.1;

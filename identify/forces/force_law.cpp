@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "identify/noise/cosine_spectrum.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace catena {
@@ -21,21 +21,12 @@ namespace {
 /// Random forces for the null distribution: a chance of 1 in 200 can be told.
 constexpr Index kRandomForces = 199;
 constexpr LawThresholds kThresholds;
-/// Neighbours on each side over which the spectrum of the force is averaged for random forces.
-constexpr Index kSpectrumNeighbours = 2;
 /// rad, rad/s: prior of the state at the beginning of the second part, relative to the motion found.
 constexpr double kSplitDeviation = 0.2;
 /// Share of the arc length by which the place is moved to see what that changes.
 constexpr double kApart = 0.02;
 constexpr int kClosedLoops = 3;
 constexpr std::uint64_t kLawSeed = 18;
-
-double normal_number(std::mt19937_64& random) {
-  // Of the standard library's generators only the engine is the same everywhere.
-  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
-  const double size = std::sqrt(-2 * std::log(uniform()));
-  return size * std::cos(2 * std::numbers::pi * uniform());
-}
 
 /// Forces at the nodes of one recording, patterns x columns each, and how they depend on the state
 /// there: nothing, or patterns x states.
@@ -176,38 +167,19 @@ MatrixXd without_nuisance(const LawPart& part, const MatrixXd& columns) {
   return columns - basis * (basis.transpose() * columns);
 }
 
-/// Forces of random phases with the spectrum of those found, smoothed: what a force that follows no
-/// law looks like. The powers of the directions stay, and how they go together.
+/// What forces look like that follow no law: at every node, patterns x random forces.
 std::vector<MatrixXd> random_forces(const MatrixXd& path, std::mt19937_64& random) {
-  const Index patterns = path.rows() / 2, nodes = path.cols();
-  MatrixXd force(nodes, patterns), cosines(nodes, nodes);
-  for (Index m = 0; m < patterns; ++m) force.col(m) = path.row(2 * m).transpose();
-  for (Index k = 0; k < nodes; ++k)
-    for (Index j = 0; j < nodes; ++j)
-      cosines(k, j) = std::sqrt((j == 0 ? 1.0 : 2.0) / static_cast<double>(nodes)) *
-                      std::cos(std::numbers::pi * static_cast<double>(j) *
-                               (static_cast<double>(k) + 0.5) / static_cast<double>(nodes));
-  const MatrixXd found = cosines.transpose() * force;
-  MatrixXd drawn(nodes, patterns * kRandomForces);
-  for (Index j = 0; j < nodes; ++j) {
-    const Index first = std::max<Index>(0, j - kSpectrumNeighbours);
-    const Index last = std::min(nodes - 1, j + kSpectrumNeighbours);
-    const MatrixXd near = found.middleRows(first, last - first + 1);
-    const double scale = 1 / std::sqrt(static_cast<double>(near.rows()));
-    for (Index s = 0; s < kRandomForces; ++s) {
-      VectorXd weights(near.rows());
-      for (Index i = 0; i < weights.size(); ++i) weights[i] = scale * normal_number(random);
-      drawn.block(j, s * patterns, 1, patterns) = weights.transpose() * near;
-    }
+  MatrixXd force(path.rows() / 2, path.cols());  // without its rates
+  for (Index m = 0; m < force.rows(); ++m) force.row(m) = path.row(2 * m);
+  const MatrixXd spectrum = cosine_spectrum(force);
+  std::vector<MatrixXd> at_node(static_cast<std::size_t>(force.cols()),
+                                MatrixXd(force.rows(), kRandomForces));
+  for (Index s = 0; s < kRandomForces; ++s) {
+    const MatrixXd drawn = random_series(spectrum, force.cols(), random);
+    for (Index k = 0; k < drawn.cols(); ++k)
+      at_node[static_cast<std::size_t>(k)].col(s) = drawn.col(k);
   }
-  const MatrixXd over_time = cosines * drawn;
-  std::vector<MatrixXd> columns;
-  for (Index k = 0; k < nodes; ++k) {
-    MatrixXd& at = columns.emplace_back(patterns, kRandomForces);
-    for (Index s = 0; s < kRandomForces; ++s)
-      at.col(s) = over_time.block(k, s * patterns, 1, patterns).transpose();
-  }
-  return columns;
+  return at_node;
 }
 
 /// The recorded part and random ones, without what the unknowns imitate: value first.

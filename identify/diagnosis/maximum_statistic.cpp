@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/maximum_statistic.hpp"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "identify/noise/cosine_spectrum.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Random errors: a chance of 1 in 200 can be told.
+constexpr Index kRandomErrors = 199;
+constexpr std::uint64_t kSeed = 16;
+
+/// Stacked as the residuals of a ScoreTest.
+VectorXd stacked_where_seen(const std::vector<MatrixXd>& parts, const std::vector<MatrixXd>& seen) {
+  std::vector<double> values;
+  for (std::size_t r = 0; r < parts.size(); ++r)
+    for (Index i = 0; i < parts[r].size(); ++i)
+      if (!std::isnan(seen[r].reshaped()[i])) values.push_back(parts[r].reshaped()[i]);
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// The inverse; NaN where nothing was seen.
+std::vector<MatrixXd> unstacked(const VectorXd& stacked, const std::vector<MatrixXd>& seen) {
+  std::vector<MatrixXd> parts = seen;
+  Index next = 0;
+  for (MatrixXd& part : parts)
+    for (Index i = 0; i < part.size(); ++i)
+      if (double& value = part.data()[i]; !std::isnan(value)) value = stacked[next++];
+  return parts;
+}
+
+/// Of every recording.
+using Spectra = std::vector<MatrixXd>;
+Spectra spectra_of(const std::vector<MatrixXd>& parts) {
+  Spectra spectra;
+  for (const MatrixXd& part : parts) spectra.push_back(cosine_spectrum(part));
+  return spectra;
+}
+
+/// What was removed, squared, over its variance for errors like those that are left.
+double statistic(double removed, const Spectra& explained, const Spectra& left) {
+  double variance = 0;
+  for (std::size_t r = 0; r < left.size(); ++r) variance += variance_along(left[r], explained[r]);
+  return variance > 0 ? removed * removed / variance : 0;
+}
+
+/// A candidate at one shape, as it is scored on random errors.
+class TriedShape {
+ public:
+  TriedShape(const ScoreTest& test, std::vector<int> columns, const std::vector<MatrixXd>& seen)
+      : columns_(std::move(columns)), products_(test.products_of(columns_)) {
+    for (const int column : columns_)
+      spectra_.push_back(spectra_of(unstacked(test.direction(column), seen)));
+  }
+
+  ScoreTest::Step step(const ScoreTest& test, const VectorXd& errors) const {
+    VectorXd along(products_.rows());
+    for (Index i = 0; i < along.size(); ++i)
+      along[i] = test.direction(columns_[static_cast<std::size_t>(i)]).dot(errors);
+    return test.best_step(columns_, products_, along);
+  }
+
+  double statistic_of(const ScoreTest::Step& step, const Spectra& errors) const {
+    Spectra explained, left = errors;
+    for (std::size_t r = 0; r < errors.size(); ++r) {
+      MatrixXd& of_recording =
+          explained.emplace_back(MatrixXd::Zero(errors[r].rows(), errors[r].cols()));
+      for (std::size_t i = 0; i < columns_.size(); ++i)
+        of_recording += step.along[static_cast<Index>(i)] * spectra_[i][r];
+      left[r] += of_recording;
+    }
+    return statistic(step.removed, explained, left);
+  }
+
+ private:
+  std::vector<int> columns_;
+  MatrixXd products_;
+  std::vector<Spectra> spectra_;  // of the directions
+};
+
+/// The statistic of a candidate for random errors, at the shape that removes most.
+double best_statistic(const ScoreTest& test, const std::vector<TriedShape>& shapes,
+                      const VectorXd& errors, const Spectra& spectra) {
+  ScoreTest::Step best;
+  const TriedShape* at = nullptr;
+  for (const TriedShape& shape : shapes)
+    if (ScoreTest::Step step = shape.step(test, errors); step.removed > best.removed) {
+      best = std::move(step);
+      at = &shape;
+    }
+  return at ? at->statistic_of(best, spectra) : 0;
+}
+
+}  // namespace
+
+MaximumStatistic::MaximumStatistic(const ScoreTest& test, const TriedColumns& tried,
+                                   const std::vector<MatrixXd>& left) {
+  if (stacked_where_seen(left, left).size() != test.residual().size())
+    throw std::invalid_argument("what is left has another size than the residuals");
+  std::map<std::string, std::vector<TriedShape>> candidates;
+  for (const auto& [name, shapes] : tried)
+    for (const std::vector<int>& columns : shapes)
+      candidates[name].emplace_back(test, columns, left);
+
+  const Spectra spectra = spectra_of(left);
+  std::mt19937_64 random(kSeed);
+  std::map<std::string, VectorXd> found;
+  for (const auto& [name, shapes] : candidates) found[name] = VectorXd::Zero(kRandomErrors);
+  for (Index s = 0; s < kRandomErrors; ++s) {
+    std::vector<MatrixXd> drawn;
+    for (std::size_t r = 0; r < left.size(); ++r)
+      drawn.push_back(random_series(spectra[r], left[r].cols(), random));
+    const VectorXd errors = test.project(stacked_where_seen(drawn, left));
+    const Spectra of_errors = spectra_of(unstacked(errors, left));
+    for (const auto& [name, shapes] : candidates)
+      found[name][s] = best_statistic(test, shapes, errors, of_errors);
+  }
+
+  largest_ = VectorXd::Zero(kRandomErrors);
+  for (const auto& [name, statistics] : found) {
+    mean_[name] = statistics.mean();
+    if (mean_[name] > 0) largest_ = largest_.cwiseMax(statistics / mean_[name]);
+  }
+}
+
+double MaximumStatistic::chance(const std::string& which, const std::vector<MatrixXd>& before,
+                                const std::vector<MatrixXd>& left) const {
+  const auto mean = mean_.find(which);
+  if (mean == mean_.end() || !(mean->second > 0)) return 1;
+  double removed = 0;
+  std::vector<MatrixXd> explained;
+  for (std::size_t r = 0; r < left.size(); ++r) {
+    const auto squares = [](const MatrixXd& m) {
+      return m.array().isNaN().select(0, m).squaredNorm();
+    };
+    removed += squares(before[r]) - squares(left[r]);
+    explained.emplace_back(before[r] - left[r]);
+  }
+  if (!(removed > 0)) return 1;
+  const double observed =
+      statistic(removed, spectra_of(explained), spectra_of(left)) / mean->second;
+  return (1.0 + static_cast<double>((largest_.array() >= observed).count())) /
+         (1.0 + kRandomErrors);
+}
+
+}  // namespace catena
