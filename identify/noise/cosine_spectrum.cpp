@@ -36,40 +36,37 @@ Index fast_length(Index length) {
   }
 }
 
-/// exp(i pi j / (2 length)): the shift of half a frame in the cosine transform.
-std::complex<double> half_frame(Index j, Index length) {
-  return std::polar(1.0,
-                    std::numbers::pi * static_cast<double>(j) / (2 * static_cast<double>(length)));
-}
-
 /// sqrt(2/n) sum_k x_k cos(pi j (k + 1/2) / n), and sqrt(1/n) at j = 0: orthonormal. By a Fourier
 /// transform of x and its mirror image.
-VectorXd cosine_transform(const VectorXd& x) {
-  const Index n = x.size();
-  VectorXcd mirrored(2 * n), bins;
-  mirrored << x, x.reverse();
-  Eigen::FFT<double> fourier;
-  fourier.fwd(bins, mirrored);
-  VectorXd result(n);
-  for (Index j = 0; j < n; ++j)
-    result[j] = (bins[j] * std::conj(half_frame(j, n))).real() /
-                std::sqrt((j == 0 ? 4.0 : 2.0) * static_cast<double>(n));
-  return result;
-}
-
-/// The inverse of cosine_transform.
-VectorXd inverse_cosine_transform(const VectorXd& transformed) {
-  const Index n = transformed.size();
-  VectorXcd bins = VectorXcd::Zero(2 * n), mirrored;
-  for (Index j = 0; j < n; ++j) {
-    bins[j] = transformed[j] * std::sqrt((j == 0 ? 4.0 : 2.0) * static_cast<double>(n)) *
-              half_frame(j, n);
-    if (j > 0) bins[2 * n - j] = std::conj(bins[j]);
+class CosineTransform {
+ public:
+  explicit CosineTransform(Index length) : factors_(length) {
+    const auto n = static_cast<double>(length);
+    for (Index j = 0; j < length; ++j)  // with the shift of half a frame
+      factors_[j] = std::polar(std::sqrt((j == 0 ? 4.0 : 2.0) * n),
+                               std::numbers::pi * static_cast<double>(j) / (2 * n));
   }
-  Eigen::FFT<double> fourier;
-  fourier.inv(mirrored, bins);
-  return mirrored.head(n).real();
-}
+
+  VectorXd transform(const VectorXd& x) {
+    VectorXcd mirrored(2 * x.size()), bins;
+    mirrored << x, x.reverse();
+    fourier_.fwd(bins, mirrored);
+    return (bins.head(x.size()).array() / factors_.array()).real();
+  }
+
+  VectorXd inverse(const VectorXd& transformed) {
+    const Index n = transformed.size();
+    VectorXcd bins = VectorXcd::Zero(2 * n), mirrored;
+    bins.head(n) = transformed.cwiseProduct(factors_);
+    bins.tail(n - 1) = bins.segment(1, n - 1).reverse().conjugate();
+    fourier_.inv(mirrored, bins);
+    return mirrored.head(n).real();
+  }
+
+ private:
+  VectorXcd factors_;
+  Eigen::FFT<double> fourier_;
+};
 
 }  // namespace
 
@@ -82,11 +79,12 @@ double normal_number(std::mt19937_64& random) {
 
 MatrixXd cosine_spectrum(const MatrixXd& series) {
   MatrixXd spectrum(fast_length(series.cols()), series.rows());
+  CosineTransform cosines(spectrum.rows());
   for (Index c = 0; c < series.rows(); ++c) {
     VectorXd channel = VectorXd::Zero(spectrum.rows());
     for (Index k = 0; k < series.cols(); ++k)
       if (!std::isnan(series(c, k))) channel[k] = series(c, k);
-    spectrum.col(c) = cosine_transform(channel);
+    spectrum.col(c) = cosines.transform(channel);
   }
   return spectrum;
 }
@@ -100,8 +98,9 @@ MatrixXd random_series(const MatrixXd& spectrum, Index frames, std::mt19937_64& 
           normal_number(random) / std::sqrt(static_cast<double>(count)) * spectrum.row(i);
   }
   MatrixXd series(drawn.cols(), frames);
+  CosineTransform cosines(drawn.rows());
   for (Index c = 0; c < drawn.cols(); ++c)
-    series.row(c) = inverse_cosine_transform(drawn.col(c)).head(frames);
+    series.row(c) = cosines.inverse(drawn.col(c)).head(frames);
   return series;
 }
 

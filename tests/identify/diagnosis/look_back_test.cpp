@@ -109,6 +109,7 @@ Explanation explanation_of(const DiagnosisState& state, const std::string& id, i
   explanation.refitted = true;
   explanation.comparison = compare(state.last().model, model, state.found.noise);
   explanation.comparison.added = unknowns;
+  explanation.chance = 1.0 / 200;
   explanation.fit = fit_gap(model, state.found.noise);
   explanation.held_out = held_out_gap(model, state.found.noise);
   explanation.model = std::move(model);
@@ -149,6 +150,15 @@ TEST_CASE("a third effect must predict better, not only as well") {
   };
   CHECK_FALSE(third(5 * kNoise));
   CHECK(third(3 * kNoise));
+}
+
+TEST_CASE("what chance explains as well is no explanation") {
+  TwoEffects effects(5 * kNoise, 5 * kNoise);
+  const FittedModel base = effects.state.last().model;
+  Explanation explanation = explanation_of(effects.state, "third", 1, leaving(kNoise, 3 * kNoise));
+  REQUIRE(acceptable(effects.state, base, explanation));
+  explanation.chance = 0.02;
+  CHECK_FALSE(acceptable(effects.state, base, explanation));
 }
 
 TEST_CASE("what was the best once is known in any order") {
