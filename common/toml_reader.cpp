@@ -94,13 +94,13 @@ std::vector<std::pair<std::string, const toml::node*>> in_file_order(const toml:
   return ordered;
 }
 
-/// Throws InputError for what toml++ must not see. It limits nested values, not dotted keys, and takes
-/// the tables apart by recursion.
-void check_keys(std::string_view text, const std::string& file) {
+/// Throws InputError for what toml++ must not see. It has a limit of its own for nested values, and
+/// none for dotted keys, and takes the tables apart by recursion.
+void check_nesting(std::string_view text, const std::string& file) {
   const auto refuse = [&](int line, const std::string& rule) {
     throw InputError(file + ":" + std::to_string(line) + ": " + rule);
   };
-  int line = 1, dots = 0;
+  int line = 1, dots = 0, brackets = 0;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
     if (c == '"' || c == '\'') {  // strings, and quoted parts of a key, are passed over
@@ -112,6 +112,7 @@ void check_keys(std::string_view text, const std::string& file) {
              (long_string || text[end] != '\n'))
         end += c == '"' && text[end] == '\\' ? 2 : 1;
       end = std::min(end, text.size());
+      while (long_string && end + 3 < text.size() && text[end + 3] == c) ++end;  // a""""
       line += static_cast<int>(std::count(text.begin() + static_cast<long>(k),
                                           text.begin() + static_cast<long>(end), '\n'));
       k = std::min(end + quote.size(), text.size()) - 1;
@@ -124,8 +125,15 @@ void check_keys(std::string_view text, const std::string& file) {
     } else if (c == '\n') {
       ++line;
       dots = 0;
-    } else if (c == '=' || c == ',' || c == '{' || c == '[') {
+    } else if (c == '=' || c == ',') {
       dots = 0;
+    } else if (c == '{' || c == '[') {
+      dots = 0;
+      if (++brackets > kDeepestNesting)
+        refuse(line, "lists or tables are nested more than " + std::to_string(kDeepestNesting) +
+                         " deep; nothing that catena reads is");
+    } else if (c == '}' || c == ']') {
+      --brackets;
     }
   }
 }
@@ -162,7 +170,9 @@ TomlTable::TomlTable(std::shared_ptr<Document> document, const void* table, std:
     : document_(std::move(document)), table_(table), path_(std::move(path)) {}
 
 TomlTable TomlTable::read(const std::filesystem::path& path, std::string_view kind) {
-  require_utf8(path.string(), "the name of the file " + path.string());
+  if (!is_utf8(path.string()))
+    throw InputError("the name of the file " + path.string() +
+                     " is not UTF-8; give it another (mv)");
   std::string text;
   try {
     text = read_whole_file(path);
@@ -177,7 +187,7 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
   auto document = std::make_shared<Document>();
   document->file = std::string(name);
   document->source = std::string(text);
-  check_keys(text, document->file);
+  check_nesting(text, document->file);
   try {
     document->root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {

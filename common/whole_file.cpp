@@ -40,6 +40,17 @@ std::size_t character_length(std::string_view text, std::size_t at) {
   return length;
 }
 
+/// Bytes before the first that is not UTF-8.
+std::size_t valid_length(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = character_length(text, at);
+    if (length == 0) break;
+    at += length;
+  }
+  return at;
+}
+
 /// What was read, by path, while a ReadOnce lives.
 struct Texts {
   std::mutex mutex;
@@ -80,17 +91,15 @@ bool is_file(const std::filesystem::path& path) {
   return remembered(path) || std::filesystem::is_regular_file(path, error);
 }
 
+bool is_utf8(std::string_view text) { return valid_length(text) == text.size(); }
+
 void require_utf8(std::string_view text, const std::string& what) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at);
-    if (length == 0) {
-      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
-      throw InputError(what + ":" + std::to_string(line) +
-                       ": a character is not UTF-8; save the text as UTF-8 (iconv -f latin1 -t "
-                       "utf8 converts it)");
-    }
-    at += length;
-  }
+  const std::size_t valid = valid_length(text);
+  if (valid == text.size()) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(valid), '\n');
+  throw InputError(what + ":" + std::to_string(line) +
+                   ": a character is not UTF-8; save the text as UTF-8 (iconv -f latin1 -t "
+                   "utf8 converts it)");
 }
 
 std::string bytes_of_file(const std::filesystem::path& path, std::size_t most) {

@@ -33,8 +33,11 @@ class ReadOnce {
   ReadOnce& operator=(const ReadOnce&) = delete;
 };
 
-/// Throws InputError naming `what` and the line if `text` is not UTF-8 (RFC 3629). Results are
-/// written as JSON, which holds nothing else.
+/// Whether `text` is UTF-8 (RFC 3629).
+bool is_utf8(std::string_view text);
+
+/// Throws InputError naming `what` and the line if `text` is not UTF-8. Results are written as
+/// JSON, which holds nothing else.
 void require_utf8(std::string_view text, const std::string& what);
 
 /// Writes a file whole or not at all: to a temporary name in the same folder, then renamed.

@@ -174,6 +174,10 @@ int make_case(NewOptions options) {
           "can determine; without --check it fits.\n",
           options.recording.filename().string(), output.string()) +
       commented(case_text(case_of(options, found), output.parent_path()), found);
+  if (!is_utf8(text))
+    throw InputError(options.recording.string() + " and " + output.string() +
+                     ": their names and folders are written into the case and have to be UTF-8; "
+                     "rename them (mv)");
   write_whole_file(output, text);
   write_whole_file(picture,
                    recording_picture(recording, find_outliers(recording, options.known.length),

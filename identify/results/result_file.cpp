@@ -268,8 +268,10 @@ Json parsed(const std::filesystem::path& file) {
                     file.string(), failure.code().message()));
   }
   try {
-    return Json::parse(text, [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-      if (depth > kDeepestNesting)
+    return Json::parse(text, [&](int around, Json::parse_event_t event, Json& /*value*/) {
+      const bool begins =
+          event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start;
+      if (begins && around >= kDeepestNesting)
         throw InputError(
             fmt::format("{}: lists and tables nested more than {} deep; catena writes no such file",
                         file.string(), kDeepestNesting));

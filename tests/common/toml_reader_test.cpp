@@ -116,8 +116,14 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
   std::string deep = "format = 1\n# a comment with " + std::string(1000, '.') + "\na";
   for (int k = 0; k < 40'000; ++k) deep += k % 2 ? ".b" : " . \"c.d\"";
   deep += " = 1\n";
-  const std::string deep_list =
-      "format = 1\n\na = " + std::string(40'000, '[') + std::string(40'000, ']') + "\n";
+  const auto nested = [](int depth) {
+    std::string text = "format = 1\n[[t]]\na = ";
+    for (int k = 0; k < depth; ++k) text += k % 2 ? "{ b = " : "[";
+    text += "1";
+    for (int k = depth; k-- > 0;) text += k % 2 ? "}" : "]";
+    return text + "\n";
+  };
+  const std::string deepest = nested(200), too_deep = nested(201), far_too_deep = nested(40'000);
   const std::string long_text =
       "format = 1\ntitle = \"" + std::string(1000, '.') + "\"\nkind = \"x\"\n";
   const Row rows[] = {
@@ -135,7 +141,9 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
       {"\uFEFFformat = 1 # \u00e4\nkind = \"\u00e4\"\n",
        "f.toml:2: kind: \"\u00e4\" where a file of kind \"case\" is wanted"},
       {deep.c_str(), "f.toml:3: a key of more than 200 parts"},
-      {deep_list.c_str(), "f.toml:3: not valid TOML: "},
+      {deepest.c_str(), "f.toml:1: kind is missing"},
+      {too_deep.c_str(), "f.toml:3: lists or tables are nested more than 200 deep"},
+      {far_too_deep.c_str(), "f.toml:3: lists or tables are nested more than 200 deep"},
       {long_text.c_str(), "f.toml:3: kind: \"x\" where a file of kind \"case\" is wanted"},
   };
   for (const Row& row : rows) {
@@ -147,6 +155,8 @@ TEST_CASE("a file that is not what it should be is refused at its head") {
           TomlTable::read("/does/not/exist.toml", "case");
         }).find("/does/not/exist.toml: there is no such file") == 0);
   CHECK(failure([] { TomlTable::read("/", "case"); }).find("/: is a folder") == 0);
+  CHECK(failure([] { TomlTable::read("m\xE4rz.toml", "case"); }) ==
+        "the name of the file m\xE4rz.toml is not UTF-8; give it another (mv)");
 }
 
 TEST_CASE("the shortest text of a number reads back to it") {

@@ -75,3 +75,15 @@ TEST_CASE("new names the measures that no recording tells") {
   CHECK(run_catena({"new", data, "--length", "-1", "--density", "1", "--load-mass", "0"})
             .output.find("--length: -1; must be positive") != std::string::npos);
 }
+
+TEST_CASE("new makes no case that could not be read") {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path latin = folder.path() / "m\xE4rz.csv";
+  std::filesystem::rename(film(folder), latin);
+  const ProcessResult run =
+      run_catena({"new", latin, "--length", "1", "--density", "0.3", "--load-mass", "0.2",
+                  "--output", folder.path() / "c.toml"});
+  CHECK(run.exit_status == 2);
+  CHECK_MESSAGE(run.output.find("have to be UTF-8") != std::string::npos, run.output);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "c.toml"));
+}
