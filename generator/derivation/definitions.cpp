@@ -82,6 +82,33 @@ std::string structural_key(const ex& e) {
   return out.str();
 }
 
+/// Calls make(n) for the symbol `number` and for all that it stands on, those first, where they are not in
+/// `known`, to which make adds them. A chain of thousands of links makes a chain of thousands of
+/// definitions, and a function that called itself along it would need as much stack.
+template <class Make>
+void in_order(const Definitions& definitions, int number, const std::map<int, ex>& known,
+              const Make& make) {
+  struct Waiting {
+    int number;
+    bool seen;  // what it stands on lies above it
+  };
+  std::vector<Waiting> waiting = {{number, false}};
+  while (!waiting.empty()) {
+    const auto [n, seen] = waiting.back();
+    if (known.contains(n)) {
+      waiting.pop_back();
+    } else if (seen || definitions[n].is_input) {
+      make(n);
+      waiting.pop_back();
+    } else {
+      waiting.back().seen = true;
+      const std::vector<int> below = definitions.symbols_of(definitions[n].value);
+      for (auto it = below.rbegin(); it != below.rend(); ++it)
+        if (!known.contains(*it)) waiting.push_back({*it, false});
+    }
+  }
+}
+
 }  // namespace
 
 ex Definitions::make(const std::string& family, int index, bool is_input, const ex& value) {
@@ -210,15 +237,13 @@ void Differential::set(const ex& symbol, const ex& differential) {
 }
 
 ex Differential::of_symbol(int number) {
-  const auto found = known_.find(number);
-  if (found != known_.end()) return found->second;
-  ex result = 0;
-  if (!definitions_[number].is_input) {
-    const Symbol symbol = definitions_[number];
-    result = definitions_.define(family_name_(symbol.family), symbol.index, of(symbol.value));
-  }
-  known_[number] = result;
-  return result;
+  in_order(definitions_, number, known_, [this](int n) {
+    const Symbol symbol = definitions_[n];
+    known_[n] = symbol.is_input ? ex(0)
+                                : definitions_.define(family_name_(symbol.family), symbol.index,
+                                                      of(symbol.value));
+  });
+  return known_.at(number);
 }
 
 ex Differential::of(const ex& expression) {
@@ -240,18 +265,14 @@ void Substitution::set(const ex& symbol, const ex& replacement) {
 }
 
 ex Substitution::of_symbol(int number) {
-  const auto found = known_.find(number);
-  if (found != known_.end()) return found->second;
-  const Symbol symbol = definitions_[number];
-  ex result = symbol.symbol;
-  if (!symbol.is_input) {
-    const ex value = of(symbol.value);
-    if (!value.is_equal(symbol.value)) {
-      result = definitions_.define(symbol.family + suffix_, symbol.index, value);
-    }
-  }
-  known_[number] = result;
-  return result;
+  in_order(definitions_, number, known_, [this](int n) {
+    const Symbol symbol = definitions_[n];
+    const ex value = symbol.is_input ? symbol.symbol : of(symbol.value);
+    const bool same = symbol.is_input || value.is_equal(symbol.value);
+    known_[n] =
+        same ? symbol.symbol : definitions_.define(symbol.family + suffix_, symbol.index, value);
+  });
+  return known_.at(number);
 }
 
 ex Substitution::of(const ex& expression) {
