@@ -78,21 +78,20 @@ Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, co
       cvodes_(CVodeCreate(options.method == Method::kBdf ? CV_BDF : CV_ADAMS, context_.get())) {
   if (!cvodes_) throw std::bad_alloc();
   copy_state(initial, y_.get());
-  try {
-    const auto silent = [](int, const char*, const char*, char*, void*) {};
-    require(CVodeSetErrHandlerFn(cvodes_.get(), silent, nullptr), "CVodeSetErrHandlerFn");
-    require(CVodeInit(cvodes_.get(), &Integrator::rates, start, y_.get()), "CVodeInit");
-    require(CVodeSetUserData(cvodes_.get(), this), "CVodeSetUserData");
-    require(CVodeWFtolerances(cvodes_.get(), &Integrator::error_weights), "CVodeWFtolerances");
-    require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
-            "CVodeSetNonlinearSolver");
-    if (options_.energy) start_quadratures();
-    if (!directions_.empty()) start_sensitivities();
-  } catch (const std::bad_alloc&) {
-    // CVodeFree then frees vectors that were never made: what CVODES has is given up instead.
-    static_cast<void>(cvodes_.release());
-    throw;
-  }
+  const auto silent = [](int, const char*, const char*, char*, void*) {};
+  require(CVodeSetErrHandlerFn(cvodes_.get(), silent, nullptr), "CVodeSetErrHandlerFn");
+  require_made(CVodeInit(cvodes_.get(), &Integrator::rates, start, y_.get()), "CVodeInit");
+  require(CVodeSetUserData(cvodes_.get(), this), "CVodeSetUserData");
+  require(CVodeWFtolerances(cvodes_.get(), &Integrator::error_weights), "CVodeWFtolerances");
+  require(CVodeSetNonlinearSolver(cvodes_.get(), step_solver_->handle()),
+          "CVodeSetNonlinearSolver");
+  if (options_.energy) start_quadratures();
+  if (!directions_.empty()) start_sensitivities();
+}
+
+void Integrator::require_made(int flag, const char* call) {
+  if (flag == CV_MEM_FAIL) static_cast<void>(cvodes_.release());
+  require(flag, call);
 }
 
 void Integrator::start_quadratures() {
@@ -103,7 +102,8 @@ void Integrator::start_quadratures() {
   quadrature_.reset(
       new_state_vector(static_cast<sunindextype>(integrated_.size()), context_.get()));
   std::fill_n(elements(quadrature_.get()), integrated_.size(), 0.0);
-  require(CVodeQuadInit(cvodes_.get(), &Integrator::powers, quadrature_.get()), "CVodeQuadInit");
+  require_made(CVodeQuadInit(cvodes_.get(), &Integrator::powers, quadrature_.get()),
+               "CVodeQuadInit");
 }
 
 void Integrator::start_sensitivities() {
@@ -113,8 +113,9 @@ void Integrator::start_sensitivities() {
   sensitivities_output_.reset(new_state_vector(sensitivity_solver_->size(), context_.get()));
   sensitivity_solver_->start(elements(sensitivities_.get()));
   N_Vector initial[] = {sensitivities_.get()};
-  require(CVodeSensInit1(cvodes_.get(), 1, CV_STAGGERED1, &Integrator::sensitivity_rates, initial),
-          "CVodeSensInit1");
+  require_made(
+      CVodeSensInit1(cvodes_.get(), 1, CV_STAGGERED1, &Integrator::sensitivity_rates, initial),
+      "CVodeSensInit1");
   // Weights by the function given for y: those of CVODES are computed in vectors of the length of y.
   require(CVodeSensEEtolerances(cvodes_.get()), "CVodeSensEEtolerances");
   require(CVodeSetSensErrCon(cvodes_.get(), SUNFALSE), "CVodeSetSensErrCon");

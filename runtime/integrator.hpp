@@ -56,6 +56,9 @@ class Integrator {
                                N_Vector s, N_Vector sdot, void* self, N_Vector, N_Vector);
   static int error_weights(N_Vector y, N_Vector weight, void* self);
 
+  /// Checks a call with which CVODES makes vectors. Where memory was short, CVodeFree would free some of
+  /// them twice: what CVODES has is given up instead.
+  void require_made(int flag, const char* call);
   void start_quadratures();
   void start_sensitivities();
   void record_sensitivities(std::size_t column, const double* values,

@@ -5,7 +5,9 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
 
 #include "identify/fit/easier_problems.hpp"
 #include "identify/fit/error.hpp"
@@ -194,8 +196,14 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   const OptimiserSpec& spec = problem.the_case().optimiser;
   const ErrorSpec& error = problem.the_case().error;
   const int unknowns = static_cast<int>(y.size());
+  // All that Ceres is given stays ours: it would not give back what it could not take.
+  std::deque<Block> blocks;
+  std::optional<DistanceCost> distances;
+  CaseLoss loss(error);
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &simulated;
+  problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem solver(problem_options);
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
@@ -216,12 +224,13 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   if (squares) {
     const VectorXd noise = noise_of(problem, first);
     for (Index i = 0; i < noise.size(); ++i)
-      solver.AddResidualBlock(new Block(simulated, first.value, first.jacobian, i, 1 / noise[i]),
-                              error.loss == Loss::kNone ? nullptr : new CaseLoss(error), y.data());
-    for (Index i = 0; i < constraints.value.size(); ++i)
       solver.AddResidualBlock(
-          new Block(simulated, constraints.value, constraints.jacobian, i, constraints.weight[i]),
-          nullptr, y.data());
+          &blocks.emplace_back(simulated, first.value, first.jacobian, i, 1 / noise[i]),
+          error.loss == Loss::kNone ? nullptr : &loss, y.data());
+    for (Index i = 0; i < constraints.value.size(); ++i)
+      solver.AddResidualBlock(&blocks.emplace_back(simulated, constraints.value,
+                                                   constraints.jacobian, i, constraints.weight[i]),
+                              nullptr, y.data());
     simulated.tell([&, noise] {
       arrive(promise_of(first, noise, constraints, error));
       return true;
@@ -238,11 +247,10 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
       const VectorXd weights = scale * channel_weights(problem, first);
       for (Index i = 0; i < weights.size(); ++i) terms.push_back({i, 1, weights[i]});
     }
-    auto* distances =
-        new DistanceCost(simulated, std::move(terms), kOffset * simulated.error(), tolerance, box);
-    solver.AddResidualBlock(distances, nullptr, y.data());  // which owns it
+    distances.emplace(simulated, std::move(terms), kOffset * simulated.error(), tolerance, box);
+    solver.AddResidualBlock(&*distances, nullptr, y.data());
     all_offsets = distances->all_offsets();
-    simulated.tell([&, distances] {
+    simulated.tell([&] {
       distances->step_to(y);
       arrive(distances->gain());
       return distances->gain() > kLastStep;
