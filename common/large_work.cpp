@@ -47,7 +47,8 @@ void require_yes(bool yes, const std::string& what, const WorkEstimate& estimate
                                 : memory_text(estimate.bytes) + " and " + text_of(estimate.seconds);
   throw InputError(what + " needs " + (estimate.or_more ? "more than " : "about ") + needs +
                    "; above " + memory_text(kMostUnasked.bytes) + " or " +
-                   text_of(kMostUnasked.seconds) + " give --yes to go on");
+                   text_of(kMostUnasked.seconds) +
+                   " give --yes to go on (large_work=True in Python)");
 }
 
 }  // namespace catena

@@ -17,6 +17,7 @@
 #include "identify/cases/case_writer.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/estimates.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/models/model_provider.hpp"
@@ -42,14 +43,17 @@ struct LoadedCase {
 
   /// `text`: of the case, where it need not be read from the file. Warns of what is odd about the
   /// case and its recordings.
-  LoadedCase(const std::filesystem::path& file, HandedIn handed_in,
+  LoadedCase(const std::filesystem::path& file, HandedIn handed_in, bool large_work,
              const std::optional<std::string>& text = {})
       : recordings(std::move(handed_in)) {
     {
       py::gil_scoped_release unlock;
       const Case loaded = text ? parse_case(*text, file.string(), file.parent_path(), recordings)
                                : read_case(file, recordings);
-      problem = std::make_shared<Problem>(loaded, provide_model(loaded.description, loaded.links));
+      ProviderOptions provider;
+      provider.large_work = large_work;
+      problem = std::make_shared<Problem>(
+          loaded, provide_model(loaded.description, loaded.links, provider));
     }
     for (const std::string& warning : problem->warnings())
       if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
@@ -131,18 +135,29 @@ struct LoadedCase {
     return all;
   }
 
-  Simulation simulate(const std::optional<Eigen::VectorXd>& x, int index) const {
+  Simulation simulate(const std::optional<Eigen::VectorXd>& x, int index, bool large_work) const {
     SignalCheck check;
     const Eigen::VectorXd at = unknowns(x);
     const int of = experiment(index);
+    require_yes(large_work, "keeping the motion", {.bytes = memory_of_motion(*problem, of)});
+    double begin = 0, end = problem->the_case().simulation.duration;
+    if (of >= 0) {
+      const Experiment& measured = problem->experiments()[static_cast<std::size_t>(of)];
+      begin = measured.spec.start;
+      end = measured.recording.time.back();
+    }
+    Forecast forecast(large_work, end - begin, 1);
     Motion motion;
     {
       py::gil_scoped_release unlock;
-      const auto keep_going = [&check](double) { return check(); };
+      const auto keep_going = [&](double time) {
+        return check() && forecast.goes_on(time - begin);
+      };
       motion =
           of < 0 ? motion_alone(*problem, at, keep_going) : motion_of(*problem, at, of, keep_going);
     }
     check.rethrow();
+    forecast.require_yes("the simulation");
     if (motion.simulation.status != Status::kSuccess)
       throw ComputationError(motion.simulation.message);
     return std::move(motion.simulation);
@@ -166,7 +181,7 @@ struct LoadedCase {
 };
 
 LoadedCase case_from(const py::tuple& state) {
-  return {state[0].cast<std::filesystem::path>(), tables_from(state[2].cast<py::dict>()),
+  return {state[0].cast<std::filesystem::path>(), tables_from(state[2].cast<py::dict>()), true,
           state[1].cast<std::string>()};
 }
 
@@ -292,7 +307,24 @@ Identification identification_from(const py::tuple& state) {
   return found;
 }
 
-Identification identify(const LoadedCase& loaded, const std::optional<py::function>& progress) {
+/// Throws InputError where the fit needs more time or memory than is begun unasked.
+void require_short_fit(const Problem& problem) {
+  SignalCheck check;
+  {
+    py::gil_scoped_release unlock;
+    Evaluation start;
+    const double simulations = simulations_of_a_fit(problem);
+    const WorkEstimate estimate = estimate_of(
+        problem, [&](double simulation) { return simulation * simulations; }, false,
+        [&] { return !check(); }, start);
+    require_yes(false, "the identification", estimate);
+  }
+  check.rethrow();
+}
+
+Identification identify(const LoadedCase& loaded, const std::optional<py::function>& progress,
+                        bool large_work) {
+  if (!large_work) require_short_fit(*loaded.problem);
   SignalCheck check;
   std::atomic<bool> stop{false};
   std::exception_ptr raised;
@@ -357,16 +389,18 @@ void add_cases(py::module_& module) {
           "Frames x channels, m or rad; NaN where a point was not seen.");
 
   py::class_<LoadedCase>(module, "Case", "A case file with its model and its data.")
-      .def(py::init(
-               [](const std::filesystem::path& file, const std::optional<py::dict>& recordings) {
-                 return LoadedCase(file, recordings ? tables_of(*recordings) : HandedIn());
-               }),
-           "case"_a, "recordings"_a = py::none(),
+      .def(py::init([](const std::filesystem::path& file, const std::optional<py::dict>& recordings,
+                       bool large_work) {
+             return LoadedCase(file, recordings ? tables_of(*recordings) : HandedIn(), large_work);
+           }),
+           "case"_a, "recordings"_a = py::none(), py::kw_only(), "large_work"_a = false,
            "recordings: data that are no files, by the name of their [[experiment]]. Each is a "
            "DataFrame, a dict of columns or a structured array with the columns, units and axes "
            "that "
            "the file would have; or an array whose rows are frames: time_s, side_1_m, down_1_m, "
-           "side_2_m, ... What is odd about a case or its recordings is a UserWarning.")
+           "side_2_m, ... What is odd about a case or its recordings is a UserWarning. large_work: "
+           "derive a "
+           "model that takes more than 10 minutes or 4 GB, too; else InputError.")
       .def(py::pickle([](const LoadedCase& s) { return s.state(); }, &case_from))
       .def_property_readonly("title",
                              [](const LoadedCase& s) { return s.problem->the_case().title; })
@@ -408,13 +442,16 @@ void add_cases(py::module_& module) {
       .def("jacobian", &LoadedCase::jacobian, "x"_a = py::none(),
            "Derivatives of residuals(x), residuals x unknowns, from one simulation with "
            "sensitivities.")
-      .def("simulate", &LoadedCase::simulate, "x"_a = py::none(), "experiment"_a = 0,
+      .def("simulate", &LoadedCase::simulate, "x"_a = py::none(), "experiment"_a = 0, py::kw_only(),
+           "large_work"_a = false,
            "The motion from the start of an experiment, at its frames; without any, for as long as "
-           "[simulation] says. Raises ComputationError where the integration fails.")
-      .def("identify", &identify, "progress"_a = py::none(),
+           "[simulation] says. Raises ComputationError where the integration fails, and unless "
+           "large_work InputError where it needs more than 10 minutes or 4 GB.")
+      .def("identify", &identify, "progress"_a = py::none(), py::kw_only(), "large_work"_a = false,
            "Finds the unknowns by the method of the case. progress(evaluations, limit, error) is "
            "called "
-           "during the search; an exception in it ends the search and is raised again.");
+           "during the search; an exception in it ends the search and is raised again. Raises "
+           "InputError, unless large_work, where it needs more than about 10 minutes or 4 GB.");
 
   py::class_<Gap>(module, "Gap", "Differences between model and measurement, m or rad.")
       .def_readonly("experiment", &Gap::experiment)

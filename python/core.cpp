@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "common/input_error.hpp"
+#include "identify/fit/estimates.hpp"
 #include "identify/models/model_provider.hpp"
 #include "runtime/adjoint.hpp"
 #include "runtime/any_links.hpp"
@@ -67,6 +68,12 @@ auto view_of(Member member) {
   };
 }
 
+/// Bytes of a motion.
+double memory_of(const Model& model, std::size_t times) {
+  return 8.0 * static_cast<double>(times) *
+         (2 * model.coordinates() + model.states() + model.energies());
+}
+
 SimulationOptions options_of(double relative_tolerance, double absolute_tolerance_position,
                              double absolute_tolerance_velocity, long max_steps,
                              SignalCheck& check) {
@@ -88,15 +95,21 @@ void require_success(const Simulation& simulation, const SignalCheck& check) {
 Simulation run(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
                const std::vector<double>& times, double relative_tolerance,
                double absolute_tolerance_position, double absolute_tolerance_velocity,
-               long max_steps) {
+               long max_steps, bool large_work) {
   SignalCheck check;
+  SimulationOptions options = options_of(relative_tolerance, absolute_tolerance_position,
+                                         absolute_tolerance_velocity, max_steps, check);
+  require_yes(large_work, "keeping the motion", {.bytes = memory_of(model, times.size())});
+  const double begin = times.empty() ? 0 : times.front(), end = times.empty() ? 0 : times.back();
+  Forecast forecast(large_work, end - begin, 1);
+  options.keep_going = [&](double time) { return check() && forecast.goes_on(time - begin); };
   Simulation simulation;
   {
     py::gil_scoped_release unlock;
-    simulation = simulate(model, parameters, initial, times,
-                          options_of(relative_tolerance, absolute_tolerance_position,
-                                     absolute_tolerance_velocity, max_steps, check));
+    simulation = simulate(model, parameters, initial, times, options);
   }
+  check.rethrow();
+  forecast.require_yes("the simulation");
   require_success(simulation, check);
   return simulation;
 }
@@ -457,9 +470,10 @@ void add_simulation(py::module_& module) {
       "relative_tolerance"_a = defaults.relative_tolerance,
       "absolute_tolerance_position"_a = defaults.absolute_tolerance_position,
       "absolute_tolerance_velocity"_a = defaults.absolute_tolerance_velocity,
-      "max_steps"_a = defaults.max_steps,
+      "max_steps"_a = defaults.max_steps, "large_work"_a = false,
       "The motion from `initial` at times[0], reported at every time (s, increasing). Raises "
-      "ComputationError, naming state and time, where the integration fails.");
+      "ComputationError, naming state and time, where the integration fails, and unless large_work "
+      "InputError where it needs more than 10 minutes or 4 GB.");
   module.def("simulate_with_sensitivities", &run_with_sensitivities, "model"_a, "parameters"_a,
              "initial"_a, "directions"_a, "times"_a, py::kw_only(),
              "relative_tolerance"_a = defaults.relative_tolerance,

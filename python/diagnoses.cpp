@@ -14,6 +14,7 @@
 #include "description/description.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_writer.hpp"
+#include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -103,7 +104,7 @@ py::object diagnose_case(const std::filesystem::path& case_file,
                          const std::optional<py::dict>& handed_in,
                          const std::vector<std::filesystem::path>& effects, int max_effects,
                          int max_links, int refits, int threads,
-                         const std::optional<py::function>& progress) {
+                         const std::optional<py::function>& progress, bool large_work) {
   if (max_effects < 0 || max_links < 1 || refits < 1 || threads < 1)
     throw std::invalid_argument(
         "max_effects is 0 or more; max_links, refits and threads are 1 or more");
@@ -116,7 +117,10 @@ py::object diagnose_case(const std::filesystem::path& case_file,
     const ReadOnce inputs;
     const Case the_case = read_case(case_file, finished.recordings);
     const WorkFolder scratch = scratch_folder();
-    DiagnosisContext context(the_case, effects, scratch.path(), fit_least_squares, {});
+    ProviderOptions provider;
+    provider.stop = &stop;
+    provider.large_work = large_work;
+    DiagnosisContext context(the_case, effects, scratch.path(), fit_least_squares, provider);
     context.stop = &stop;
     context.threads = threads;
     if (progress)
@@ -131,7 +135,9 @@ py::object diagnose_case(const std::filesystem::path& case_file,
         }
       };
     try {
-      warnings = Problem(the_case, context.model_with({}, the_case.links)).warnings();
+      const Problem problem(for_the_search(the_case), context.model_with({}, the_case.links));
+      warnings = problem.warnings();
+      require_yes_for_diagnosis(problem, context);
       const Diagnosis found = diagnose(the_case, context, {max_effects, max_links, refits});
       finished.record = record_of(found, find_out(found), context);
     } catch (const InputError&) {
@@ -167,13 +173,15 @@ void add_diagnoses(py::module_& module) {
       "diagnose", &diagnose_case, "case"_a, "recordings"_a = py::none(), py::kw_only(),
       "effects"_a = std::vector<std::filesystem::path>{}, "max_effects"_a = defaults.max_effects,
       "max_links"_a = defaults.max_links, "refits"_a = defaults.refits, "threads"_a = 2,
-      "progress"_a = py::none(),
+      "progress"_a = py::none(), "large_work"_a = false,
       "Finds the effect that the model of a case file lacks, adds it, fits again. recordings: "
       "as Case takes them. effects: "
       "effect files of your own to look for as well. progress(line) is told what is being "
       "done, how much of it is left and the best so far; what it raises ends the diagnosis and is "
       "raised again. Raises InputError for a "
-      "bad case, ComputationError where a model cannot be made or fitted.");
+      "bad case and, unless large_work, where it needs more than 10 minutes or 4 GB before the "
+      "first "
+      "look at candidates; ComputationError where a model cannot be made or fitted.");
 }
 
 }  // namespace catena::python

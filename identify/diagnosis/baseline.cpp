@@ -9,6 +9,7 @@
 
 #include "common/parallel.hpp"
 #include "identify/diagnosis/compare.hpp"
+#include "identify/fit/estimates.hpp"
 
 namespace catena {
 
@@ -17,6 +18,8 @@ using Eigen::VectorXd;
 
 namespace {
 
+// Fits: so many starts, then refits from the best of them.
+constexpr int kStarts = 3, kRefits = 2;
 constexpr int kFirstEvaluations = 40;  // of each start; the best goes on
 constexpr int kEvaluations = 80;       // of every later fit
 // RMS over the scatter of the motion: a fit in step with the motion leaves less, one out of step 1.
@@ -114,12 +117,25 @@ Case for_the_search(Case the_case) {
   return the_case;
 }
 
+void require_yes_for_diagnosis(const Problem& problem, const DiagnosisContext& context) {
+  if (context.provider.large_work) return;
+  const double rounds =
+      std::ceil(kStarts / static_cast<double>(context.threads)) + kShareOfRefit * kRefits;
+  const double simulations = simulations_of_a_fit(problem) * rounds;
+  Evaluation start;
+  WorkEstimate estimate = estimate_of(
+      problem, [&](double simulation) { return simulation * simulations; }, false,
+      [&] { return context.stopped(); }, start);
+  estimate.or_more = true;
+  require_yes(false, "the diagnosis", estimate);
+}
+
 FittedModel fit_baseline(Case the_case, DiagnosisContext& context) {
   the_case.optimiser.max_evaluations =
       std::min(the_case.optimiser.max_evaluations, kFirstEvaluations);
   const Model model_of_case = context.model_with({}, the_case.links);
   // With more damping the motion is simpler, and what the fit descends on too.
-  const std::array<double, kBaselineStarts> factors = {1, 5, 25};
+  const std::array<double, kStarts> factors = {1, 5, 25};
   std::vector<FittedModel> fits;
   const auto fit_from_each_start = [&] {
     const auto problem = std::make_shared<const Problem>(the_case, model_of_case);

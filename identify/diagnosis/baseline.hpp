@@ -18,8 +18,10 @@ void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string
 /// of a camera. The final model is fitted as the case asks.
 Case for_the_search(Case the_case);
 
-/// The fits of the baseline: so many starts, then refits from the best of them.
-inline constexpr int kBaselineStarts = 3, kBaselineRefits = 2;
+/// Throws InputError "the diagnosis needs more than 3 hours; ..." where the fits of the baseline alone
+/// take longer than what is begun unasked, unless context.provider.large_work. `problem`: with the
+/// case's own model. Every look at candidates takes longer.
+void require_yes_for_diagnosis(const Problem& problem, const DiagnosisContext& context);
 
 /// The case's own model fitted, from several starts; with growing windows where the case asks for them or
 /// where the motion is lost without. Throws std::runtime_error where none of them

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/program/diagnose_command.hpp"
 
-#include <cmath>
 #include <iostream>
 #include <mutex>
 
@@ -11,7 +10,6 @@
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
-#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/results/output_folder.hpp"
 
@@ -25,18 +23,6 @@ struct DiagnoseOptions : CommonOptions {
   DiagnosisOptions diagnosis;
   int threads = 2;
 };
-
-/// What the fits of the baseline take at least; every look at candidates takes longer.
-WorkEstimate estimate_of(const Problem& problem, const DiagnoseOptions& options) {
-  const double rounds = std::ceil(kBaselineStarts / static_cast<double>(options.threads)) +
-                        kShareOfRefit * kBaselineRefits;
-  const double simulations = simulations_of_a_fit(problem) * rounds;
-  Evaluation start;
-  WorkEstimate estimate = estimate_of(
-      problem, [&](double simulation) { return simulation * simulations; }, options.yes, start);
-  estimate.or_more = true;
-  return estimate;
-}
 
 int diagnose_case(const DiagnoseOptions& options) {
   watch_for_interruption();
@@ -66,7 +52,7 @@ int diagnose_case(const DiagnoseOptions& options) {
   OutputFolder output(output_folder(options), kDiagnosisNames);
   const Problem problem(for_the_search(the_case), context.model_with({}, the_case.links));
   show_warnings(problem, options);
-  require_yes(options.yes, "the diagnosis", estimate_of(problem, options));
+  require_yes_for_diagnosis(problem, context);
   DiagnosisRecord record;
   try {
     const Diagnosis found = diagnose(the_case, context, options.diagnosis);

@@ -16,11 +16,11 @@
 #include "identify/cases/case_words.hpp"
 #include "identify/cases/case_writer.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/estimates.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
-#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"
@@ -119,7 +119,7 @@ WorkEstimate estimate_of(const Problem& problem, const IdentifyOptions& options,
         return simulation * refits +
                (options.time_limit > 0 ? std::min(of_fits, options.time_limit) : of_fits);
       },
-      options.yes, start);
+      options.yes, [] { return interrupted().load(); }, start);
 }
 
 int study_links(const Case& the_case, const IdentifyOptions& options) {

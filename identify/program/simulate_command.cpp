@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "identify/cases/case_reader.hpp"
+#include "identify/fit/estimates.hpp"
 #include "identify/program/command.hpp"
-#include "identify/program/estimates.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"

@@ -156,7 +156,11 @@ class Identification:
 
 class Case:
     def __init__(
-        self, case: str | os.PathLike[str], recordings: Recordings | None = None
+        self,
+        case: str | os.PathLike[str],
+        recordings: Recordings | None = None,
+        *,
+        large_work: bool = False,
     ) -> None: ...
     @property
     def title(self) -> str: ...
@@ -176,9 +180,14 @@ class Case:
     def bounds(self) -> tuple[Array, Array]: ...
     def residuals(self, x: ArrayLike | None = None) -> Array: ...
     def jacobian(self, x: ArrayLike | None = None) -> Array: ...
-    def simulate(self, x: ArrayLike | None = None, experiment: int = 0) -> Simulation: ...
+    def simulate(
+        self, x: ArrayLike | None = None, experiment: int = 0, *, large_work: bool = False
+    ) -> Simulation: ...
     def identify(
-        self, progress: Callable[[int, int, float], None] | None = None
+        self,
+        progress: Callable[[int, int, float], None] | None = None,
+        *,
+        large_work: bool = False,
     ) -> Identification: ...
 
 class DiagnosisGap:
@@ -259,6 +268,7 @@ def simulate(
     absolute_tolerance_position: float = ...,
     absolute_tolerance_velocity: float = ...,
     max_steps: int = ...,
+    large_work: bool = False,
 ) -> Simulation: ...
 def simulate_with_sensitivities(
     model: Model,
@@ -321,4 +331,5 @@ def diagnose(
     refits: int = ...,
     threads: int = ...,
     progress: Callable[[str], None] | None = None,
+    large_work: bool = False,
 ) -> Diagnosis: ...

@@ -10,6 +10,39 @@ import numpy as np
 # Errors agree to some multiples of the integrator's relative tolerance, 1e-8: other frames, other
 # steps.
 CASE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "first_cable" / "case.toml"
+# Two links that swing for ever.
+ENDLESS = """
+format = 1
+kind = "case"
+[model]
+links = 2
+[cable]
+length = 1.0
+density = 0.3
+load_mass = 0.2
+[[parameter]]
+name = "k"
+sets = "stiffness"
+value = 0.1
+unit = "N m/rad"
+[[parameter]]
+name = "c"
+sets = "damping"
+value = 0.0
+unit = "N m s/rad"
+[initial]
+shape = "straight"
+angle = 0.6
+"""
+FREE = "value = 0.1\nfree = true\nlower = 0.01\nupper = 1.0"
+DATA = """
+[[experiment]]
+name = "swing"
+data = "data.csv"
+kind = "markers"
+[simulation]
+max_steps = 1000000000
+"""
 
 
 class Cases(unittest.TestCase):
@@ -57,6 +90,37 @@ class Cases(unittest.TestCase):
             self.case.error([1.0])
         with self.assertRaisesRegex(ValueError, "experiment: 1"):
             self.case.predict(experiment=1)
+
+    def test_large_work_is_to_be_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "alone.toml").write_text(ENDLESS + "[simulation]\nduration = 1e8\nstep = 1e5\nmax_steps = 1000000000\n")
+            with self.assertRaisesRegex(catena.InputError, "the simulation needs about .*large_work=True"):
+                catena.Case(folder / "alone.toml").simulate()
+            (folder / "many.toml").write_text(ENDLESS + "[simulation]\nduration = 1e3\nstep = 1e-4\n")
+            many = catena.Case(folder / "many.toml")
+            with self.assertRaisesRegex(catena.InputError, "keeping the motion needs about .* GB.*large_work=True"):
+                many.simulate()
+            rows = [f"{1e8 * k},0.28,0.41,0.56,0.83" for k in range(3)]
+            (folder / "data.csv").write_text("\n".join(["time_s,side_1_m,down_1_m,side_2_m,down_2_m"] + rows))
+            (folder / "fit.toml").write_text(ENDLESS.replace("value = 0.1", FREE) + DATA)
+            slow = catena.Case(folder / "fit.toml")
+            with self.assertRaisesRegex(catena.InputError, "the simulation needs about .*large_work=True"):
+                slow.simulate()
+            with self.assertRaisesRegex(catena.InputError, "the identification needs more than .*large_work=True"):
+                slow.identify()
+            with self.assertRaisesRegex(catena.InputError, "the diagnosis needs more than .*large_work=True"):
+                catena.diagnose(folder / "fit.toml")
+            (folder / "model.toml").write_text('format = 1\nkind = "model"\nid = "m"\neffects = ["pivot_damping", "joint_hysteresis"]\n')
+            (folder / "long.toml").write_text(
+                ENDLESS.replace("links = 2", 'links = 10000\ndescription = "model.toml"')
+            )
+            with self.assertRaisesRegex(catena.InputError, "deriving needs about .*large_work=True"):
+                catena.Case(folder / "long.toml")
+            alone = ENDLESS + "[simulation]\nduration = 1e8\nstep = 1e5\nmax_steps = 100000\n"
+            (folder / "alone.toml").write_text(alone)
+            with self.assertRaisesRegex(catena.ComputationError, "max_steps"):
+                catena.Case(folder / "alone.toml").simulate(large_work=True)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,19 @@ def cable(links=12, **more):
     return model, model.parameters(**(values | more))
 
 
+class LargeWork(unittest.TestCase):
+    def test_it_is_to_be_asked_for(self):
+        model, parameters = cable(2, damping=0)
+        start = catena.straight(model, 0.6)
+        with self.assertRaisesRegex(catena.InputError, "the simulation needs about .*large_work=True"):
+            catena.simulate(model, parameters, start, [0, 1e8], max_steps=10**9)
+        with self.assertRaisesRegex(catena.InputError, "keeping the motion needs about .* GB"):
+            long, of_long = cable(1000)
+            catena.simulate(long, of_long, catena.straight(long, 0.6), np.arange(400_000) * 1e-3)
+        with self.assertRaisesRegex(catena.ComputationError, "max_steps"):
+            catena.simulate(model, parameters, start, [0, 1e8], max_steps=10**5, large_work=True)
+
+
 class Parameters(unittest.TestCase):
     def test_a_family_sets_all_its_members(self):
         model, parameters = cable()

@@ -10,8 +10,11 @@
 
 namespace catena {
 
-/// The memory of the motions that a command writes: of every experiment, or of the case alone. They
-/// are in memory until they are written, whole.
+/// The memory of the motion of an experiment, or with -1 of the case alone, and of the files that a
+/// command makes of it.
+double memory_of_motion(const Problem& problem, int experiment);
+
+/// Of all that the case has. They are in memory until they are written, whole.
 double memory_of_motions(const Problem& problem);
 
 /// Simulations' worth of time that a fit takes, by experience: of least squares about 10 evaluations
@@ -23,9 +26,10 @@ inline constexpr double kShareOfRefit = 0.3;
 
 /// The time of work that takes `seconds_of(s)` where a simulation at the case's own start takes s
 /// seconds, with the memory of its motions. The simulation is put into `start`. It ends early where
-/// it alone shows that the work takes longer than what is begun unasked, unless `yes`.
+/// it alone shows that the work takes longer than what is begun unasked, unless `yes`, and where
+/// `stopped` says so.
 WorkEstimate estimate_of(const Problem& problem, const std::function<double(double)>& seconds_of,
-                         bool yes, Evaluation& start);
+                         bool yes, const std::function<bool()>& stopped, Evaluation& start);
 
 /// Ends simulations of this thread that would take longer than what is begun unasked. What is left
 /// is reckoned from how far they came.

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "identify/program/estimates.hpp"
+#include "identify/fit/estimates.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "identify/program/command.hpp"
-
 namespace catena {
 
-double memory_of_motions(const Problem& problem) {
+double memory_of_motion(const Problem& problem, int experiment) {
   constexpr double kBytes = 1100;  // an output and link: measured with 12 links, 50 000 outputs
   const SimulationSpec& simulation = problem.the_case().simulation;
-  double outputs = problem.experiments().empty() ? simulation.duration / simulation.step : 0;
-  for (const Experiment& experiment : problem.experiments())
-    outputs += static_cast<double>(experiment.recording.time.size());
+  const double outputs =
+      experiment < 0
+          ? simulation.duration / simulation.step
+          : static_cast<double>(
+                problem.experiments()[static_cast<std::size_t>(experiment)].recording.time.size());
   return kBytes * outputs * (problem.model().links() + 1);
+}
+
+double memory_of_motions(const Problem& problem) {
+  const auto experiments = static_cast<int>(problem.experiments().size());
+  if (experiments == 0) return memory_of_motion(problem, -1);
+  double bytes = 0;
+  for (int e = 0; e < experiments; ++e) bytes += memory_of_motion(problem, e);
+  return bytes;
 }
 
 double simulations_of_a_fit(const Problem& problem) {
@@ -27,7 +35,7 @@ double simulations_of_a_fit(const Problem& problem) {
 }
 
 WorkEstimate estimate_of(const Problem& problem, const std::function<double(double)>& seconds_of,
-                         bool yes, Evaluation& start) {
+                         bool yes, const std::function<bool()>& stopped, Evaluation& start) {
   WorkEstimate estimate = {.bytes = memory_of_motions(problem)};
   const double begin = cpu_seconds();
   constexpr double kPatience = 1;  // s; a simulation that is shorter is measured whole
@@ -35,7 +43,7 @@ WorkEstimate estimate_of(const Problem& problem, const std::function<double(doub
     const double simulation = cpu_seconds() - begin;
     estimate.seconds = seconds_of(simulation);
     estimate.or_more = simulation > kPatience && estimate.seconds > kMostUnasked.seconds;
-    return (yes || !estimate.or_more) && !interrupted();
+    return (yes || !estimate.or_more) && !stopped();
   };
   start = evaluate(problem, problem.start(), true, false, keep_going);
   estimate.seconds = seconds_of(cpu_seconds() - begin);
