@@ -68,7 +68,7 @@ NOISES = (0.001, 0.0005, 0.003)  # m
 RATES = (60, 30, 120)  # frames/s
 LINKS = (24, 48, 36, 60)  # of the hidden chain; the case has 12
 SEEDS, QUIET, DOUBLE, OUT = 20, 500, 60, 60
-FIRST_SEED = 40000  # others were used while the limits of the diagnosis were set
+FIRST_SEED = 50000  # others were used while the diagnosis was changed
 KINDS = ("quiet", "single", "double", "outside", "dirty_quiet", "dirty_single")
 
 
