@@ -224,7 +224,7 @@ std::vector<ChosenLaw> choose_law(const std::vector<PlaceLaw>& candidates,
         const double score =
             1 - (left.col(t).squaredNorm() + penalty) / trials.values.col(t).squaredNorm();
         ChosenLaw& chosen = best[static_cast<std::size_t>(t)];
-        if (score > chosen.score && candidates[c].passive(coefficients.col(t)))
+        if (score > chosen.score && candidates[c].admits(coefficients.col(t)))
           chosen = {c, form, score, coefficients.col(t)};
       }
     }
@@ -399,7 +399,7 @@ class LawSearch {
     for (std::size_t c = 0; c < candidates_.size(); ++c)
       for (const std::vector<int>& form : candidates_[c].forms()) {
         FittedForm fitted = fit(c, form);
-        if (!std::isfinite(fitted.squares) || !candidates_[c].passive(fitted.coefficients))
+        if (!std::isfinite(fitted.squares) || !candidates_[c].admits(fitted.coefficients))
           continue;
         if (fitted.squares < least) {
           least = fitted.squares;

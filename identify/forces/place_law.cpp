@@ -202,8 +202,9 @@ std::vector<std::vector<int>> PlaceLaw::forms() const {
   return {{0}, {0, 1}, {0, 1, 2}, {0, 1, 2, 3}};
 }
 
-bool PlaceLaw::passive(const VectorXd& coefficients) const {
-  return !dissipative() || (coefficients.array() <= 0).all();
+bool PlaceLaw::admits(const VectorXd& coefficients) const {
+  return (coefficients.array() != 0).all() &&
+         (!dissipative() || (coefficients.array() <= 0).all());
 }
 
 std::string PlaceLaw::force_name() const { return names_of(pair_).force; }

@@ -53,9 +53,10 @@ class PlaceLaw {
 
   /// Sets of terms that make a formula, simplest first.
   std::vector<std::vector<int>> forms() const;
-  /// Whether a law with these coefficients can give no energy: it is of a position, or every term is
-  /// against the velocity.
-  bool passive(const Eigen::VectorXd& coefficients) const;
+  /// Whether these coefficients make a law: every term is there (least squares give 0 to one that the
+  /// others imitate; then a form without it says the same), and it can give no energy: it is of a
+  /// position, or every term is against the velocity.
+  bool admits(const Eigen::VectorXd& coefficients) const;
 
   std::string force_name() const, variable_name() const;
 

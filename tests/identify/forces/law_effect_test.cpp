@@ -131,7 +131,8 @@ TEST_CASE("the effect of every law does the law's force, and gives no energy whe
 TEST_CASE("a law against a velocity that drives it is refused, term by term") {
   const PlaceMotion slow = PlaceMotion::Constant(0.1), fast = PlaceMotion::Constant(1.0);
   const PlaceLaw drag(ConjugatePair::kSpeed, {slow, fast});
-  CHECK(drag.passive(Eigen::Vector2d(-0.3, -0.1)));
-  CHECK_FALSE(drag.passive(Eigen::Vector2d(-0.3, 0.1)));
-  CHECK(PlaceLaw(ConjugatePair::kSidePosition, {slow, fast}).passive(Eigen::Vector2d(0.3, 0.1)));
+  CHECK(drag.admits(Eigen::Vector2d(-0.3, -0.1)));
+  CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0.1)));
+  CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0)));  // a term that the other one imitates
+  CHECK(PlaceLaw(ConjugatePair::kSidePosition, {slow, fast}).admits(Eigen::Vector2d(0.3, 0.1)));
 }
