@@ -349,7 +349,10 @@ void CandidateScores::set_chances(std::vector<Explanation>& explanations) const 
       judged.begin(), judged.end(), [&](const Explanation* a, const Explanation* b) {
         return sum_of_squares(a->model, search_.noise) < sum_of_squares(b->model, search_.noise);
       });
-  const MaximumStatistic statistic(*test_, tried_, left(*best));
+  DiagnosisContext& context = search_.context;
+  context.begin("asking what chance would explain");
+  const MaximumStatistic statistic(*test_, tried_, left(*best), context.threads,
+                                   [&] { context.stop_if_asked(); });
   const std::vector<MatrixXd> before = white_residuals(search_.base, search_.noise);
   for (Explanation* each : judged) each->chance = statistic.chance(each->id, before, left(each));
 }

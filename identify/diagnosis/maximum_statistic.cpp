@@ -5,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "common/parallel.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
 
 namespace catena {
@@ -103,32 +104,37 @@ double best_statistic(const ScoreTest& test, const std::vector<TriedShape>& shap
 }  // namespace
 
 MaximumStatistic::MaximumStatistic(const ScoreTest& test, const TriedColumns& tried,
-                                   const std::vector<MatrixXd>& left) {
+                                   const std::vector<MatrixXd>& left, int threads,
+                                   const std::function<void()>& check) {
   if (stacked_where_seen(left, left).size() != test.residual().size())
     throw std::invalid_argument("what is left has another size than the residuals");
-  std::map<std::string, std::vector<TriedShape>> candidates;
-  for (const auto& [name, shapes] : tried)
-    for (const std::vector<int>& columns : shapes)
-      candidates[name].emplace_back(test, columns, left);
+  std::vector<std::vector<TriedShape>> candidates;
+  for (const auto& [name, shapes] : tried) {
+    std::vector<TriedShape>& of_candidate = candidates.emplace_back();
+    for (const std::vector<int>& columns : shapes) of_candidate.emplace_back(test, columns, left);
+  }
 
   const Spectra spectra = spectra_of(left);
-  std::mt19937_64 random(kSeed);
-  std::map<std::string, VectorXd> found;
-  for (const auto& [name, shapes] : candidates) found[name] = VectorXd::Zero(kRandomErrors);
-  for (Index s = 0; s < kRandomErrors; ++s) {
+  MatrixXd statistics(static_cast<Index>(candidates.size()), kRandomErrors);
+  in_parallel(kRandomErrors, threads, [&](std::size_t s) {
+    check();
+    std::mt19937_64 random(kSeed + s);
     std::vector<MatrixXd> drawn;
     for (std::size_t r = 0; r < left.size(); ++r)
       drawn.push_back(random_series(spectra[r], left[r].cols(), random));
     const VectorXd errors = test.project(stacked_where_seen(drawn, left));
     const Spectra of_errors = spectra_of(unstacked(errors, left));
-    for (const auto& [name, shapes] : candidates)
-      found[name][s] = best_statistic(test, shapes, errors, of_errors);
-  }
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+      statistics(static_cast<Index>(c), static_cast<Index>(s)) =
+          best_statistic(test, candidates[c], errors, of_errors);
+  });
 
   largest_ = VectorXd::Zero(kRandomErrors);
-  for (const auto& [name, statistics] : found) {
-    mean_[name] = statistics.mean();
-    if (mean_[name] > 0) largest_ = largest_.cwiseMax(statistics / mean_[name]);
+  Index row = 0;
+  for (const auto& [name, shapes] : tried) {
+    const VectorXd of_candidate = statistics.row(row++);
+    mean_[name] = of_candidate.mean();
+    if (mean_[name] > 0) largest_ = largest_.cwiseMax(of_candidate / mean_[name]);
   }
 }
 

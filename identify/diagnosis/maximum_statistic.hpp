@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,10 +29,11 @@ using TriedColumns = std::map<std::string, std::vector<std::vector<int>>>;
 class MaximumStatistic {
  public:
   /// `left`: white residuals of a good explanation, channels x frames of each recording, NaN where
-  /// nothing was seen. Throws std::invalid_argument where they are not of the size of the test's
-  /// residual.
+  /// nothing was seen. `check` is called before each draw; what it throws ends the work. Throws
+  /// std::invalid_argument where `left` is not of the size of the test's residual.
   MaximumStatistic(const ScoreTest& test, const TriedColumns& tried,
-                   const std::vector<Eigen::MatrixXd>& left);
+                   const std::vector<Eigen::MatrixXd>& left, int threads,
+                   const std::function<void()>& check);
 
   /// Probability that the best of all does as well as `which`, which explained `before` down to
   /// `left` (white residuals). At least 1/200.

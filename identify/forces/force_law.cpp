@@ -399,8 +399,7 @@ class LawSearch {
     for (std::size_t c = 0; c < candidates_.size(); ++c)
       for (const std::vector<int>& form : candidates_[c].forms()) {
         FittedForm fitted = fit(c, form);
-        if (!std::isfinite(fitted.squares) || !candidates_[c].admits(fitted.coefficients))
-          continue;
+        if (!std::isfinite(fitted.squares) || !candidates_[c].admits(fitted.coefficients)) continue;
         if (fitted.squares < least) {
           least = fitted.squares;
           inflation = std::max(1.0, fitted.squares / fitted.freedom);

@@ -203,8 +203,7 @@ std::vector<std::vector<int>> PlaceLaw::forms() const {
 }
 
 bool PlaceLaw::admits(const VectorXd& coefficients) const {
-  return (coefficients.array() != 0).all() &&
-         (!dissipative() || (coefficients.array() <= 0).all());
+  return (coefficients.array() != 0).all() && (!dissipative() || (coefficients.array() <= 0).all());
 }
 
 std::string PlaceLaw::force_name() const { return names_of(pair_).force; }

@@ -59,7 +59,7 @@ struct Candidates {
           best = name, of_best = score, columns = each;
     const std::vector<MatrixXd> left = {
         test.residual_after(columns, of_best.estimate).reshaped(kChannels, kFrames)};
-    return catena::MaximumStatistic(test, tried, left)
+    return catena::MaximumStatistic(test, tried, left, 2, [] {})
         .chance(best, {test.residual().reshaped(kChannels, kFrames)}, left);
   }
   catena::ScoreTest test;
@@ -94,8 +94,22 @@ TEST_CASE("residuals of another size are refused") {
   std::mt19937_64 random(9);
   const Candidates candidates(noise(0, random));
   CHECK_THROWS_AS(catena::MaximumStatistic(candidates.test, candidates.tried,
-                                           {MatrixXd::Zero(kChannels, kFrames - 1)}),
+                                           {MatrixXd::Zero(kChannels, kFrames - 1)}, 1, [] {}),
                   std::invalid_argument);
+}
+
+TEST_CASE("what the check throws ends the work") {
+  std::mt19937_64 random(9);
+  const Candidates candidates(noise(0, random));
+  int calls = 0;
+  const auto end_the_tenth = [&] {
+    if (++calls == 10) throw std::runtime_error("ended");
+  };
+  CHECK_THROWS_WITH(
+      catena::MaximumStatistic(candidates.test, candidates.tried,
+                               {MatrixXd::Zero(kChannels, kFrames)}, 1, end_the_tenth),
+      "ended");
+  CHECK(calls == 10);
 }
 
 }  // namespace
