@@ -72,8 +72,11 @@ def judged(trial, found):
     elif found["verdict"] == "ambiguous":
         swapped = any(named - {u["instead_of"]} | {u["id"]} == truth for u in others)
         right = (as_named or swapped) and farthest < INDISTINGUISHABLE
-    elif found["verdict"] == "partly":
-        right = all(a in truth or any(a == of and b in truth for of, b in forms) for a in named)
+    elif found["verdict"] == "partly":  # what is called certain, if anything
+        right = all(a in truth or any(a == of and b in truth for of, b in forms)
+                    for a in found.get("certain") or named)
+    elif found["verdict"] == "discovered":  # the library's effects beside the law are wrong
+        right = trial.kind == "outside" and len(named) == 1
     else:
         right = found["verdict"] == ("unexplained" if trial.hidden else "none") and \
             trial.kind in ("quiet", "dirty_quiet", "outside")
