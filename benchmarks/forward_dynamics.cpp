@@ -126,10 +126,12 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Peer>> peers;
   for (const auto& [n, model] : models) {
     const std::string size = "/" + std::to_string(n);
-    ::benchmark::RegisterBenchmark(("catena" + size).c_str(),
-                                   [&model](auto& timer) { time_catena(timer, model, false); });
-    ::benchmark::RegisterBenchmark(("catena, relative angles" + size).c_str(),
-                                   [&model](auto& timer) { time_catena(timer, model, true); });
+    ::benchmark::RegisterBenchmark(("catena" + size).c_str(), [&model = model](auto& timer) {
+      time_catena(timer, model, false);
+    });
+    ::benchmark::RegisterBenchmark(
+        ("catena, relative angles" + size).c_str(),
+        [&model = model](auto& timer) { time_catena(timer, model, true); });
     for (const auto make : makers) {
       try {
         peers.push_back(make(Cable(n)));

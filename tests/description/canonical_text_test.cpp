@@ -45,7 +45,10 @@ TEST_CASE("what does not decide the equations leaves the canonical text alone") 
 
 TEST_CASE("what decides the equations changes the canonical text") {
   const std::string text = canonical(kEffect);
-  const std::pair<const char*, const char*> changes[] = {
+  struct Change {
+    const char *from, *to;
+  };
+  const Change changes[] = {
       {"cos(", "sin("},
       {"1e-3", "1e-4"},
       {"upper = 1.0", "upper = 2.0"},
@@ -55,9 +58,9 @@ TEST_CASE("what decides the equations changes the canonical text") {
       {"\"push\"", "\"pull\""},
       {"unit = \"N\"", "unit = \"kg\""},
   };
-  for (const auto& [from, to] : changes) {
-    CAPTURE(from);
-    CHECK(canonical(replaced(kEffect, from, to)) != text);
+  for (const Change& change : changes) {
+    CAPTURE(change.from);
+    CHECK(canonical(replaced(kEffect, change.from, change.to)) != text);
   }
   Description both = plain_chain(), other = plain_chain();
   both.effects = {built_in_effect("buoyancy"), built_in_effect("load_drag")};

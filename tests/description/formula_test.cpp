@@ -43,9 +43,9 @@ TEST_CASE("LaTeX keeps the meaning: parentheses where they are needed and only t
       {"strain_rate*a_rate", "\\dot{\\mathrm{strain}} \\, \\mathrm{a\\_rate}"},
       {"velocity_normal", "v_{n}"},
   };
-  for (const auto& [text, latex] : rows) {
-    CAPTURE(text);
-    CHECK(torque(text).latex == "\\tau = " + std::string(latex));
+  for (const auto& row : rows) {
+    CAPTURE(row.first);
+    CHECK(torque(row.first).latex == "\\tau = " + std::string(row.second));
   }
 }
 

@@ -76,7 +76,9 @@ TEST_CASE("every column of every Jacobian agrees with differences in fifty digit
         const auto derivative = model.exact_tangents(input, along);
         const auto above = model.exact_values(moved(input, along, step));
         const auto below = model.exact_values(moved(input, along, FiftyDigits(0) - step));
-        for (const auto& [name, values] : derivative) {
+        for (const auto& entry : derivative) {
+          const auto& name = entry.first;
+          const auto& values = entry.second;
           // Tangents of sensors are along parameters and marker, not along time.
           if (column.name == "t" && (name == "clock" || name == "observe")) continue;
           const auto& high = named(above, name);

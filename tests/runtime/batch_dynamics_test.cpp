@@ -95,17 +95,17 @@ int32_t sums(const void*, const catena_point* at, double* a) {
 
 TEST_CASE("eight sets are handed on in groups of as many as the processor takes") {
   using Sums = int32_t (*)(const void*, const catena_point*, double*);
-  for (const auto& [at_once, function] :
+  for (const auto& row :
        {std::pair<int, Sums>{1, sums<1>}, {2, sums<2>}, {4, sums<4>}, {8, sums<8>}}) {
-    CAPTURE(at_once);
+    CAPTURE(row.first);
     catena_model table = Model::built_in(2).table();
     table.states = 1;
     table.state_rate = [](const void*, const catena_point*, double*) {};
     table.state_rate_tangent = [](const void*, const catena_point*, const catena_point*, double*) {
     };
     table.signals = 1;
-    table.accelerations = function;
-    table.batch = at_once;
+    table.accelerations = row.second;
+    table.batch = row.first;
     const Model model(&table);
     BatchDynamics sets(model);
     for (int k = 0; k < BatchDynamics::kBatch; ++k) {

@@ -231,10 +231,10 @@ TEST_CASE("seeded mistakes are found, and only where they are") {
     }
   }
   int total = 0;
-  for (const auto& [mistake, count] : caught) {
-    INFO("kind " << static_cast<int>(mistake));
-    CHECK(count >= 6);
-    total += count;
+  for (const auto& kind : caught) {
+    INFO("kind " << static_cast<int>(kind.first));
+    CHECK(kind.second >= 6);
+    total += kind.second;
   }
   CHECK(caught.size() == 5);
   MESSAGE(total << " mutants confirmed wrong and found");

@@ -75,17 +75,17 @@ TEST_CASE("an equation of motion may be multiplied by what is not zero") {
       result.replace(at, 6, factor);
     return checked(result).findings.back();
   };
-  for (const auto& [factor, named] : {std::pair<std::string, std::string>{"(-1)", "-1"},
-                                      {"2", "2"},
-                                      {"1/l_2", "1/l_2"},
-                                      {"(m_1 + m_2)", "(m_1 + m_2)"},
-                                      {"1/(l_1^2*m_c + I_1)", "1/(l_1^2*m_c + I_1)"},
-                                      {"theta_1", "theta_1"},
-                                      {"cos(theta_2)", "cos(theta_2)"}}) {
-    INFO(factor);
-    const Finding finding = with(factor);
+  for (const auto& row : {std::pair<std::string, std::string>{"(-1)", "-1"},
+                          {"2", "2"},
+                          {"1/l_2", "1/l_2"},
+                          {"(m_1 + m_2)", "(m_1 + m_2)"},
+                          {"1/(l_1^2*m_c + I_1)", "1/(l_1^2*m_c + I_1)"},
+                          {"theta_1", "theta_1"},
+                          {"cos(theta_2)", "cos(theta_2)"}}) {
+    INFO(row.first);
+    const Finding finding = with(row.first);
     CHECK(finding.verdict == Verdict::kEqual);
-    CHECK(finding.remark == "multiplied by " + named);
+    CHECK(finding.remark == "multiplied by " + row.second);
   }
   const Finding nothing = with("0");
   CHECK(nothing.verdict == Verdict::kDifferent);
@@ -165,7 +165,7 @@ TEST_CASE("solved equations of four links in other clothes are not refused") {
     return checked(text.replace(at, before.size(), after));
   };
   const std::string cosine = "cos(theta_i - theta_j)", sine = "sin(theta_i - theta_j)*thetadot_j^2";
-  for (const auto& [before, after] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& row : std::vector<std::pair<std::string, std::string>>{
            {cosine, "(1 - 2*sin((theta_i - theta_j)/2)^2)"},
            {cosine, "(cos(theta_i)*cos(theta_j) + sin(theta_i)*sin(theta_j))"},
            {sine, "cos(theta_i - theta_j)*tan(theta_i - theta_j)*thetadot_j*thetadot_j"},
@@ -174,8 +174,8 @@ TEST_CASE("solved equations of four links in other clothes are not refused") {
            // each acceleration by those after it, which stay symbols
            {"A[i,j]*a[j]", "A[i,j]*thetaddot[j]"},
            {"thetaddot[i] = a[i]", "equation i: (a[i] - thetaddot[i])*A[i,i]*exp(theta_1) = 0"}}) {
-    INFO(after);
-    const Checked result = with(before, after);
+    INFO(row.second);
+    const Checked result = with(row.first, row.second);
     CHECK(result.count(Verdict::kEqual) == 4);
     CHECK(independent_equations(result.findings, 4) == 4);
   }

@@ -280,16 +280,16 @@ TEST_CASE("a model for fits has the numbers of the complete one, and its effects
   CHECK((resting_all - bare).norm() < 1e-13 * bare.norm());
   // Every effect alone, and all together, is what it is in the complete model.
   std::vector<std::pair<std::string, double>> all;
-  for (const auto& [name, value] :
+  for (const auto& one :
        std::vector<std::pair<std::string, double>>{{"added_mass.normal", 0.1},
                                                    {"added_mass.tangential", 0.03},
                                                    {"air_drag_quadratic.normal", 0.2},
                                                    {"joint_dry_friction.moment", 0.02},
                                                    {"support_motion.side_amplitude", 0.05},
                                                    {"rest_curvature.curvature", 0.3}}) {
-    all.emplace_back(name, value);
-    for (const auto& values : {decltype(all){{name, value}}, all}) {
-      CAPTURE(name);
+    all.push_back(one);
+    for (const auto& values : {decltype(all){one}, all}) {
+      CAPTURE(one.first);
       const Eigen::MatrixXd expected = Answers(complete, values).numbers;
       CHECK((expected - Answers(plain, {}).numbers).norm() > 1e-4);
       CHECK((Answers(fits, values).numbers - expected).norm() < 1e-12 * expected.norm());
