@@ -90,7 +90,7 @@ std::vector<double> solved(Matrix a, std::vector<double> b) {
 /// A state in doubles, and the closed forms there.
 class ClosedForms {
  public:
-  ClosedForms(const ChainSymbols& symbols, std::mt19937_64& random) : symbols_(symbols) {
+  ClosedForms(const ChainSymbols& symbols, std::mt19937_64& random) {
     const auto draw = [&](const std::vector<GiNaC::ex>& family, double least, double most) {
       std::vector<double> values;
       for (std::size_t i = 1; i < family.size(); ++i) {
@@ -162,7 +162,6 @@ class ClosedForms {
   }
 
  private:
-  const ChainSymbols& symbols_;
   reference::Chain<double> chain_;
   std::vector<double> angle_, rate_, acceleration_, torque_;
   GiNaC::exmap state_;
