@@ -280,6 +280,10 @@ Json parsed(const std::filesystem::path& file) {
   } catch (const Json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, at byte {}; was it written by catena and whole?",
                                  file.string(), error.byte));
+  } catch (const Json::out_of_range& error) {
+    const std::string_view what = error.what();
+    throw InputError(fmt::format("{}: {}; numbers go to 1.8e308; was it written by catena?",
+                                 file.string(), what.substr(what.find("] ") + 2)));
   }
 }
 

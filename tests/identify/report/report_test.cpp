@@ -129,9 +129,11 @@ TEST_CASE("a file that cannot be read says where and why") {
   CHECK_THROWS_WITH_AS(read_document(folder.path() / "half.json"), doctest::Contains("not JSON"),
                        InputError);
   const auto said_of = [&](const std::string& text) {
-    std::ofstream(folder.path() / "deep.json") << text;
-    return failure([&] { read_document(folder.path() / "deep.json"); });
+    std::ofstream(folder.path() / "any.json") << text;
+    return failure([&] { read_document(folder.path() / "any.json"); });
   };
+  CHECK(said_of(R"({"format": 1e999})").find("any.json: number overflow parsing '1e999'") !=
+        std::string::npos);
   for (const std::size_t depth : {201, 40'000}) {
     const std::string opening(depth - 1, '['), closing(depth - 1, ']');
     const std::string text =
