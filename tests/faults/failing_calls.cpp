@@ -105,6 +105,7 @@ int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, v
 }
 
 /// SUNDIALS 6 does not look whether its logger got memory: what it asks for does not fail.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is of SUNDIALS
 int SUNLogger_Create(void* communicator, int rank, void** logger) {
   ++depth;
   const int status =

@@ -44,7 +44,7 @@ FittedModel leaving(double fitted, double held_out) {
   model.ok = true;
   model.fit_residual = {residuals(fitted, 1)};
   model.held_out_residual = {residuals(held_out, 2)};
-  model.predicted = {Eigen::MatrixXd::Zero(kChannels, 2 * kFrames)};
+  model.predicted = {Eigen::MatrixXd::Zero(kChannels, Eigen::Index{2} * kFrames)};
   return model;
 }
 

@@ -30,9 +30,8 @@ TEST_CASE("draws have the correlations of the series, in time and between channe
   }
   const MatrixXd spectrum = catena::cosine_spectrum(series);
   CHECK(spectrum.squaredNorm() == doctest::Approx(series.squaredNorm()).epsilon(1e-12));
-  std::vector<MatrixXd> draws;
-  for (int s = 0; s < 400; ++s)
-    draws.push_back(catena::random_series(spectrum, series.cols(), random));
+  std::vector<MatrixXd> draws(400);
+  for (MatrixXd& draw : draws) draw = catena::random_series(spectrum, series.cols(), random);
   REQUIRE(draws[0].rows() == 2);
   REQUIRE(draws[0].cols() == 397);
   // 400 draws of some 50 independent values each: 1 % of the variance, and 3 % for the power that

@@ -2,6 +2,7 @@
 #include "identify/report/report.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
@@ -137,7 +138,7 @@ TEST_CASE("a file that cannot be read says where and why") {
   for (const std::size_t depth : {201, 40'000}) {
     const std::string opening(depth - 1, '['), closing(depth - 1, ']');
     const std::string text =
-        R"({"format": 1, "kind": "result", "title": )" + opening + closing + "}";
+        fmt::format(R"({{"format": 1, "kind": "result", "title": {}{}}})", opening, closing);
     CHECK(said_of(text).find("nested more than 200 deep") != std::string::npos);
   }
   const std::string deepest = std::string(200, '[') + std::string(200, ']');
