@@ -94,16 +94,21 @@ double fraction_tangent(const Model& model, const Eigen::VectorXd& parameters,
 
 CablePoint position_of(const Positions& at, const MaterialPoint& point) {
   const int i = point.link;
-  return {at.side[i] + point.fraction * (at.side[i + 1] - at.side[i]),
-          at.down[i] + point.fraction * (at.down[i + 1] - at.down[i])};
+  const auto between = [&](const Eigen::VectorXd& ends) {
+    return ends[i] + point.fraction * (ends[i + 1] - ends[i]);
+  };
+  return {between(at.side), between(at.down), at.across.size() ? between(at.across) : 0.0};
 }
 
 CablePoint position_tangent_of(const Positions& at, const Positions& tangent,
                                const MaterialPoint& point, double fraction_tangent) {
   const int i = point.link;
   const CablePoint moved = position_of(tangent, point);
-  return {moved.side + fraction_tangent * (at.side[i + 1] - at.side[i]),
-          moved.down + fraction_tangent * (at.down[i + 1] - at.down[i])};
+  const auto along_link = [&](const Eigen::VectorXd& ends) {
+    return fraction_tangent * (ends[i + 1] - ends[i]);
+  };
+  return {moved.side + along_link(at.side), moved.down + along_link(at.down),
+          moved.across + (at.across.size() ? along_link(at.across) : 0.0)};
 }
 
 }  // namespace catena

@@ -23,10 +23,11 @@ struct Positions {
   Eigen::VectorXd across = {};  ///< horizontal, in space; empty in the plane
 };
 
-/// Side and down of one point (m), or their derivatives.
+/// The place of one point (m), or its derivative.
 struct CablePoint {
   double side = 0.0;
   double down = 0.0;
+  double across = 0.0;  ///< in space; zero in the plane
 };
 
 /// Positions by (2.24), (2.25), with the changes that effects make.

@@ -26,15 +26,25 @@ State straight(const Model& model, double angle);
 /// angles and on an angle that is not finite.
 State from_angles(const Model& model, const Eigen::VectorXd& angles);
 
-/// Where the links point, and how they turn, in space: link i leaves the downward vertical by angle[i]
-/// (rad) towards azimuth[i] (rad), which counts from side to across. One entry per link each.
+/// Where the links point, and how they turn, in space. Link i leaves the downward vertical by angle[i]
+/// (rad) in the vertical plane of azimuth[i] (rad), which counts from side to across, and that plane by
+/// out_of_plane[i] (rad) towards growing azimuth. One entry per link each; out_of_plane and its rate
+/// may be empty: zero. Angle and out_of_plane are coordinates of any direction but those at
+/// out_of_plane = pi/2; of the vertical, too.
 struct LinkDirections {
   Eigen::VectorXd angle, azimuth;
   Eigen::VectorXd angle_rate, azimuth_rate;  ///< rad/s
+  Eigen::VectorXd out_of_plane = {};
+  Eigen::VectorXd out_of_plane_rate = {};  ///< rad/s
 };
 
 /// The state of a model in space with these directions, |q| = 1. Sizes are not checked.
 State from_directions(const Model& model, const LinkDirections& links);
+
+/// Its derivative (q and v) along a change of the angles, out of the plane too, and of their rates.
+/// The azimuths stay as they are: those of `along` are not read.
+State from_directions_tangent(const Model& model, const LinkDirections& links,
+                              const LinkDirections& along);
 
 /// How a chain of rigid links is laid along a curve.
 enum class CatenaryFit {

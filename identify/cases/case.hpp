@@ -65,7 +65,9 @@ struct ParameterSpec {
 };
 
 /// How the angles (or the rates) of the links start. All but the catenary and the hanging shape
-/// are linear in their coefficients, which are the unknowns where the shape is free.
+/// are linear in their coefficients, which are the unknowns where the shape is free. In space the
+/// angle turns a link in the vertical plane of its azimuth, and another angle, of the same shape,
+/// out of that plane.
 enum class Shape {
   kStraight,  ///< one coefficient: the common angle, rad
   kAngles,    ///< one per link, rad
@@ -89,9 +91,17 @@ struct InitialSpec {
   std::vector<double> velocity_coefficients;  ///< rad/s; empty: from the first frames of the data
   bool velocity_free = false;
 
-  /// In space, one per link: towards where it leaves the vertical, rad from side to across, and its
-  /// rate, rad/s; empty: zero.
+  /// In space, one per link: the vertical plane of the angle, rad from side to across, and its rate,
+  /// rad/s. Empty: found with the coefficients that are left open; else zero.
   std::vector<double> azimuths, azimuth_rates;
+  /// In space, of the angles out of that plane, rad, towards growing azimuth, as many as
+  /// coefficients; and of their rates, rad/s, as many as velocity_coefficients. Empty: as azimuths.
+  std::vector<double> out_of_plane, out_of_plane_rates;
+
+  /// The lists of coefficients in the order in which unknowns count them.
+  std::array<std::vector<double>*, 4> coefficient_lists() {
+    return {&coefficients, &out_of_plane, &velocity_coefficients, &out_of_plane_rates};
+  }
 };
 
 enum class DataKind { kMarkers, kAngles };
@@ -103,6 +113,7 @@ enum class DataSource { kCatena, kTracker, kKinovea, kDeepLabCut };
 struct PointSpec {
   std::string name;
   std::string side_column, down_column;  ///< markers
+  std::string across_column;             ///< markers in space
   std::string angle_column;              ///< angles
   double arc_length = kNotGiven;         ///< m from the support along the cable
   int joint = 0;                         ///< marker at the far end of link `joint`, 1-based
@@ -152,7 +163,11 @@ struct ExperimentSpec {
   bool wrapped = false;            ///< angles jump by a turn
   bool upward = false;             ///< the vertical axis of the file points up
   bool mirrored = false;  ///< the horizontal axis (or the angle) of the file points to -side
-  std::array<double, 2> origin = {0, 0};  ///< the fixed point in the file's own axes and unit
+  /// Columns AXIS_i_m hold side, down and, in space, across of marker i; empty: these words.
+  std::vector<std::string> axes;
+  /// The fixed point in the file's own axes and unit, in the order side, down, across; empty: zeros.
+  std::vector<double> origin;
+  double origin_of(std::size_t axis) const { return origin.empty() ? 0 : origin[axis]; }
   double likelihood_floor = 0.6;          ///< DeepLabCut: points less likely are not seen
   std::string where;
 };

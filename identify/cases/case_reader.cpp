@@ -137,11 +137,15 @@ ParameterSpec read_parameter(const TomlTable& table) {
 /// Angles in rad, or rates in rad/s. Sines of greater angles have fewer digits.
 constexpr double kGreatestAngle = 1e6;
 
-void check_coefficients(const TomlTable& table, std::string_view key, Shape shape, int links,
-                        int terms, const std::vector<double>& values) {
+void check_sizes(const TomlTable& table, std::string_view key, const std::vector<double>& values) {
   for (const double value : values)
     if (!(std::abs(value) <= kGreatestAngle))
       table.fail(key, shortest_number(value) + "; must lie within -1e6 and 1e6");
+}
+
+void check_coefficients(const TomlTable& table, std::string_view key, Shape shape, int links,
+                        int terms, const std::vector<double>& values) {
+  check_sizes(table, key, values);
   const std::size_t given = values.size();
   const int expected = shape == Shape::kStraight ? 1
                        : shape == Shape::kAngles ? links
@@ -162,6 +166,18 @@ std::vector<double> read_of_links(const TomlTable& table, const std::string& key
   return values;
 }
 
+/// A list beside that of the angles (or rates) in the plane, which has the key `beside`.
+std::vector<double> read_out_of_plane(const TomlTable& table, const std::string& key,
+                                      const std::vector<double>& in_plane,
+                                      const std::string& beside) {
+  const std::vector<double> values = table.numbers(key);
+  check_sizes(table, key, values);
+  if (!values.empty() && values.size() != in_plane.size())
+    table.fail(key, std::to_string(values.size()) + " numbers; must be as many as in `" + beside +
+                        "`, " + std::to_string(in_plane.size()));
+  return values;
+}
+
 InitialSpec read_initial(const TomlTable& table, int links) {
   InitialSpec initial;
   initial.shape = static_cast<Shape>(table.choice("shape", kShapeWords));
@@ -172,11 +188,11 @@ InitialSpec read_initial(const TomlTable& table, int links) {
     initial.coefficients = {table.number("angle")};
   if (initial.shape == Shape::kAngles) initial.coefficients = table.numbers("angles");
   if (initial.shape == Shape::kSmooth) initial.coefficients = table.numbers("coefficients");
-  check_coefficients(table,
-                     initial.shape == Shape::kAngles     ? "angles"
-                     : initial.shape == Shape::kStraight ? "angle"
-                                                         : "coefficients",
-                     initial.shape, links, initial.terms, initial.coefficients);
+  const char* const coefficients = initial.shape == Shape::kAngles     ? "angles"
+                                   : initial.shape == Shape::kStraight ? "angle"
+                                                                       : "coefficients";
+  check_coefficients(table, coefficients, initial.shape, links, initial.terms,
+                     initial.coefficients);
   if (linear) initial.free = table.optional_flag("free").value_or(false);
   if (initial.shape == Shape::kCatenary) {
     const TomlTable held = table.table("held");
@@ -196,8 +212,13 @@ InitialSpec read_initial(const TomlTable& table, int links) {
                        initial.velocity_coefficients);
     initial.velocity_free = velocity->optional_flag("free").value_or(false);
     initial.azimuth_rates = read_of_links(*velocity, "azimuth_rate", links);
+    initial.out_of_plane_rates =
+        read_out_of_plane(*velocity, "out_of_plane_rates", initial.velocity_coefficients, "rates");
   }
   initial.azimuths = read_of_links(table, "azimuth", links);
+  if (linear)
+    initial.out_of_plane =
+        read_out_of_plane(table, "out_of_plane", initial.coefficients, coefficients);
   return initial;
 }
 
@@ -231,6 +252,7 @@ PointSpec read_point(const TomlTable& table, DataKind kind, int number, int link
   point.name = table.optional_text("name").value_or("marker " + index);
   point.side_column = table.text("side");
   point.down_column = table.text("down");
+  point.across_column = table.optional_text("across").value_or("");
   const int places = table.has("arc_length") + table.has("joint") + table.has("load");
   if (places != 1)
     table.fail("arc_length", "say where the marker is by one of arc_length, joint and load");
@@ -257,12 +279,19 @@ void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
   experiment.upward = table.choice("vertical", {"down", "up"}, false) == 1;
   experiment.mirrored = table.optional_flag("mirrored").value_or(false);
   experiment.likelihood_floor = not_negative(table, "likelihood_floor", 0.6);
-  const std::vector<double> origin = table.numbers("origin");
-  if (!origin.empty()) {
-    if (origin.size() != 2 || !std::isfinite(origin[0]) || !std::isfinite(origin[1]))
-      table.fail("origin", "must be two numbers: the fixed point in the axes of the file");
-    experiment.origin = {origin[0], origin[1]};
-  }
+  experiment.axes = table.texts("axes");
+  if (table.has("axes") && (table.has("markers") || table.has("angles")))
+    table.fail("axes", "names columns, and so does the list of points; leave one out");
+  if (table.has("axes") && experiment.axes.size() != 2 && experiment.axes.size() != 3)
+    table.fail("axes", "must be two names, in space three: of side, down and across");
+  experiment.origin = table.numbers("origin");
+  const std::size_t places = experiment.origin.size();
+  if (table.has("origin") &&
+      ((places != 2 && places != 3) || !std::all_of(experiment.origin.begin(),
+                                                    experiment.origin.end(),
+                                                    [](double v) { return std::isfinite(v); })))
+    table.fail("origin",
+               "must be two numbers, in space three: the fixed point in the axes of the file");
   if (experiment.time_unit == "frames" && std::isnan(experiment.frame_rate))
     table.fail_missing("frame_rate", "the frames per second, which times in frames need");
   if (experiment.length_unit == "px" && std::isnan(experiment.metres_per_pixel))

@@ -113,7 +113,8 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
       break;
   }
   out.flag("free", initial.free);
-  if (!initial.azimuths.empty()) out.numbers("azimuths", initial.azimuths);
+  out.numbers("azimuths", initial.azimuths);
+  out.numbers("out_of_plane", initial.out_of_plane);
   if (initial.at_rest) return;
   out.header("[" + table + ".velocity]");
   out.text("shape", word(kShapeWords, initial.velocity_shape));
@@ -121,7 +122,8 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
     out.line("terms", std::to_string(initial.velocity_terms));
   out.numbers("rates", initial.velocity_coefficients);
   out.flag("free", initial.velocity_free);
-  if (!initial.azimuth_rates.empty()) out.numbers("azimuth_rates", initial.azimuth_rates);
+  out.numbers("azimuth_rates", initial.azimuth_rates);
+  out.numbers("out_of_plane_rates", initial.out_of_plane_rates);
 }
 
 std::string point_text(const PointSpec& point, DataKind kind) {
@@ -131,6 +133,7 @@ std::string point_text(const PointSpec& point, DataKind kind) {
            ", link = " + std::to_string(point.link) + "},\n";
   out +=
       ", side = " + toml_quoted(point.side_column) + ", down = " + toml_quoted(point.down_column);
+  if (!point.across_column.empty()) out += ", across = " + toml_quoted(point.across_column);
   if (point.load)
     out += ", load = true";
   else if (point.joint)
@@ -178,8 +181,8 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
   out.flag("wrapped", experiment.wrapped);
   if (experiment.upward) out.text("vertical", "up");
   out.flag("mirrored", experiment.mirrored);
-  if (experiment.origin != std::array<double, 2>{0, 0})
-    out.numbers("origin", {experiment.origin[0], experiment.origin[1]});
+  out.texts("axes", experiment.axes);
+  out.numbers("origin", experiment.origin);
   out.number("likelihood_floor", experiment.likelihood_floor, 0.6);
   if (!experiment.points.empty()) {
     std::string points = "[\n";

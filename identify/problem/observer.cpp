@@ -11,11 +11,13 @@ using Eigen::VectorXd;
 namespace {
 
 Positions sized(const Model& model) {
-  return {VectorXd::Zero(model.links() + 2), VectorXd::Zero(model.links() + 2)};
+  const VectorXd zero = VectorXd::Zero(model.links() + 2);
+  return {zero, zero, model.in_space() ? zero : VectorXd()};
 }
 
 CablePoint load_of(const Positions& at) {
-  return {at.side[at.side.size() - 1], at.down[at.down.size() - 1]};
+  const Index load = at.side.size() - 1;
+  return {at.side[load], at.down[load], at.across.size() ? at.across[load] : 0};
 }
 
 }  // namespace
@@ -83,10 +85,11 @@ void Observer::move_to(const Trajectory& path, Index column, double t) {
   experiment_.signals.evaluate(path.time[static_cast<std::size_t>(column)], signals_.data());
   const catena_point at = point(path, signals_, parameters_);
   model_.positions(at, here_.side.data(), here_.down.data());
+  if (model_.in_space()) model_.positions_across(at, here_.across.data());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
     const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
-    true_[i] = {there.side, there.down, path.q(place.point.link, column)};
+    true_[i] = {there.side, there.down, path.q(place.point.link, column), there.across};
     if (model_.table().observes)
       model_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
     else
@@ -99,6 +102,7 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
   const catena_point at = point(*path_, signals_, parameters_);
   const catena_point along = point(sensitivity, no_signals_, by_parameter);
   model_.positions_tangent(at, along, change_.side.data(), change_.down.data());
+  if (model_.in_space()) model_.positions_across_tangent(at, along, change_.across.data());
   double clock_shift = 0;
   if (model_.table().observes && !held) {
     clock_shift = model_.clock_tangent(t_, parameters_.data(), by_parameter.data());
@@ -113,7 +117,8 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
                    : position_tangent_of(here_, change_, place.point, moved_[direction][i]);
     const Index link = place.point.link;
     const Sight din{change.side, change.down,
-                    sensitivity.q(link, column_) + clock_shift * path_->v(link, column_)};
+                    sensitivity.q(link, column_) + clock_shift * path_->v(link, column_),
+                    change.across};
     if (model_.table().observes)
       model_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
                              din.data(), seen_[i].data());

@@ -54,9 +54,9 @@ class Observer {
     bool at_arc_length = false;
     bool load = false;
   };
-  /// What a sensor tells of a point, or its derivative: side and down (m) and the angle of its link
-  /// (rad).
-  using Sight = std::array<double, 3>;
+  /// What a sensor tells of a point, or its derivative, in the order of Component: side and down (m),
+  /// the angle of its link (rad), which has no meaning in space, and across (m).
+  using Sight = std::array<double, 4>;
 
   static Place place_of(const Model& model, const Eigen::VectorXd& parameters,
                         const PointSpec& point);

@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
+using Place = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;  // side, down and, in space, across
 
 constexpr double kMostFrames = 0.9;  // of the frames: the few that are worst are outliers
 
@@ -90,7 +91,14 @@ class Check {
   double arc(Index p) const { return arcs_[static_cast<std::size_t>(p)]; }
   double time(Index k) const { return recording_.time[static_cast<std::size_t>(k)]; }
   std::string name(Index p) const { return recording_.points[static_cast<std::size_t>(p)].name; }
-  Vector2d at(Index p, Index k) const { return recording_.measured.block<2, 1>(2 * p, k); }
+  Place at(Index p, Index k) const {
+    const Index components = recording_.components();
+    return recording_.measured.block(components * p, k, components, 1);
+  }
+  /// How far to the side, in any direction, and down.
+  static Vector2d side_and_down(const Place& place) {
+    return {place.size() == 3 ? std::hypot(place[0], place[2]) : place[0], place[1]};
+  }
 
   /// A function of the frame over all frames in which it is a number.
   template <class Value>
@@ -210,13 +218,13 @@ class Check {
     const double unit =
         spec_.length_unit == "px" ? spec_.metres_per_pixel : metres(spec_.length_unit);
     std::string text;
-    for (Index axis = 0; axis < 2; ++axis) {
+    for (Index axis = 0; axis < recording_.components(); ++axis) {
       const double there = quantile(over_frames([&](Index k) {
                                       return at(0, k)[axis] + share * (at(0, k) - at(1, k))[axis];
                                     }),
                                     0.5);
-      const bool turned = axis == 0 ? spec_.mirrored : spec_.upward;
-      text += (axis ? ", " : "") + rounded(spec_.origin[static_cast<std::size_t>(axis)] +
+      const bool turned = axis == 0 ? spec_.mirrored : axis == 1 && spec_.upward;
+      text += (axis ? ", " : "") + rounded(spec_.origin_of(static_cast<std::size_t>(axis)) +
                                            (turned ? -there : there) / unit);
     }
     return "`origin` would be about [" + text + "]";
@@ -257,12 +265,13 @@ class Check {
   void check_direction() {
     if (time(frames() - 1) - time(0) < 0.5 * period_) return;  // one side of a swing
     const Index last = points() - 1;
-    Vector2d sum = Vector2d::Zero();
+    Place sum = Place::Zero(recording_.components());
     for (Index k = 0; k < frames(); ++k) {
-      const Vector2d step = last > 0 ? Vector2d(at(last, k) - at(0, k)) : at(0, k);
+      const Place step = last > 0 ? Place(at(last, k) - at(0, k)) : at(0, k);
       if (!step.hasNaN()) sum += step;
     }
-    const double angle = std::abs(std::atan2(sum[0], sum[1]));
+    const Vector2d mean = side_and_down(sum);
+    const double angle = std::abs(std::atan2(mean[0], mean[1]));
     if (!(angle > limits_.hardly_sideways)) return;
     if (angle > limits_.hardly_upwards)
       warn("vertical", "on average the cable points upwards; vertical = \"" +
@@ -293,16 +302,40 @@ class Check {
                "wrapped = true if the angles jump by a turn");
   }
 
-  /// The swing: the last marker's side (m) or the last angle (rad).
-  double swing(Index k) const {
-    return recording_.measured(
-        recording_.measured.rows() - (spec_.kind == DataKind::kMarkers ? 2 : 1), k);
+  /// Where the last marker of a recording in space moves most: a unit vector of side and across.
+  Vector2d swing_direction() const {
+    std::vector<Vector2d> places;
+    Vector2d middle = Vector2d::Zero();
+    for (Index k = 0; k < frames(); ++k) {
+      const Place place = at(points() - 1, k);
+      if (place.hasNaN()) continue;
+      places.emplace_back(place[0], place[2]);
+      middle += places.back();
+    }
+    middle /= static_cast<double>(places.size());
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const Vector2d& place : places)
+      spread += (place - middle) * (place - middle).transpose();
+    const double azimuth = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
+    return {std::cos(azimuth), std::sin(azimuth)};
+  }
+
+  /// The swing over the frames: the last marker's side (m), or where it moves most in space, or the
+  /// last angle (rad).
+  Eigen::VectorXd swing() const {
+    const auto& measured = recording_.measured;
+    const Index components = recording_.components();
+    if (components < 3) return measured.row(measured.rows() - components);
+    const Vector2d direction = swing_direction();
+    return direction[0] * measured.row(measured.rows() - 3) +
+           direction[1] * measured.row(measured.rows() - 1);
   }
 
   /// Twice the median time between passages through the middle; NaN: too few of them. A passage
   /// leads from well on one side of the mean to well on the other.
   double swing_period() const {
-    const std::vector<double> values = over_frames([&](Index k) { return swing(k); });
+    const Eigen::VectorXd swings = swing();
+    const std::vector<double> values = over_frames([&](Index k) { return swings[k]; });
     if (values.empty()) return kNotGiven;
     double mean = 0, square = 0;
     for (const double value : values) mean += value / static_cast<double>(values.size());
@@ -313,7 +346,7 @@ class Check {
     int side = 0;
     double last = kNotGiven;
     for (Index k = 0; k < frames(); ++k) {
-      const double value = swing(k) - mean;
+      const double value = swings[k] - mean;
       const int now = value > well ? 1 : value < -well ? -1 : 0;
       if (now == 0 || now == side) continue;
       if (side != 0) {
@@ -348,16 +381,16 @@ class Check {
       warn(key, "the recording lasts " + rounded(duration) + " s, and " + pendulum + "; " + remedy);
   }
 
-  /// The place of a point: side and down, or the angle as an arc of the cable's length.
-  Vector2d place(Index p, Index k) const {
+  /// The place of a point, or the angle as an arc of the cable's length.
+  Place place(Index p, Index k) const {
     if (spec_.kind == DataKind::kMarkers) return at(p, k);
-    return {length_ * recording_.measured(p, k), 0};
+    return Vector2d(length_ * recording_.measured(p, k), 0);
   }
 
   /// The speed of a point in the first `count` frames, from a parabola through them, with twice its
   /// standard error; m/s. NaN where the point is not seen in all of them.
   std::pair<double, double> speed_at_start(Index p, Index count) const {
-    Eigen::MatrixXd powers(count, 3), places(count, 2);
+    Eigen::MatrixXd powers(count, 3), places(count, place(p, 0).size());
     for (Index k = 0; k < count; ++k) {
       const double t = time(k) - time(0);
       powers.row(k) << 1, t, t * t;
@@ -366,7 +399,7 @@ class Check {
     if (places.hasNaN()) return {kNotGiven, kNotGiven};
     const Eigen::MatrixXd fitted = least_squares(powers, places);
     const double variance =
-        (places - powers * fitted).squaredNorm() / static_cast<double>(2 * (count - 3));
+        (places - powers * fitted).squaredNorm() / static_cast<double>(places.cols() * (count - 3));
     const double slope = inverse(powers.transpose() * powers)(1, 1);
     return {fitted.row(1).norm(), 2 * std::sqrt(variance * slope)};
   }
@@ -377,8 +410,8 @@ class Check {
     const double noise =
         quantile(over_frames([&](Index k) {
                    if (k < 3) return kNotGiven;
-                   return Vector2d(place(p, k) - 3 * place(p, k - 1) + 3 * place(p, k - 2) -
-                                   place(p, k - 3))
+                   return (place(p, k) - 3 * place(p, k - 1) + 3 * place(p, k - 2) -
+                           place(p, k - 3))
                        .norm();
                  }),
                  0.5) /

@@ -37,9 +37,10 @@ void Unknowns::add_parameters(const Case& the_case, const std::vector<Experiment
 
 void Unknowns::add_coefficients(const Experiment& experiment, int index) {
   if (!experiment.fitted()) return;  // no data may move its start: it comes from the first frames
+  std::size_t offset = 0;
   const auto add = [&](const std::vector<double>& values, const char* what, const char* unit,
-                       std::size_t offset) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
+                       bool free) {
+    for (std::size_t k = 0; free && k < values.size(); ++k) {
       constexpr double infinity = std::numeric_limits<double>::infinity();
       Unknown unknown{experiment.spec.name + ": " + what + " " + std::to_string(k + 1), unit,
                       values[k], -infinity, infinity};
@@ -48,11 +49,14 @@ void Unknowns::add_coefficients(const Experiment& experiment, int index) {
       unknown.coefficient = static_cast<int>(offset + k);
       list_.push_back(std::move(unknown));
     }
+    offset += values.size();
   };
   const InitialSpec& initial = experiment.initial;
-  if (initial.free) add(initial.coefficients, "angle", "rad", 0);
-  if (!initial.at_rest && initial.velocity_free)
-    add(initial.velocity_coefficients, "rate", "rad/s", initial.coefficients.size());
+  const bool velocity_free = !initial.at_rest && initial.velocity_free;
+  add(initial.coefficients, "angle", "rad", initial.free);
+  add(initial.out_of_plane, "angle out of plane", "rad", initial.free);
+  add(initial.velocity_coefficients, "rate", "rad/s", velocity_free);
+  add(initial.out_of_plane_rates, "rate out of plane", "rad/s", velocity_free);
 }
 
 Eigen::VectorXd Unknowns::start() const {
@@ -73,13 +77,17 @@ Eigen::VectorXd Unknowns::case_values(const Eigen::VectorXd& x, int experiment) 
 
 InitialSpec Unknowns::initial(const Eigen::VectorXd& x, int experiment) const {
   InitialSpec initial = given(experiment).initial;
-  const std::size_t angles = initial.coefficients.size();
   for (std::size_t j = 0; j < list_.size(); ++j) {
     const Unknown& unknown = list_[j];
     if (unknown.coefficient < 0 || unknown.experiment != experiment) continue;
-    const auto k = static_cast<std::size_t>(unknown.coefficient);
-    (k < angles ? initial.coefficients[k] : initial.velocity_coefficients[k - angles]) =
-        x[static_cast<Eigen::Index>(j)];
+    auto k = static_cast<std::size_t>(unknown.coefficient);
+    for (std::vector<double>* list : initial.coefficient_lists()) {
+      if (k < list->size()) {
+        (*list)[k] = x[static_cast<Eigen::Index>(j)];
+        break;
+      }
+      k -= list->size();
+    }
   }
   return initial;
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kFewestSeen = 12;  // frames, for the scatter of a marker 
 
 /// How far one point lies from the cubic through its neighbours.
 struct Difference {
-  VectorXd vector;   ///< side and down, or the angle; empty: not comparable
+  VectorXd vector;   ///< of all components of the point; empty: not comparable
   double noise = 1;  ///< its standard deviation where that of a coordinate is 1
   double size() const { return vector.size() ? vector.norm() / noise : 0; }
 };
@@ -40,8 +40,9 @@ class Track {
     if (sizes.size() < kFewestSeen) return;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    // The median of |x| over the standard deviation, of normal numbers in one and two dimensions.
-    scatter_ = *middle / (rows == 1 ? 0.6745 : 1.1774);
+    // The median of |x| over the standard deviation, of normal numbers in 1, 2 and 3 dimensions.
+    constexpr double kMedian[] = {0.6745, 1.1774, 1.5382};
+    scatter_ = *middle / kMedian[rows - 1];
   }
 
   Index size() const { return static_cast<Index>(frames_.size()); }
@@ -160,7 +161,7 @@ bool stands_alone(Track& track, Index place, const OutlierLimits& limits, Differ
 std::vector<Outlier> find_outliers(const Recording& recording, double size,
                                    const OutlierLimits& limits) {
   const auto points = static_cast<Index>(recording.points.size());
-  const Index rows = static_cast<Index>(recording.channels.size()) / points;
+  const Index rows = recording.components();
   std::vector<Track> tracks;
   for (Index p = 0; p < points; ++p) tracks.emplace_back(recording, p * rows, rows);
   // Neighbouring markers that jump alike: the camera did, or the cable.

@@ -260,6 +260,7 @@ void recognise_axes(const Tracks& tracks, const KnownOfRecording& known,
                       : spec.length_unit == "cm" ? 1e-2
                                                  : 1;
   if (last == 0) return;
+  spec.origin = {0, 0};
   const double share =
       spec.points[0].arc_length / (spec.points[1].arc_length - spec.points[0].arc_length);
   for (const int axis : {0, 1}) {
@@ -271,7 +272,7 @@ void recognise_axes(const Tracks& tracks, const KnownOfRecording& known,
   // A file whose numbers begin at the support: the estimate is no better than that.
   constexpr double kAtZero = 0.05;  // of the length of the cable
   if (std::hypot(spec.origin[0], spec.origin[1]) * unit < kAtZero * known.length)
-    spec.origin = {0, 0};
+    spec.origin.clear();
   else
     found.estimated.emplace_back("origin");
 }

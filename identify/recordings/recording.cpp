@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
@@ -64,8 +65,61 @@ std::string first_names(std::vector<std::string> names) {
   return text + "... (" + std::to_string(count) + " columns)";
 }
 
+using ColumnName = std::string PointSpec::*;
+
+/// The columns of a marker in the order of its channels; the last is there in space only.
+struct MarkerAxis {
+  Component component;
+  const char* word;
+  ColumnName column;
+};
+constexpr MarkerAxis kMarkerAxes[] = {{Component::kSide, "side", &PointSpec::side_column},
+                                      {Component::kDown, "down", &PointSpec::down_column},
+                                      {Component::kAcross, "across", &PointSpec::across_column}};
+
+std::span<const MarkerAxis> marker_axes(bool in_space) {
+  return std::span(kMarkerAxes).first(in_space ? 3 : 2);
+}
+
+/// Refuses what the case says of the plane where the model moves in space, and the other way round.
+void check_space(const ExperimentSpec& experiment, bool in_space) {
+  const std::size_t count = marker_axes(in_space).size();
+  const std::string moves = in_space ? "the model moves in space" : "the model moves in the plane";
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(experiment.where + ": " + problem);
+  };
+  if (in_space && experiment.kind == DataKind::kAngles)
+    refuse("kind: \"angles\"; " + moves + ", where links have no one angle; give markers");
+  if (in_space && experiment.source != DataSource::kCatena)
+    refuse("source: a film of one camera; " + moves + "; give a file of side, down and across");
+  if (!experiment.axes.empty() && experiment.axes.size() != count)
+    refuse("axes: " + std::to_string(experiment.axes.size()) + " names; " + moves + ": give " +
+           std::to_string(count));
+  if (!experiment.origin.empty() && experiment.origin.size() != count)
+    refuse("origin: " + std::to_string(experiment.origin.size()) + " numbers; " + moves +
+           ": give " + std::to_string(count));
+  for (const PointSpec& point : experiment.points)
+    if (point.across_column.empty() == in_space)
+      refuse("markers: " + point.name + (in_space ? " has no" : " has a") + " column `across`; " +
+             moves);
+}
+
+/// "side_1_m, down_1_m": the columns that a marker has where the case does not name them.
+std::string default_columns(const ExperimentSpec& experiment, bool in_space, const std::string& index,
+                            PointSpec& point) {
+  std::string all;
+  const auto axes = marker_axes(in_space);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::string word = experiment.axes.empty() ? axes[i].word : experiment.axes[i];
+    std::string& column = point.*axes[i].column;
+    column = word + "_" + index + "_m";
+    all += (i ? ", " : "") + column;
+  }
+  return all;
+}
+
 std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Table& table,
-                                      int links, double cable_length) {
+                                      int links, double cable_length, bool in_space) {
   std::vector<PointSpec> points;
   for (int i = 1;; ++i) {
     const std::string index = std::to_string(i);
@@ -87,16 +141,22 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
       point.name = point.side_column.substr(0, point.side_column.size() - 2);
     } else {
       point.name = "marker " + index;
-      point.side_column = "side_" + index + "_m";
-      point.down_column = "down_" + index + "_m";
-      if (!table.has(point.side_column) || !table.has(point.down_column)) break;
+      default_columns(experiment, in_space, index, point);
+      const auto axes = marker_axes(in_space);
+      if (!std::all_of(axes.begin(), axes.end(), [&](const MarkerAxis& axis) {
+            return table.has(point.*axis.column);
+          }))
+        break;
     }
     points.push_back(point);
   }
   if (points.empty()) {
     const bool angles = experiment.kind == DataKind::kAngles;
-    throw InputError(experiment.where + ": data: " + table.file + " has no columns " +
-                     (angles ? "theta_1_rad" : "side_1_m, down_1_m") + "; name its columns under " +
+    PointSpec first;
+    const std::string columns =
+        angles ? "theta_1_rad" : default_columns(experiment, in_space, "1", first);
+    throw InputError(experiment.where + ": data: " + table.file + " has no columns " + columns +
+                     "; name its columns under " +
                      (angles ? "angles" : "markers, or let catena new make the case") +
                      "; it has " + first_names(table.names));
   }
@@ -152,12 +212,16 @@ Eigen::RowVectorXd convert(const ExperimentSpec& experiment, const std::vector<d
   double origin = 0, factor = 1;
   switch (component) {
     case Component::kSide:
-      origin = experiment.origin[0];
+      origin = experiment.origin_of(0);
       factor = length_factor(experiment) * (experiment.mirrored ? -1 : 1);
       break;
     case Component::kDown:
-      origin = experiment.origin[1];
+      origin = experiment.origin_of(1);
       factor = length_factor(experiment) * (experiment.upward ? -1 : 1);
+      break;
+    case Component::kAcross:
+      origin = experiment.origin_of(2);
+      factor = length_factor(experiment);
       break;
     case Component::kAngle:
       factor = (experiment.angle_unit == "deg" ? std::numbers::pi / 180 : 1) *
@@ -209,7 +273,7 @@ void leave_out_outliers(Recording& recording, const ExperimentSpec& experiment, 
   const bool angles = experiment.kind == DataKind::kAngles;
   const std::vector<Outlier> outliers = find_outliers(recording, angles ? 1 : cable_length);
   if (outliers.empty()) return;
-  const Eigen::Index per_point = angles ? 1 : 2;
+  const Eigen::Index per_point = recording.components();
   std::string named;
   for (std::size_t i = 0; i < outliers.size(); ++i) {
     const Outlier& outlier = outliers[i];
@@ -242,13 +306,15 @@ void seal(Recording& recording, double from) {
 
 }  // namespace
 
-Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length) {
+Recording read_recording(const ExperimentSpec& experiment, int links, double cable_length,
+                         bool in_space) {
+  check_space(experiment, in_space);
   const Table table = experiment.table ? *experiment.table
                                        : import_tracker_table(experiment.source, experiment.data,
                                                               experiment.likelihood_floor);
   Recording recording;
   recording.points = experiment.points.empty()
-                         ? default_points(experiment, table, links, cable_length)
+                         ? default_points(experiment, table, links, cable_length, in_space)
                          : experiment.points;
   const std::vector<double> time = read_times(experiment, table);
   warn_of_time_unit(experiment, table, recording);
@@ -258,8 +324,9 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
     if (experiment.use == Use::kFit && time[row] <= experiment.fit_until + kTimeSlack)
       ++recording.fit_frames;
   }
-  const Eigen::Index per_point = experiment.kind == DataKind::kMarkers ? 2 : 1;
-  recording.measured.resize(per_point * static_cast<Eigen::Index>(recording.points.size()),
+  const bool markers = experiment.kind == DataKind::kMarkers;
+  const std::size_t per_point = markers ? marker_axes(in_space).size() : 1;
+  recording.measured.resize(static_cast<Eigen::Index>(per_point * recording.points.size()),
                             static_cast<Eigen::Index>(rows.size()));
   for (std::size_t p = 0; p < recording.points.size(); ++p) {
     const PointSpec& point = recording.points[p];
@@ -267,24 +334,24 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
       throw InputError(experiment.where + ": markers: " + point.name + " at " +
                        shortest_number(point.arc_length) + " m; the cable is " +
                        shortest_number(cable_length) + " m long");
-    const auto add = [&](Component component, const std::string& column, const char* suffix) {
+    const auto add = [&](Component component, const std::string& column,
+                         const std::string& suffix) {
       recording.measured.row(static_cast<Eigen::Index>(recording.channels.size())) =
           convert(experiment, table.column(column), rows, component);
       recording.channels.push_back({static_cast<int>(p), component, point.name + suffix});
     };
-    if (experiment.kind == DataKind::kMarkers) {
-      add(Component::kSide, point.side_column, " side");
-      add(Component::kDown, point.down_column, " down");
-    } else {
+    if (markers)
+      for (const MarkerAxis& axis : marker_axes(in_space))
+        add(axis.component, point.*axis.column, std::string(" ") + axis.word);
+    else
       add(Component::kAngle, point.angle_column, "");
-    }
   }
   if (recording.measured.array().isNaN().all())
     throw InputError(experiment.where + ": data: " + table.file +
                      " holds no measurement between from and to");
   if (!experiment.keep_outliers)
     leave_out_outliers(recording, experiment, cable_length, table, rows);
-  if (experiment.kind == DataKind::kMarkers) warn_of_motion_out_of_plane(recording);
+  if (markers && !in_space) warn_of_motion_out_of_plane(recording);
   seal(recording, experiment.sealed_from);
   return recording;
 }

@@ -12,7 +12,7 @@ double release_time(const Recording& recording) {
   constexpr double kFirstShare = 0.01, kLaterShare = 0.04;  // of the farthest any point gets
   const auto& measured = recording.measured;
   const auto points = static_cast<Index>(recording.points.size());
-  const Index rows = measured.rows() / points;
+  const Index rows = recording.components();
   const auto first = [&](Index p) {
     Index k = 0;
     while (k + 1 < measured.cols() && measured.block(p * rows, k, rows, 1).hasNaN()) ++k;

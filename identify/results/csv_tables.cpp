@@ -123,7 +123,7 @@ std::string energy_csv(const Model& model, const Motion& motion) {
 }
 
 std::string residuals_csv(const Problem& problem, const Evaluation& evaluation) {
-  static const char* const kComponents[] = {"side_m", "down_m", "angle_rad"};
+  static const char* const kComponents[] = {"side_m", "down_m", "angle_rad", "across_m"};
   Csv csv;
   for (const char* name :
        {"experiment", "part", "point", "component", "time_s", "measured", "simulated", "residual"})

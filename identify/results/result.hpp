@@ -25,7 +25,7 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 struct Channels {
   Row time;
   Rows side, down, angle;
-  Rows across = {};  ///< of motions in space
+  Rows across = {};  ///< of motions and markers in space
 };
 
 struct Point {

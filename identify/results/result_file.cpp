@@ -136,7 +136,7 @@ class Reader {
     channels.time = time;
     for (const auto& [key, rows] :
          {std::pair("side", &channels.side), std::pair("down", &channels.down),
-          std::pair("angle", &channels.angle)})
+          std::pair("angle", &channels.angle), std::pair("across", &channels.across)})
       at("predicted").rows(key, *rows, time.size());
   }
   void rows(const char* key, const Rows& rows, std::size_t columns) const {
