@@ -137,6 +137,10 @@ SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::Vect
 /// (times x points) side and down of the support, the far end of each link, and the load.
 py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& parameters,
                               const Trajectory& trajectory) {
+  if (model.in_space())
+    throw std::invalid_argument(
+        "positions: the model moves in space, and these are side and down only; "
+        "trajectory.q has the directions of the links, and catena simulate writes positions.csv");
   const auto points = static_cast<Eigen::Index>(model.links() + 2);
   const auto times = static_cast<Eigen::Index>(trajectory.time.size());
   py::array_t<double> side({times, points}), down({times, points});

@@ -10,6 +10,7 @@
 #include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
 #include "linear_algebra/decompositions.hpp"
+#include "runtime/link_frame.hpp"
 
 namespace catena {
 namespace {
@@ -158,31 +159,9 @@ double entry(const Eigen::VectorXd& values, Eigen::Index i) {
   return values.size() ? values[i] : 0.0;
 }
 
-/// The direction of one link and its derivatives by the angle, by out_of_plane and by the azimuth.
-struct LinkFrame {
-  LinkFrame(const LinkDirections& links, Eigen::Index i)
-      : sine(std::sin(links.angle[i])),
-        cosine(std::cos(links.angle[i])),
-        out_sine(std::sin(entry(links.out_of_plane, i))),
-        out_cosine(std::cos(entry(links.out_of_plane, i))),
-        towards(std::cos(links.azimuth[i]), 0.0, std::sin(links.azimuth[i])),
-        around(-towards[2], 0.0, towards[0]) {}
-
-  static Eigen::Vector3d down() { return Eigen::Vector3d::UnitY(); }
-  Eigen::Vector3d direction() const {
-    return out_cosine * (sine * towards + cosine * down()) + out_sine * around;
-  }
-  Eigen::Vector3d by_angle() const { return out_cosine * (cosine * towards - sine * down()); }
-  Eigen::Vector3d by_out_of_plane() const {
-    return out_cosine * around - out_sine * (sine * towards + cosine * down());
-  }
-  static Eigen::Vector3d turned(const Eigen::Vector3d& vector) {
-    return {-vector[2], 0.0, vector[0]};
-  }
-
-  double sine, cosine, out_sine, out_cosine;
-  Eigen::Vector3d towards, around;
-};
+LinkFrame frame_of(const LinkDirections& links, Eigen::Index i) {
+  return {links.angle[i], entry(links.out_of_plane, i), links.azimuth[i]};
+}
 
 void put(Eigen::VectorXd& all, Eigen::Index links, Eigen::Index i, const Eigen::Vector3d& vector) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) all[axis * links + i] = vector[axis];
@@ -194,12 +173,12 @@ State from_directions(const Model& model, const LinkDirections& links) {
   State state = State::zero(model);
   const Eigen::Index n = model.links();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const LinkFrame link(links, i);
+    const LinkFrame link = frame_of(links, i);
     put(state.q, n, i, link.direction());
     put(state.v, n, i,
         links.angle_rate[i] * link.by_angle() +
             entry(links.out_of_plane_rate, i) * link.by_out_of_plane() +
-            links.azimuth_rate[i] * LinkFrame::turned(link.direction()));
+            links.azimuth_rate[i] * LinkFrame::by_azimuth(link.direction()));
   }
   return state;
 }
@@ -209,19 +188,20 @@ State from_directions_tangent(const Model& model, const LinkDirections& links,
   State state = State::zero(model);
   const Eigen::Index n = model.links();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const LinkFrame link(links, i);
-    const double angle = along.angle[i], out = entry(along.out_of_plane, i);
-    const double rate = links.angle_rate[i], out_rate = entry(links.out_of_plane_rate, i);
-    const Eigen::Vector3d in_plane = link.sine * link.towards + link.cosine * LinkFrame::down();
-    const Eigen::Vector3d across_it = link.cosine * link.towards - link.sine * LinkFrame::down();
+    const LinkFrame link = frame_of(links, i);
+    const double angle = entry(along.angle, i), out = entry(along.out_of_plane, i);
     const Eigen::Vector3d moved = angle * link.by_angle() + out * link.by_out_of_plane();
+    // by_angle and by_out_of_plane change, too
+    const Eigen::Vector3d angle_moved =
+        -angle * link.cosine * link.in_plane - out * link.sine * link.turned_in_plane;
+    const Eigen::Vector3d out_moved =
+        -angle * link.sine * link.turned_in_plane - out * link.direction();
     put(state.q, n, i, moved);
     put(state.v, n, i,
-        along.angle_rate[i] * link.by_angle() +
-            entry(along.out_of_plane_rate, i) * link.by_out_of_plane() -
-            rate * (angle * link.out_cosine * in_plane + out * link.out_sine * across_it) -
-            out_rate * (angle * link.out_sine * across_it + out * link.direction()) +
-            links.azimuth_rate[i] * LinkFrame::turned(moved));
+        entry(along.angle_rate, i) * link.by_angle() +
+            entry(along.out_of_plane_rate, i) * link.by_out_of_plane() +
+            links.angle_rate[i] * angle_moved + entry(links.out_of_plane_rate, i) * out_moved +
+            links.azimuth_rate[i] * LinkFrame::by_azimuth(moved));
   }
   return state;
 }

@@ -42,7 +42,7 @@ struct LinkDirections {
 State from_directions(const Model& model, const LinkDirections& links);
 
 /// Its derivative (q and v) along a change of the angles, out of the plane too, and of their rates.
-/// The azimuths stay as they are: those of `along` are not read.
+/// The azimuths stay as they are: those of `along` are not read. What is empty there is zero.
 State from_directions_tangent(const Model& model, const LinkDirections& links,
                               const LinkDirections& along);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/input_error.hpp"
 #include "common/sha256.hpp"
 #include "common/whole_file.hpp"
 
@@ -11,13 +12,28 @@ namespace catena {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The case's own model. Candidates, missing forces and their laws are of the plane.
+Description model_to_diagnose(const Case& the_case) {
+  if (the_case.description.empty()) return plain_chain();
+  Description description = read_description(the_case.description);
+  if (description.space != Space::kPlane)
+    throw InputError(the_case.file.string() + ": model.description: " +
+                     the_case.description.string() +
+                     " moves in space, and effects are looked for in the plane only; catena identify "
+                     "fits this case, and its residuals tell whether something is missing");
+  return description;
+}
+
+}  // namespace
+
 DiagnosisContext::DiagnosisContext(const Case& the_case, const std::vector<fs::path>& effect_files,
                                    fs::path folder, LeastSquares solver,
                                    ProviderOptions provider_options)
     : least_squares(std::move(solver)),
       provider(std::move(provider_options)),
-      original_(the_case.description.empty() ? plain_chain()
-                                             : read_description(the_case.description)),
+      original_(model_to_diagnose(the_case)),
       folder_(std::move(folder)),
       library_(library_of_candidates(effect_files, original_, the_case)) {}
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/input_error.hpp"
 #include "identify/fit/error.hpp"
@@ -22,21 +23,27 @@ Case with_links(const Case& the_case, int links) {
         (!parameter.sets.empty() &&
          std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
       refuse("parameter \"" + parameter.name + "\": sets = \"" + parameter.sets + "\"");
-  const auto check = [&](const InitialSpec& initial) {
+  const auto check = [&](InitialSpec& initial) {
+    for (std::vector<double>* of_links : {&initial.azimuths, &initial.azimuth_rates}) {
+      if (of_links->empty()) continue;
+      if (std::set<double>(of_links->begin(), of_links->end()).size() > 1)
+        refuse("initial: gives azimuths per link");
+      of_links->resize(static_cast<std::size_t>(links), of_links->front());
+    }
     if (initial.shape == Shape::kAngles ||
         (!initial.at_rest && initial.velocity_shape == Shape::kAngles))
       refuse("initial: gives numbers per link");
   };
-  check(the_case.initial);
-  for (const ExperimentSpec& experiment : the_case.experiments) {
+  Case other = the_case;
+  other.links = links;
+  check(other.initial);
+  for (ExperimentSpec& experiment : other.experiments) {
     if (experiment.initial) check(*experiment.initial);
     if (experiment.kind == DataKind::kAngles)
       refuse(experiment.name + ": measures angles of links");
     for (const PointSpec& point : experiment.points)
       if (point.joint) refuse(experiment.name + ": " + point.name + " is at a joint");
   }
-  Case other = the_case;
-  other.links = links;
   return other;
 }
 

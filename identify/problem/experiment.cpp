@@ -27,7 +27,8 @@ double cable_length(const Case& the_case) {
 /// The recording as its file gives it, checked.
 Recording read_plausible(const Case& the_case, const ExperimentSpec& spec, const Model& model,
                          const ParameterMap& map) {
-  Recording recording = read_recording(spec, the_case.links, cable_length(the_case));
+  Recording recording =
+      read_recording(spec, the_case.links, cable_length(the_case), model.in_space());
   const Eigen::VectorXd lengths = link_lengths(model, map(case_values(the_case, spec.name)));
   for (std::string& warning :
        check_plausible(recording, spec, spec.initial.value_or(the_case.initial), the_case.cable,

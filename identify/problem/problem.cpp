@@ -22,15 +22,24 @@ Model fitting_model(const Case& the_case, Model model) {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(the_case.file.string() + ": " + problem);
   };
-  const InitialSpec& initial = the_case.initial;
-  if (model.in_space() && !the_case.experiments.empty())
-    refuse(
-        "model: it moves in space, and recordings are compared in the plane only; leave out "
-        "[[experiment]] and simulate, or take a model of the plane");
-  if (!model.in_space() && !(initial.azimuths.empty() && initial.azimuth_rates.empty()))
-    refuse(
-        "initial: azimuth: the model moves in the plane; leave it out, or give a model with "
-        "space = \"3d\"");
+  const auto check = [&](const InitialSpec& initial) {
+    if (!model.in_space() && !(initial.azimuths.empty() && initial.azimuth_rates.empty()))
+      refuse(
+          "initial: azimuth: the model moves in the plane; leave it out, or give a model with "
+          "space = \"3d\"");
+    if (!model.in_space() && !(initial.out_of_plane.empty() && initial.out_of_plane_rates.empty()))
+      refuse(
+          "initial: out_of_plane: the model moves in the plane; leave it out, or give a model with "
+          "space = \"3d\"");
+  };
+  check(the_case.initial);
+  for (const ExperimentSpec& experiment : the_case.experiments) {
+    if (experiment.initial) check(*experiment.initial);
+    if (model.in_space() && experiment.joined)
+      refuse("experiment: joined: \"" + experiment.name +
+             "\"; windows of a model in space cannot be joined; leave joined out: each window then "
+             "has a start of its own");
+  }
   return model;
 }
 
@@ -104,8 +113,6 @@ std::vector<SensitivityDirection> Problem::directions(const Eigen::VectorXd& x,
   const Eigen::MatrixXd by_value = map_.jacobian(values);
   const InitialSpec initial = initial_of(x, experiment);
   const Eigen::VectorXd parameters = map_(values);
-  const Eigen::VectorXd lengths = link_lengths(model_, parameters);
-  const Eigen::Index n = case_.links;
   std::vector<SensitivityDirection> directions(unknowns().size());
   for (std::size_t j = 0; j < unknowns().size(); ++j) {
     const Unknown& unknown = unknowns()[j];
@@ -117,22 +124,15 @@ std::vector<SensitivityDirection> Problem::directions(const Eigen::VectorXd& x,
       if (initial.shape == Shape::kCatenary || initial.shape == Shape::kHanging) {
         const double h = 1e-6 * (1 + std::abs(values[unknown.parameter])) *
                          (unknown.scale == Scale::kLogarithmic ? 1e-3 : 1);
-        const auto moved_angles = [&](double step) {
-          return state_of(experiment, initial, parameters + step * direction.parameters).q;
-        };
-        direction.q = (moved_angles(h) - moved_angles(-h)) / (2 * h);
+        const State more = state_of(experiment, initial, parameters + h * direction.parameters);
+        const State less = state_of(experiment, initial, parameters - h * direction.parameters);
+        direction.q = (more.q - less.q) / (2 * h);
+        direction.v = (more.v - less.v) / (2 * h);  // in space they turn with the directions
       }
       continue;
     }
-    const auto k = static_cast<Eigen::Index>(unknown.coefficient);
-    const auto angles = static_cast<Eigen::Index>(initial.coefficients.size());
-    const bool angle = k < angles;
-    Eigen::VectorXd& moved = angle ? direction.q : direction.v;
-    moved = Eigen::VectorXd::Zero(model_.coordinates());
-    moved.head(n) =
-        angle ? shape_basis(initial.shape, case_.links, initial.terms, lengths).col(k)
-              : shape_basis(initial.velocity_shape, case_.links, initial.velocity_terms, lengths)
-                    .col(k - angles);
+    direction = start_along(model_, parameters, initial, at(experiment).signals,
+                            at(experiment).spec.start, unknown.coefficient);
   }
   return directions;
 }

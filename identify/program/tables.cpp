@@ -50,12 +50,14 @@ std::string gap_summary(const Problem& problem, const Evaluation* before, const 
 std::string simulation_table(const Motion& motion) {
   const Simulation& simulation = motion.simulation;
   const Eigen::Index load = motion.side.rows() - 1, last = motion.side.cols() - 1;
+  const std::string across =
+      motion.across.size() ? fmt::format(", across {:.4f} m", motion.across(load, last)) : "";
   return fmt::format(
       "simulated {:.6g} s in {} steps\n"
-      "load at the end: side {:.4f} m, down {:.4f} m\n"
+      "load at the end: side {:.4f} m, down {:.4f} m{}\n"
       "energy balance kept within {:.2g} J\n",
       simulation.trajectory.time.back() - simulation.trajectory.time.front(),
-      simulation.statistics.steps, motion.side(load, last), motion.down(load, last),
+      simulation.statistics.steps, motion.side(load, last), motion.down(load, last), across,
       simulation.energy_imbalance);
 }
 

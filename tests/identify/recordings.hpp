@@ -43,8 +43,9 @@ angle = 0.6
 )";
 
 /// Markers at the given arc lengths (m), `frames` of them `step` s apart from time 0; not measured
-/// yet.
-inline Recording empty_markers(const std::vector<double>& arc_lengths, int frames, double step) {
+/// yet. In space they have three components.
+inline Recording empty_markers(const std::vector<double>& arc_lengths, int frames, double step,
+                               bool in_space = false) {
   Recording recording;
   for (int k = 0; k < frames; ++k) recording.time.push_back(step * k);
   for (std::size_t p = 0; p < arc_lengths.size(); ++p) {
@@ -54,8 +55,11 @@ inline Recording empty_markers(const std::vector<double>& arc_lengths, int frame
     recording.points.push_back(point);
     recording.channels.push_back({static_cast<int>(p), Component::kSide, point.name + " side"});
     recording.channels.push_back({static_cast<int>(p), Component::kDown, point.name + " down"});
+    if (in_space)
+      recording.channels.push_back(
+          {static_cast<int>(p), Component::kAcross, point.name + " across"});
   }
-  recording.measured.setZero(static_cast<Eigen::Index>(2 * arc_lengths.size()), frames);
+  recording.measured.setZero(static_cast<Eigen::Index>(recording.channels.size()), frames);
   recording.fit_frames = frames;
   return recording;
 }

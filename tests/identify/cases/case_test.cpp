@@ -218,6 +218,67 @@ TEST_CASE("what is written is read back the same") {
     CHECK_MESSAGE(once.find(line) != std::string::npos, std::string(line));
 }
 
+TEST_CASE("what a case says of space is written and read back, and checked") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,z\n");
+  const std::string text = R"(format = 1
+kind = "case"
+[model]
+links = 4
+[cable]
+length = 1.0
+density = 0.1
+[initial]
+shape = "smooth"
+terms = 2
+coefficients = [0.5, 0.1]
+azimuth = 0.4
+out_of_plane = [0.2, -0.1]
+free = true
+[initial.velocity]
+shape = "straight"
+rates = [0.25]
+azimuth_rates = [1, 2, 3, 4]
+out_of_plane_rates = [0.75]
+[[experiment]]
+name = "first"
+data = "data.csv"
+kind = "markers"
+axes = ["x", "z", "y"]
+vertical = "up"
+origin = [1, 2, 3]
+[[experiment]]
+name = "second"
+data = "data.csv"
+kind = "markers"
+markers = [{name = "knot", side = "x", down = "z", across = "y", joint = 2}]
+)";
+  const auto read = [&](const std::string& source) {
+    return parse_case(source, "case.toml", folder.path());
+  };
+  const Case the_case = read(case_text(read(text), folder.path()));
+  CHECK(the_case.initial.azimuths == std::vector<double>(4, 0.4));
+  CHECK(the_case.initial.out_of_plane == std::vector<double>{0.2, -0.1});
+  CHECK(the_case.initial.azimuth_rates == std::vector<double>{1, 2, 3, 4});
+  CHECK(the_case.initial.out_of_plane_rates == std::vector<double>{0.75});
+  CHECK(the_case.experiments[0].axes == std::vector<std::string>{"x", "z", "y"});
+  CHECK(the_case.experiments[0].origin == std::vector<double>{1, 2, 3});
+  CHECK(the_case.experiments[1].points[0].across_column == "y");
+  const std::pair<std::string, std::pair<std::string, std::string>> wrong[] = {
+      {"out_of_plane = [0.2, -0.1]",
+       {"out_of_plane = [0.2]", "out_of_plane: 1 numbers; must be as many as in `coefficients`, 2"}},
+      {"out_of_plane_rates = [0.75]",
+       {"out_of_plane_rates = [inf]", "out_of_plane_rates: inf; must lie within"}},
+      {"axes = [\"x\", \"z\", \"y\"]", {"axes = [\"x\"]", "axes: must be two names"}},
+      {"origin = [1, 2, 3]", {"origin = [1, 2, 3, 4]", "origin: must be two numbers"}},
+      {"markers = [", {"axes = [\"x\", \"z\", \"y\"]\nmarkers = [", "axes: names columns"}},
+  };
+  for (const auto& [from, to] : wrong) {
+    const std::string message = failure([&] { read(replaced(text, from, to.first)); });
+    CHECK_MESSAGE(message.find(to.second) != std::string::npos, message);
+  }
+}
+
 TEST_CASE("a parameter has a value for each experiment where the case gives one") {
   const testing::TemporaryFolder folder;
   folder.write("data.csv", "x,y,phi\n");

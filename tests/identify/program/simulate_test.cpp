@@ -84,10 +84,12 @@ TEST_CASE("a case of a model in space starts in azimuths and has a third compone
   refused(testing::replaced(testing::kSwing, angle, angle + "azimuth = 0.4\n"),
           "initial: azimuth: the model moves in the plane");
   refused(testing::replaced(turned, "[2, 3]", "[2, 3, 4]"), "azimuth_rates: 3 numbers");
+  refused(testing::replaced(testing::kSwing, angle, angle + "out_of_plane = [0.1]\n"),
+          "initial: out_of_plane: the model moves in the plane");
   refused(in_space +
               "[[experiment]]\nname = \"a\"\ndata = \"turned/positions.csv\"\n"
-              "kind = \"markers\"\n",
-          "model: it moves in space");
+              "kind = \"markers\"\nwindow = 0.3\njoined = true\n",
+          "experiment: joined: \"a\"; windows of a model in space cannot be joined");
 }
 
 TEST_CASE("without --output no command replaces what another one wrote") {

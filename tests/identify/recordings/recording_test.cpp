@@ -20,9 +20,9 @@ ExperimentSpec markers(const std::filesystem::path& data) {
   return spec;
 }
 
-std::string message_of(const ExperimentSpec& spec) {
+std::string message_of(const ExperimentSpec& spec, bool in_space = false) {
   try {
-    read_recording(spec, 2, 2.0);
+    read_recording(spec, 2, 2.0, in_space);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -104,6 +104,58 @@ TEST_CASE("pixels, upward and mirrored axes, frame numbers, degrees that jump") 
   CHECK(turned.time[1] == doctest::Approx(0.01));
   CHECK(turned.measured(0, 1) == doctest::Approx(190 * std::numbers::pi / 180));
   CHECK(turned.measured(0, 3) == doctest::Approx(350 * std::numbers::pi / 180));
+}
+
+TEST_CASE("markers in space have three components, in the axes that the case names") {
+  const testing::TemporaryFolder folder;
+  ExperimentSpec spec = markers(folder.write("m.csv",
+                                             "time_s,x_1_m,y_1_m,z_1_m,x_2_m,y_2_m,z_2_m\n"
+                                             "0.0,0.3,0.1,0.2,0.4,0.2,-0.7\n"
+                                             "0.1,0.4,0.2,0.1,,,\n"));
+  spec.axes = {"x", "z", "y"};
+  spec.upward = true;
+  spec.origin = {0.1, 1.2, -0.1};
+  const Recording recording = read_recording(spec, 2, 2.0, true);
+  CHECK(recording.components() == 3);
+  REQUIRE(recording.channels.size() == 6);
+  CHECK(recording.channels[2].component == Component::kAcross);
+  CHECK(recording.channels[5].name == "marker 2 across");
+  CHECK(recording.points[0].arc_length == 1.0);
+  CHECK(recording.measured(0, 0) == doctest::Approx(0.2));  // side: x - 0.1
+  CHECK(recording.measured(1, 0) == doctest::Approx(1.0));  // down: 1.2 - z
+  CHECK(recording.measured(2, 0) == doctest::Approx(0.2));  // across: y + 0.1
+  CHECK(recording.measured(4, 0) == doctest::Approx(1.9));
+  CHECK(std::isnan(recording.measured(5, 1)));
+
+  const auto refused = [&](const ExperimentSpec& wrong, bool in_space, const std::string& said) {
+    const std::string message = message_of(wrong, in_space);
+    CHECK_MESSAGE(message.find("case.toml:9: " + said) != std::string::npos, message);
+  };
+  refused(spec, false, "axes: 3 names; the model moves in the plane: give 2");
+  ExperimentSpec wrong = spec;
+  wrong.axes.clear();
+  refused(wrong, true, "data: " + spec.data.string() +
+                           " has no columns side_1_m, down_1_m, across_1_m");
+  wrong = spec;
+  wrong.origin = {0, 0};
+  refused(wrong, true, "origin: 2 numbers; the model moves in space: give 3");
+  wrong = spec;
+  wrong.kind = DataKind::kAngles;
+  refused(wrong, true, "kind: \"angles\"; the model moves in space");
+  wrong = spec;
+  wrong.source = DataSource::kTracker;
+  refused(wrong, true, "source: a film of one camera");
+  wrong = spec;
+  wrong.axes.clear();
+  wrong.origin.clear();
+  PointSpec point;
+  point.name = "knot";
+  point.side_column = "x_1_m";
+  point.down_column = "z_1_m";
+  wrong.points = {point};
+  refused(wrong, true, "markers: knot has no column `across`");
+  wrong.points[0].across_column = "y_1_m";
+  refused(wrong, false, "markers: knot has a column `across`");
 }
 
 TEST_CASE(

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cases in space: starts, what sensors see, fits.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "identify/fit/links_study.hpp"
+#include "identify/fit/error.hpp"
+#include "identify/fit/fit.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "identify/problem/initial_state.hpp"
+#include "identify/problem/plausibility.hpp"
+#include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/recordings.hpp"
+#include "tests/support/failure.hpp"
+
+using namespace catena;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kLinks = 3;
+
+Model model() { return Model::load(SPATIAL_3); }
+
+/// Three links, stiffness and damping unknown.
+Case three_links() {
+  Case the_case = testing::sections(testing::kTwoLinks);
+  the_case.links = kLinks;
+  testing::add_experiment(the_case, "run");
+  return the_case;
+}
+
+/// A start that lies in no plane and turns about the vertical.
+InitialSpec askew() {
+  InitialSpec initial;
+  initial.shape = Shape::kAngles;
+  initial.coefficients = {0.3, -0.2, 0.7};
+  initial.out_of_plane = {0.2, 0.4, -0.3};
+  initial.azimuths = {0.5, 0.5, 2.0};
+  initial.at_rest = false;
+  initial.velocity_shape = Shape::kAngles;
+  initial.velocity_coefficients = {0.5, -0.8, 1.0};
+  initial.out_of_plane_rates = {-0.4, 0.9, 0.6};
+  initial.azimuth_rates = {0.8, 0.8, 0.8};
+  return initial;
+}
+
+Recording seven_markers(int frames, double step) {
+  return testing::empty_markers({0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0}, frames, step, true);
+}
+
+/// The film of a start, and the state it began with.
+Recording film_of(Case truth, const InitialSpec& initial, State& state, int frames = 8) {
+  truth.initial = initial;
+  const Recording recording =
+      testing::with_truth(truth, model(), seven_markers(frames, 0.005), 0);
+  const Problem problem(truth, model(), {recording});
+  state = problem.initial_state(problem.start(), 0);
+  return recording;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives by the unknowns of a start and by parameters are differences") {
+  Case the_case = three_links();
+  the_case.initial = askew();
+  the_case.initial.free = the_case.initial.velocity_free = true;
+  the_case.simulation.relative_tolerance = 1e-11;
+  the_case.simulation.absolute_tolerance_position = 1e-12;
+  the_case.simulation.absolute_tolerance_velocity = 1e-11;
+  const Problem problem(the_case, model(), {seven_markers(4, 0.1)});
+  const VectorXd x = problem.start();
+  REQUIRE(x.size() == 2 + 4 * kLinks);
+  const auto along = problem.directions(x, 0);
+  const Prediction here = problem.predict(x, 0, true, along);
+  REQUIRE_MESSAGE(here.ok(), here.message);
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+    const double step = 1e-5 * (1 + std::abs(x[j]));
+    VectorXd more = x, less = x;
+    more[j] += step;
+    less[j] -= step;
+    const Eigen::MatrixXd difference = (problem.predict(more, 0, true).simulated -
+                                        problem.predict(less, 0, true).simulated) /
+                                       (2 * step);
+    const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
+    CHECK(difference.norm() > 1e-3);
+    CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
+  }
+}
+
+TEST_CASE("any start is found from the first frames, without a singular shape") {
+  const double right = std::numbers::pi / 2;
+  struct Row {
+    const char* name;
+    std::vector<double> angles, azimuths;
+  };
+  // The last one: no one vertical plane is far from being crossed at a right angle by a link.
+  const Row rows[] = {{"hanging", {0, 0, 0}, {0, 0, 0}},
+                      {"upwards", {2.9, 3.0, 2.8}, {1, 1, 1}},
+                      {"a corner", {0.4, 1.5, 1.5}, {0.3, 0.3, 0.3 + right}},
+                      {"a helix", {1.2, 1.2, 1.2}, {0, 2, 4}}};
+  for (const Row& row : rows) {
+    CAPTURE(std::string(row.name));
+    InitialSpec truth = askew();
+    truth.coefficients = row.angles;
+    truth.azimuths = row.azimuths;
+    truth.out_of_plane.clear();
+    State expected;
+    const Recording recording = film_of(three_links(), truth, expected);
+    Case the_case = three_links();
+    the_case.initial = {};
+    the_case.initial.shape = Shape::kAngles;
+    the_case.initial.at_rest = false;
+    the_case.initial.velocity_shape = Shape::kAngles;
+    the_case.initial.free = the_case.initial.velocity_free = true;
+    const Problem problem(the_case, model(), {recording});
+    const State found = problem.initial_state(problem.start(), 0);
+    CHECK((found.q - expected.q).cwiseAbs().maxCoeff() < 0.02);
+    CHECK((found.v - expected.v).cwiseAbs().maxCoeff() < 0.5);
+    // every coordinate moves its link
+    for (const SensitivityDirection& along : problem.directions(problem.start(), 0))
+      if (along.parameters.size() == 0) CHECK(std::max(along.q.norm(), along.v.norm()) > 0.6);
+  }
+}
+
+TEST_CASE("stiffness, damping and the whole start are found, in their intervals") {
+  Case truth = three_links();
+  truth.parameters[0].value = 0.1;
+  truth.parameters[1].value = 0.005;
+  truth.initial = askew();
+  Recording recording =
+      testing::with_truth(truth, model(), seven_markers(60, 0.03), 1e-3);
+  recording.measured.block(3, 10, 3, 5).setConstant(NAN);  // not seen
+  recording.fit_frames = 45;
+  Case the_case = three_links();
+  the_case.initial.shape = Shape::kAngles;
+  the_case.initial.coefficients.clear();
+  the_case.initial.at_rest = false;
+  the_case.initial.velocity_shape = Shape::kAngles;
+  the_case.initial.free = the_case.initial.velocity_free = true;
+  the_case.optimiser.method = FitMethod::kLeastSquares;
+  the_case.error.measure = Measure::kLeastSquares;
+  const Problem problem(the_case, model(), {recording});
+  const FitResult result = fit(problem, {}, fit_least_squares);
+  CHECK(result.status == FitStatus::kConverged);
+  const Uncertainty uncertainty = uncertainty_of(problem, result.x);
+  const double expected[] = {0.1, 0.005};
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Estimate& estimate = uncertainty.estimates[j];
+    CHECK(result.x[static_cast<Eigen::Index>(j)] == doctest::Approx(expected[j]).epsilon(0.05));
+    CHECK(estimate.lower < expected[j]);
+    CHECK(estimate.upper > expected[j]);
+  }
+  for (const Gap& gap : gaps_of(problem, evaluate(problem, result.x, true, false)))
+    CHECK(gap.rms == doctest::Approx(1e-3).epsilon(0.1));  // fitted and held out
+  const Case fitted = problem.with(result.x);
+  const Problem again(fitted, model(), {recording});
+  CHECK((again.start() - result.x).cwiseAbs().maxCoeff() == 0);
+}
+
+TEST_CASE("a recording in space is held against the cable as one in the plane") {
+  Case truth = three_links();
+  truth.initial.coefficients = {0.5};
+  truth.initial.azimuths.assign(kLinks, std::numbers::pi / 2);  // it swings across only
+  Recording film =
+      testing::with_truth(truth, model(), seven_markers(200, 0.03), 1e-3);
+  ExperimentSpec spec = truth.experiments[0];
+  const VectorXd lengths = VectorXd::Constant(kLinks, 1.0 / kLinks);
+  const auto said = [&](const Recording& recording, const InitialSpec& initial) {
+    std::string all;
+    for (const std::string& warning :
+         check_plausible(recording, spec, initial, truth.cable, lengths, model()))
+      all += warning + "\n";
+    return all;
+  };
+  CHECK(said(film, truth.initial) == "");
+  Recording fast = film;
+  for (double& time : fast.time) time /= 30;
+  CHECK(said(fast, truth.initial).find("time_unit: the cable swings once in") == 0);
+  Recording over = film;
+  for (Eigen::Index p = 0; p < 7; ++p) over.measured.row(3 * p + 1) *= -1;
+  CHECK(said(over, truth.initial).find("vertical: on average the cable points upwards") == 0);
+  Recording moved = film;
+  for (Eigen::Index p = 0; p < 7; ++p) moved.measured.row(3 * p + 2).array() += 2.0;
+  const std::string message = failure([&] { said(moved, truth.initial); });
+  CHECK_MESSAGE(message.find("origin: marker 1 is") != std::string::npos, message);
+  CHECK_MESSAGE(message.find(", 2.") != std::string::npos, message);  // across, of the remedy
+}
+
+TEST_CASE("another number of links takes the azimuth of all links, not those of each") {
+  Case the_case = three_links();
+  the_case.initial.azimuths.assign(kLinks, 0.4);
+  CHECK(with_links(the_case, 5).initial.azimuths == std::vector<double>(5, 0.4));
+  the_case.initial.azimuths[1] = 0.5;
+  const std::string message = failure([&] { with_links(the_case, 5); });
+  CHECK_MESSAGE(message.find("initial: gives azimuths per link") != std::string::npos, message);
+}
