@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
-using Place = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;  // side, down and, in space, across
+using Place = Eigen::VectorXd;  // side, down and, in space, across
 
 constexpr double kMostFrames = 0.9;  // of the frames: the few that are worst are outliers
 
