@@ -195,3 +195,51 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
   CHECK(refused.exit_status == 2);
   CHECK(refused.output.find("is at a joint") != std::string::npos);
 }
+
+TEST_CASE("a cable in space is identified; what knows the plane only refuses it") {
+  const testing::TemporaryFolder folder;
+  folder.write("space.toml", "format = 1\nkind = \"model\"\nid = \"space\"\nspace = \"3d\"\n");
+  const auto in_space = [](const char* text) {
+    return testing::replaced(text, "links = 2", "description = \"space.toml\"\nlinks = 2");
+  };
+  const std::string start =
+      "shape = \"angles\"\nangles = [0.6, 0.3]\nazimuth = 0.4\nout_of_plane = [0.1, -0.2]\n"
+      "velocity = {shape = \"straight\", rates = [0], azimuth_rate = 2}\n";
+  const std::string straight = "shape = \"straight\"\nangle = 0.6\n";
+  const auto swing = folder.write(
+      "swing.toml", testing::replaced(in_space(testing::kSwing), straight, start));
+  REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
+          0);
+  const std::string found =
+      "shape = \"angles\"\nfree = true\nvelocity = {shape = \"angles\", free = true}\n";
+  const auto the_case = folder.write(
+      "fit.toml",
+      testing::replaced(testing::replaced(in_space(testing::kFit), straight, found),
+                        "measure = \"mean_distance\"",
+                        "measure = \"least_squares\"\n[optimiser]\nmethod = \"least_squares\""));
+  const std::filesystem::path out = folder.path() / "out";
+  const ProcessResult run = run_catena({"identify", the_case, "--output", out});
+  REQUIRE_MESSAGE(run.exit_status == 0, run.output);
+  CHECK(run.output.find("and 8 numbers of the initial state") != std::string::npos);
+  const Case fitted = read_case(out / "fitted.toml");
+  CHECK(fitted.parameters[0].value == doctest::Approx(0.1).epsilon(1e-3));
+  CHECK(fitted.parameters[1].value == doctest::Approx(0.005).epsilon(1e-3));
+  const ProcessResult again =
+      run_catena({"simulate", out / "fitted.toml", "--output", out / "again"});
+  CHECK_MESSAGE(again.exit_status == 0, again.output);
+  const std::string residuals = testing::text_of(out / "residuals.csv");
+  CHECK(testing::text_of(out / "again" / "residuals.csv") == residuals);
+  CHECK(residuals.find(",across_m,") != std::string::npos);
+  const auto result = nlohmann::json::parse(testing::text_of(out / "result.json"));
+  const auto& experiment = result["experiments"][0];
+  CHECK(experiment["measured"]["across"].size() == experiment["measured"]["side"].size());
+  CHECK(experiment["predicted"]["across"].size() == experiment["measured"]["side"].size());
+
+  const auto refused = [](const ProcessResult& process, const std::string& said) {
+    CHECK(process.exit_status == 2);
+    CHECK_MESSAGE(process.output.find(said) != std::string::npos, process.output);
+  };
+  refused(run_catena({"diagnose", the_case, "--output", folder.path() / "none"}),
+          "moves in space, and effects are looked for in the plane only");
+  refused(run_catena({"report", out}), "experiment \"swing\": its markers are in space");
+}
