@@ -56,7 +56,7 @@ Recording seven_markers(int frames, double step) {
 Recording film_of(Case truth, const InitialSpec& initial, State& state, int frames = 8) {
   truth.initial = initial;
   const Recording recording =
-      testing::with_truth(truth, model(), seven_markers(frames, 0.001));
+      testing::with_truth(truth, model(), seven_markers(frames, 0.002));
   const Problem problem(truth, model(), {recording});
   state = problem.initial_state(problem.start(), 0);
   return recording;
@@ -120,8 +120,8 @@ TEST_CASE("any start is found from the first frames, without a singular shape") 
     const Problem problem(the_case, model(), {recording});
     const State found = problem.initial_state(problem.start(), 0);
     CHECK((found.q - expected.q).cwiseAbs().maxCoeff() < 0.02);
-    // a line through 6 ms of motion that is let go: half of that at 100 rad/s^2
-    CHECK((found.v - expected.v).cwiseAbs().maxCoeff() < 0.3);
+    // a line through 12 ms of motion that is let go: half of that at 80 rad/s^2
+    CHECK((found.v - expected.v).cwiseAbs().maxCoeff() < 0.5);
     // every coordinate moves its link
     for (const SensitivityDirection& along : problem.directions(problem.start(), 0))
       if (along.parameters.size() == 0) CHECK(std::max(along.q.norm(), along.v.norm()) > 0.6);
