@@ -28,7 +28,7 @@ struct LinkFrame {
     return {-vector[2], 0.0, vector[0]};
   }
 
-  double sine, cosine;                               // of out_of_plane
+  double sine, cosine;                                // of out_of_plane
   Eigen::Vector3d in_plane, turned_in_plane, normal;  // of the vertical plane
 };
 

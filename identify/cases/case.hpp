@@ -168,7 +168,7 @@ struct ExperimentSpec {
   /// The fixed point in the file's own axes and unit, in the order side, down, across; empty: zeros.
   std::vector<double> origin;
   double origin_of(std::size_t axis) const { return origin.empty() ? 0 : origin[axis]; }
-  double likelihood_floor = 0.6;          ///< DeepLabCut: points less likely are not seen
+  double likelihood_floor = 0.6;  ///< DeepLabCut: points less likely are not seen
   std::string where;
 };
 

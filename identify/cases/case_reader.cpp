@@ -286,10 +286,9 @@ void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
     table.fail("axes", "must be two names, in space three: of side, down and across");
   experiment.origin = table.numbers("origin");
   const std::size_t places = experiment.origin.size();
-  if (table.has("origin") &&
-      ((places != 2 && places != 3) || !std::all_of(experiment.origin.begin(),
-                                                    experiment.origin.end(),
-                                                    [](double v) { return std::isfinite(v); })))
+  if (table.has("origin") && ((places != 2 && places != 3) ||
+                              !std::all_of(experiment.origin.begin(), experiment.origin.end(),
+                                           [](double v) { return std::isfinite(v); })))
     table.fail("origin",
                "must be two numbers, in space three: the fixed point in the axes of the file");
   if (experiment.time_unit == "frames" && std::isnan(experiment.frame_rate))

@@ -19,10 +19,10 @@ Description model_to_diagnose(const Case& the_case) {
   if (the_case.description.empty()) return plain_chain();
   Description description = read_description(the_case.description);
   if (description.space != Space::kPlane)
-    throw InputError(the_case.file.string() + ": model.description: " +
-                     the_case.description.string() +
-                     " moves in space, and effects are looked for in the plane only; catena identify "
-                     "fits this case, and its residuals tell whether something is missing");
+    throw InputError(
+        the_case.file.string() + ": model.description: " + the_case.description.string() +
+        " moves in space, and effects are looked for in the plane only; catena identify "
+        "fits this case, and its residuals tell whether something is missing");
   return description;
 }
 

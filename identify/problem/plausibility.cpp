@@ -314,8 +314,7 @@ class Check {
     }
     middle /= static_cast<double>(places.size());
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    for (const Vector2d& place : places)
-      spread += (place - middle) * (place - middle).transpose();
+    for (const Vector2d& place : places) spread += (place - middle) * (place - middle).transpose();
     const double azimuth = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
     return {std::cos(azimuth), std::sin(azimuth)};
   }
@@ -408,13 +407,13 @@ class Check {
   /// Third differences show the noise: the motion hardly has any.
   double step_at_start(Index p) const {
     const double noise =
-        quantile(over_frames([&](Index k) {
-                   if (k < 3) return kNotGiven;
-                   return (place(p, k) - 3 * place(p, k - 1) + 3 * place(p, k - 2) -
-                           place(p, k - 3))
-                       .norm();
-                 }),
-                 0.5) /
+        quantile(
+            over_frames([&](Index k) {
+              if (k < 3) return kNotGiven;
+              return (place(p, k) - 3 * place(p, k - 1) + 3 * place(p, k - 2) - place(p, k - 3))
+                  .norm();
+            }),
+            0.5) /
         (0.6745 * std::sqrt(20.0));  // the median of a normal number; the sum of squares of 1 3 3 1
     return ((place(p, 1) - place(p, 0)).norm() + 2 * std::sqrt(2.0) * noise) / (time(1) - time(0));
   }

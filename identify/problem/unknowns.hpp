@@ -18,9 +18,10 @@ struct Unknown {
   double start = 0, lower = 0, upper = 0;
   Scale scale = Scale::kLinear;
   Group group = Group::kPhysics;
-  int experiment = -1;   ///< the one experiment it belongs to; -1: all
-  int parameter = -1;    ///< index into Case::parameters; -1: a coefficient of the initial state
-  int coefficient = -1;  ///< index into InitialSpec::coefficient_lists() of the experiment, end to end
+  int experiment = -1;  ///< the one experiment it belongs to; -1: all
+  int parameter = -1;   ///< index into Case::parameters; -1: a coefficient of the initial state
+  int coefficient =
+      -1;  ///< index into InitialSpec::coefficient_lists() of the experiment, end to end
 };
 
 /// The unknowns of a case with its data, and what values of them say. They are: each free parameter

@@ -105,8 +105,8 @@ void check_space(const ExperimentSpec& experiment, bool in_space) {
 }
 
 /// "side_1_m, down_1_m": the columns that a marker has where the case does not name them.
-std::string default_columns(const ExperimentSpec& experiment, bool in_space, const std::string& index,
-                            PointSpec& point) {
+std::string default_columns(const ExperimentSpec& experiment, bool in_space,
+                            const std::string& index, PointSpec& point) {
   std::string all;
   const auto axes = marker_axes(in_space);
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -143,9 +143,8 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
       point.name = "marker " + index;
       default_columns(experiment, in_space, index, point);
       const auto axes = marker_axes(in_space);
-      if (!std::all_of(axes.begin(), axes.end(), [&](const MarkerAxis& axis) {
-            return table.has(point.*axis.column);
-          }))
+      if (!std::all_of(axes.begin(), axes.end(),
+                       [&](const MarkerAxis& axis) { return table.has(point.*axis.column); }))
         break;
     }
     points.push_back(point);

@@ -92,8 +92,7 @@ void put_motion(results::Experiment& experiment, const Problem& problem, const M
 /// Values of a recording's channels: rows for each component, one per point.
 void put_values(results::Channels& channels, const Recording& recording,
                 const Eigen::MatrixXd& values) {
-  results::Rows* const rows[] = {&channels.side, &channels.down, &channels.angle,
-                                 &channels.across};
+  results::Rows* const rows[] = {&channels.side, &channels.down, &channels.angle, &channels.across};
   for (std::size_t c = 0; c < recording.channels.size(); ++c)
     rows[static_cast<int>(recording.channels[c].component)]->push_back(
         row_of(values.row(static_cast<Eigen::Index>(c))));

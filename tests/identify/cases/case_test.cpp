@@ -266,7 +266,8 @@ markers = [{name = "knot", side = "x", down = "z", across = "y", joint = 2}]
   CHECK(the_case.experiments[1].points[0].across_column == "y");
   const std::pair<std::string, std::pair<std::string, std::string>> wrong[] = {
       {"out_of_plane = [0.2, -0.1]",
-       {"out_of_plane = [0.2]", "out_of_plane: 1 numbers; must be as many as in `coefficients`, 2"}},
+       {"out_of_plane = [0.2]",
+        "out_of_plane: 1 numbers; must be as many as in `coefficients`, 2"}},
       {"out_of_plane_rates = [0.75]",
        {"out_of_plane_rates = [inf]", "out_of_plane_rates: inf; must lie within"}},
       {"axes = [\"x\", \"z\", \"y\"]", {"axes = [\"x\"]", "axes: must be two names"}},

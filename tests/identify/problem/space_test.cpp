@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "identify/fit/links_study.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit.hpp"
+#include "identify/fit/links_study.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
@@ -55,8 +55,7 @@ Recording seven_markers(int frames, double step) {
 /// The film of a start, and the state it began with.
 Recording film_of(Case truth, const InitialSpec& initial, State& state, int frames = 8) {
   truth.initial = initial;
-  const Recording recording =
-      testing::with_truth(truth, model(), seven_markers(frames, 0.002));
+  const Recording recording = testing::with_truth(truth, model(), seven_markers(frames, 0.002));
   const Problem problem(truth, model(), {recording});
   state = problem.initial_state(problem.start(), 0);
   return recording;
@@ -83,9 +82,9 @@ TEST_CASE("derivatives by the unknowns of a start and by parameters are differen
     VectorXd more = x, less = x;
     more[j] += step;
     less[j] -= step;
-    const Eigen::MatrixXd difference = (problem.predict(more, 0, true).simulated -
-                                        problem.predict(less, 0, true).simulated) /
-                                       (2 * step);
+    const Eigen::MatrixXd difference =
+        (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
+        (2 * step);
     const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
     CHECK(difference.norm() > 1e-3);
     CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
@@ -133,8 +132,7 @@ TEST_CASE("stiffness, damping and the whole start are found, in their intervals"
   truth.parameters[0].value = 0.1;
   truth.parameters[1].value = 0.005;
   truth.initial = askew();
-  Recording recording =
-      testing::with_truth(truth, model(), seven_markers(60, 0.03), 1e-3);
+  Recording recording = testing::with_truth(truth, model(), seven_markers(60, 0.03), 1e-3);
   recording.measured.block(3, 10, 3, 5).setConstant(NAN);  // not seen
   recording.fit_frames = 45;
   Case the_case = three_links();
@@ -167,8 +165,7 @@ TEST_CASE("a recording in space is held against the cable as one in the plane") 
   Case truth = three_links();
   truth.initial.coefficients = {0.5};
   truth.initial.azimuths.assign(kLinks, std::numbers::pi / 2);  // it swings across only
-  Recording film =
-      testing::with_truth(truth, model(), seven_markers(200, 0.03), 1e-3);
+  Recording film = testing::with_truth(truth, model(), seven_markers(200, 0.03), 1e-3);
   ExperimentSpec spec = truth.experiments[0];
   const VectorXd lengths = VectorXd::Constant(kLinks, 1.0 / kLinks);
   const auto said = [&](const Recording& recording, const InitialSpec& initial) {

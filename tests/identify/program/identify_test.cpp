@@ -206,8 +206,8 @@ TEST_CASE("a cable in space is identified; what knows the plane only refuses it"
       "shape = \"angles\"\nangles = [0.6, 0.3]\nazimuth = 0.4\nout_of_plane = [0.1, -0.2]\n"
       "velocity = {shape = \"straight\", rates = [0], azimuth_rate = 2}\n";
   const std::string straight = "shape = \"straight\"\nangle = 0.6\n";
-  const auto swing = folder.write(
-      "swing.toml", testing::replaced(in_space(testing::kSwing), straight, start));
+  const auto swing =
+      folder.write("swing.toml", testing::replaced(in_space(testing::kSwing), straight, start));
   REQUIRE(run_catena({"simulate", swing, "--output", folder.path() / "swing", "-q"}).exit_status ==
           0);
   const std::string found =

@@ -134,8 +134,8 @@ TEST_CASE("markers in space have three components, in the axes that the case nam
   refused(spec, false, "axes: 3 names; the model moves in the plane: give 2");
   ExperimentSpec wrong = spec;
   wrong.axes.clear();
-  refused(wrong, true, "data: " + spec.data.string() +
-                           " has no columns side_1_m, down_1_m, across_1_m");
+  refused(wrong, true,
+          "data: " + spec.data.string() + " has no columns side_1_m, down_1_m, across_1_m");
   wrong = spec;
   wrong.origin = {0, 0};
   refused(wrong, true, "origin: 2 numbers; the model moves in space: give 3");
