@@ -110,7 +110,7 @@ double common_angle(const Recording& recording, double azimuth) {
 /// Links that point far out of their vertical plane, where its angle says little, get planes of their
 /// own. `x`: coordinates, then their rates, if they move.
 void give_own_planes(FirstFrames& first, Eigen::VectorXd& x) {
-  constexpr double kFar = 0.8;  // rad; at half a turn over two the angle says nothing
+  constexpr double kFar = 0.8;  // rad, half of pi/2, where the angle says nothing
   const Eigen::Index n = first.lengths.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     if (std::abs(x[n + i]) < kFar) continue;
