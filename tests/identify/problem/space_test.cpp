@@ -3,6 +3,7 @@
 // Cases in space: starts, what sensors see, fits.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -64,30 +65,47 @@ Recording film_of(Case truth, const InitialSpec& initial, State& state, int fram
 }  // namespace
 
 TEST_CASE("derivatives by the unknowns of a start and by parameters are differences") {
-  Case the_case = three_links();
-  the_case.initial = askew();
-  the_case.initial.free = the_case.initial.velocity_free = true;
-  the_case.simulation.relative_tolerance = 1e-11;
-  the_case.simulation.absolute_tolerance_position = 1e-12;
-  the_case.simulation.absolute_tolerance_velocity = 1e-11;
-  const Problem problem(the_case, model(), {seven_markers(4, 0.1)});
-  const VectorXd x = problem.start();
-  REQUIRE(x.size() == 2 + 4 * kLinks);
-  const auto along = problem.directions(x, 0);
-  const Prediction here = problem.predict(x, 0, true, along);
-  REQUIRE_MESSAGE(here.ok(), here.message);
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
-    const double step = 1e-5 * (1 + std::abs(x[j]));
-    VectorXd more = x, less = x;
-    more[j] += step;
-    less[j] -= step;
-    const Eigen::MatrixXd difference =
-        (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
-        (2 * step);
-    const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
-    CHECK(difference.norm() > 1e-3);
-    CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
+  Case free = three_links();
+  free.initial = askew();
+  free.initial.free = free.initial.velocity_free = true;
+  Case held = three_links();  // its start follows from the length
+  held.initial.shape = Shape::kCatenary;
+  held.initial.coefficients.clear();
+  held.initial.held = {0.4, 0.5};
+  held.initial.azimuths = {0.5, 0.5, 0.5};
+  held.initial.at_rest = false;
+  held.initial.velocity_coefficients = {0, 0, 0};
+  held.initial.azimuth_rates = {2, 2, 2};
+  held.parameters[0].free = held.parameters[1].free = false;
+  ParameterSpec length;
+  length.name = "length";
+  length.sets = "cable.length";
+  length.value = 1;
+  length.free = true;
+  held.parameters.push_back(length);
+  for (Case& the_case : std::array<Case, 2>{free, held}) {
+    the_case.simulation.relative_tolerance = 1e-11;
+    the_case.simulation.absolute_tolerance_position = 1e-12;
+    the_case.simulation.absolute_tolerance_velocity = 1e-11;
+    const Problem problem(the_case, model(),
+                          {testing::empty_markers({0.2, 0.5, 0.9}, 4, 0.1, true)});
+    const VectorXd x = problem.start();
+    REQUIRE(x.size() == (the_case.initial.free ? 2 + 4 * kLinks : 1));
+    const Prediction here = problem.predict(x, 0, true, problem.directions(x, 0));
+    REQUIRE_MESSAGE(here.ok(), here.message);
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+      const double step = 1e-5 * (1 + std::abs(x[j]));
+      VectorXd more = x, less = x;
+      more[j] += step;
+      less[j] -= step;
+      const Eigen::MatrixXd difference =
+          (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
+          (2 * step);
+      const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
+      CHECK(difference.norm() > 1e-3);
+      CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
+    }
   }
 }
 
