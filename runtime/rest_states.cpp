@@ -155,12 +155,12 @@ State from_angles(const Model& model, const Eigen::VectorXd& angles) {
 
 namespace {
 
-double entry(const Eigen::VectorXd& values, Eigen::Index i) {
+double value_or_zero(const Eigen::VectorXd& values, Eigen::Index i) {
   return values.size() ? values[i] : 0.0;
 }
 
 LinkFrame frame_of(const LinkDirections& links, Eigen::Index i) {
-  return {links.angle[i], entry(links.out_of_plane, i), links.azimuth[i]};
+  return {links.angle[i], value_or_zero(links.out_of_plane, i), links.azimuth[i]};
 }
 
 void put(Eigen::VectorXd& all, Eigen::Index links, Eigen::Index i, const Eigen::Vector3d& vector) {
@@ -177,7 +177,7 @@ State from_directions(const Model& model, const LinkDirections& links) {
     put(state.q, n, i, link.direction());
     put(state.v, n, i,
         links.angle_rate[i] * link.by_angle() +
-            entry(links.out_of_plane_rate, i) * link.by_out_of_plane() +
+            value_or_zero(links.out_of_plane_rate, i) * link.by_out_of_plane() +
             links.azimuth_rate[i] * LinkFrame::by_azimuth(link.direction()));
   }
   return state;
@@ -189,7 +189,7 @@ State from_directions_tangent(const Model& model, const LinkDirections& links,
   const Eigen::Index n = model.links();
   for (Eigen::Index i = 0; i < n; ++i) {
     const LinkFrame link = frame_of(links, i);
-    const double angle = entry(along.angle, i), out = entry(along.out_of_plane, i);
+    const double angle = value_or_zero(along.angle, i), out = value_or_zero(along.out_of_plane, i);
     const Eigen::Vector3d moved = angle * link.by_angle() + out * link.by_out_of_plane();
     // by_angle and by_out_of_plane change, too
     const Eigen::Vector3d angle_moved =
@@ -198,9 +198,10 @@ State from_directions_tangent(const Model& model, const LinkDirections& links,
         -angle * link.sine * link.turned_in_plane - out * link.direction();
     put(state.q, n, i, moved);
     put(state.v, n, i,
-        entry(along.angle_rate, i) * link.by_angle() +
-            entry(along.out_of_plane_rate, i) * link.by_out_of_plane() +
-            links.angle_rate[i] * angle_moved + entry(links.out_of_plane_rate, i) * out_moved +
+        value_or_zero(along.angle_rate, i) * link.by_angle() +
+            value_or_zero(along.out_of_plane_rate, i) * link.by_out_of_plane() +
+            links.angle_rate[i] * angle_moved +
+            value_or_zero(links.out_of_plane_rate, i) * out_moved +
             links.azimuth_rate[i] * LinkFrame::by_azimuth(moved));
   }
   return state;
