@@ -113,6 +113,9 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
       const std::size_t rows = (angles ? channels->angle : channels->side).size();
       archive.rule(rows == due || (rows == 0 && channels == &measured.predicted), key,
                    fmt::format("{} has {} rows for {} points", key, rows, due));
+      const std::size_t down = channels->down.size();
+      archive.rule(angles || down == rows, key,
+                   fmt::format("{} has {} rows of down where side has {}", key, down, rows));
     }
   }
   archive.optional("gap", experiment.gap);

@@ -92,6 +92,8 @@ TEST_CASE("a file that cannot be read says where and why") {
          r["experiments"][0]["predicted"]["down"].erase(0);
        },
        "predicted has 11 rows for 12 points"},
+      {[](json& r) { r["experiments"][0]["predicted"].erase("down"); },
+       "predicted has 0 rows of down where side has 12"},
       {[](json& r) {
          r["experiments"][0]["forces"] = {{"tension", {{1.0, 2.0}}}, {"moment", json::array()}};
        },
