@@ -170,7 +170,7 @@ std::vector<double> read_of_links(const TomlTable& table, const std::string& key
 std::vector<double> read_out_of_plane(const TomlTable& table, const std::string& key,
                                       const std::vector<double>& in_plane,
                                       const std::string& beside) {
-  const std::vector<double> values = table.numbers(key);
+  std::vector<double> values = table.numbers(key);
   check_sizes(table, key, values);
   if (!values.empty() && values.size() != in_plane.size())
     table.fail(key, std::to_string(values.size()) + " numbers; must be as many as in `" + beside +

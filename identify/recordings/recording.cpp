@@ -110,10 +110,10 @@ std::string default_columns(const ExperimentSpec& experiment, bool in_space,
   std::string all;
   const auto axes = marker_axes(in_space);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const std::string word = experiment.axes.empty() ? axes[i].word : experiment.axes[i];
     std::string& column = point.*axes[i].column;
-    column = word + "_" + index + "_m";
-    all += (i ? ", " : "") + column;
+    column = experiment.axes.empty() ? axes[i].word : experiment.axes[i];
+    column.append("_").append(index).append("_m");
+    all.append(i ? ", " : "").append(column);
   }
   return all;
 }

@@ -264,19 +264,21 @@ markers = [{name = "knot", side = "x", down = "z", across = "y", joint = 2}]
   CHECK(the_case.experiments[0].axes == std::vector<std::string>{"x", "z", "y"});
   CHECK(the_case.experiments[0].origin == std::vector<double>{1, 2, 3});
   CHECK(the_case.experiments[1].points[0].across_column == "y");
-  const std::pair<std::string, std::pair<std::string, std::string>> wrong[] = {
-      {"out_of_plane = [0.2, -0.1]",
-       {"out_of_plane = [0.2]",
-        "out_of_plane: 1 numbers; must be as many as in `coefficients`, 2"}},
-      {"out_of_plane_rates = [0.75]",
-       {"out_of_plane_rates = [inf]", "out_of_plane_rates: inf; must lie within"}},
-      {"axes = [\"x\", \"z\", \"y\"]", {"axes = [\"x\"]", "axes: must be two names"}},
-      {"origin = [1, 2, 3]", {"origin = [1, 2, 3, 4]", "origin: must be two numbers"}},
-      {"markers = [", {"axes = [\"x\", \"z\", \"y\"]\nmarkers = [", "axes: names columns"}},
+  struct Wrong {
+    std::string right, wrong, rule;
   };
-  for (const auto& [from, to] : wrong) {
-    const std::string message = failure([&] { read(replaced(text, from, to.first)); });
-    CHECK_MESSAGE(message.find(to.second) != std::string::npos, message);
+  const Wrong all[] = {
+      {"out_of_plane = [0.2, -0.1]", "out_of_plane = [0.2]",
+       "out_of_plane: 1 numbers; must be as many as in `coefficients`, 2"},
+      {"out_of_plane_rates = [0.75]", "out_of_plane_rates = [inf]",
+       "out_of_plane_rates: inf; must lie within"},
+      {"axes = [\"x\", \"z\", \"y\"]", "axes = [\"x\"]", "axes: must be two names"},
+      {"origin = [1, 2, 3]", "origin = [1, 2, 3, 4]", "origin: must be two numbers"},
+      {"markers = [", "axes = [\"x\", \"z\", \"y\"]\nmarkers = [", "axes: names columns"},
+  };
+  for (const Wrong& each : all) {
+    const std::string message = failure([&] { read(replaced(text, each.right, each.wrong)); });
+    CHECK_MESSAGE(message.find(each.rule) != std::string::npos, message);
   }
 }
 

@@ -56,7 +56,7 @@ Recording seven_markers(int frames, double step) {
 /// The film of a start, and the state it began with.
 Recording film_of(Case truth, const InitialSpec& initial, State& state, int frames = 8) {
   truth.initial = initial;
-  const Recording recording = testing::with_truth(truth, model(), seven_markers(frames, 0.002));
+  Recording recording = testing::with_truth(truth, model(), seven_markers(frames, 0.002));
   const Problem problem(truth, model(), {recording});
   state = problem.initial_state(problem.start(), 0);
   return recording;
