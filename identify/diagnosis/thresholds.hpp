@@ -16,7 +16,7 @@ struct DiagnosisThresholds {
   // Is there a gap? (gap_test.cpp)
 
   /// Standard deviations. Two tests on each of two parts of a recording: by chance, 4.5 are passed
-  /// less than once in 10^5 tests. Evidence: no false alarm on 500 quiet recordings (docs/power.md).
+  /// less than once in 10^5 tests. Evidence: no false alarm on 283 quiet recordings (docs/power.md).
   double gap_significance = 4.5;
   /// Misfit over noise. A long recording makes a smaller misfit significant, not important. Evidence:
   /// a smooth misfit of half the noise is found in 200 of 200 recordings (parts_test.cpp).
@@ -37,7 +37,7 @@ struct DiagnosisThresholds {
   /// at this number of links. Chosen below gap_significance and gap_misfit.
   double trace_significance = 4;
   double trace_misfit = 0.15;
-  /// Misfit over noise, below which nothing is called missing. Evidence: no effect was named on 500
+  /// Misfit over noise, below which nothing is called missing. Evidence: no effect was named on 283
   /// quiet recordings.
   double too_small_to_name = 0.6;
   /// Share of the squared misfit before the first effect. Effects that only imitate what is missing
