@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include "common/in_quotes.hpp"
+
 namespace catena {
 namespace {
+
+constexpr std::size_t kMostNames = 60;  // that a message lists: all effects are fewer
 
 // Optimal string alignment distance.
 std::size_t edits(std::string_view a, std::string_view b) {
@@ -29,8 +33,11 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
   std::string nearest;
+  if (word.size() > kMostQuoted)
+    return nearest;  // no name, and edits() takes the product of lengths
   std::size_t fewest = std::max<std::size_t>(1, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() >= word.size() + fewest) continue;  // so many letters are to be inserted
     const std::size_t distance = edits(word, candidate);
     const bool something_in_common = distance < std::max(word.size(), candidate.size());
     if (distance < fewest && something_in_common) {
@@ -43,12 +50,17 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (const std::string near = nearest_name(word, candidates); !near.empty()) {
-    return "; did you mean \"" + near + "\"?";
+    return "; did you mean " + in_quotes(near) + "?";
   }
   if (candidates.empty()) return "; none is known here";
   std::vector<std::string> known = candidates;
   std::sort(known.begin(), known.end());
-  return "; known are " + listed(known);
+  const std::size_t count = known.size();
+  if (count > kMostNames) known.resize(kMostNames);
+  for (std::string& name : known) name = shortened(name);
+  return count > kMostNames
+             ? "; some of the " + std::to_string(count) + " known are " + listed(known)
+             : "; known are " + listed(known);
 }
 
 std::string listed(const std::vector<std::string>& words) {

@@ -25,6 +25,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/nesting.hpp"
@@ -68,7 +69,7 @@ std::string value_text(const toml::node& node) {
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   const std::string shown = text.str();
-  return node.is_string() ? "\"" + *node.value<std::string>() + "\"" : shown;
+  return node.is_string() ? in_quotes(*node.value<std::string>()) : shown;
 }
 
 std::optional<double> number_of(const toml::node& node) {
@@ -155,7 +156,7 @@ std::string toml_remedy(std::string_view text, int line) {
     return "; a decimal point is wanted: " + found[1].str() + "." + found[2].str();
   if (static const std::regex word(R"(\s*[\w.-]+\s*=\s*([A-Za-z_][\w./-]*)\s*(#.*)?)");
       std::regex_match(there, found, word))
-    return "; a text is written in quotes: \"" + found[1].str() + "\"";
+    return "; a text is written in quotes: " + in_quotes(found[1].str());
   if (static const std::regex table(R"(\s*\[([\w.]+)\]\s*(#.*)?)");
       std::regex_match(there, found, table))
     return "; where a table comes several times, each begins with [[" + found[1].str() + "]]";
@@ -177,8 +178,8 @@ TomlTable TomlTable::read(const std::filesystem::path& path, std::string_view ki
   try {
     text = read_whole_file(path);
   } catch (const InputError& error) {
-    throw InputError(std::string(error.what()) + "; a TOML file of kind \"" + std::string(kind) +
-                     "\" is wanted");
+    throw InputError(std::string(error.what()) + "; a TOML file of kind " + in_quotes(kind) +
+                     " is wanted");
   }
   return parse(text, path.string(), kind);
 }
@@ -193,7 +194,7 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
   } catch (const toml::parse_error& error) {
     const int line = line_of(error.source());
     throw InputError(document->file + ":" + std::to_string(line) + ": not valid TOML: " +
-                     std::string(error.description()) + toml_remedy(text, line));
+                     shortened(error.description(), 2 * kMostQuoted) + toml_remedy(text, line));
   }
   TomlTable table(document, &document->root, "");
   if (!table.has("format")) table.fail("format = 1 is missing; write it as the first line");
@@ -202,11 +203,11 @@ TomlTable TomlTable::parse(std::string_view text, std::string_view name, std::st
                std::to_string(format) + " is not known to this catena; it reads format 1");
   }
   if (!table.has("kind")) {
-    table.fail("kind is missing; write kind = \"" + std::string(kind) + "\" below the format");
+    table.fail("kind is missing; write kind = " + in_quotes(kind) + " below the format");
   }
   if (const std::string found = table.text("kind"); found != kind) {
-    table.fail("kind", "\"" + found + "\" where a file of kind \"" + std::string(kind) +
-                           "\" is wanted; give another file or correct the kind");
+    table.fail("kind", in_quotes(found) + " where a file of kind " + in_quotes(kind) +
+                           " is wanted; give another file or correct the kind");
   }
   return table;
 }
@@ -331,7 +332,7 @@ std::optional<TomlTable> TomlTable::optional_table(std::string_view key) const {
   if (!has(key)) return std::nullopt;
   const toml::node* node = find(table_, key);
   if (!node->is_table()) fail_type(key, "a table ([" + path(key) + "])");
-  return TomlTable(document_, node->as_table(), path(key));
+  return TomlTable(document_, node->as_table(), full_path(key));
 }
 
 TomlTable TomlTable::table(std::string_view key) const {
@@ -349,7 +350,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
     if (!node.is_table()) {
       fail(key, value_text(node) + " in the list is not a table; write [[" + path(key) + "]]");
     }
-    result.push_back(TomlTable(document_, node.as_table(), path(key)));
+    result.push_back(TomlTable(document_, node.as_table(), full_path(key)));
   }
   return result;
 }
@@ -363,7 +364,7 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::named_tables(std::stri
     if (!node->is_table()) {
       parent->fail_type(name, "a table ([" + parent->path(name) + "])");
     }
-    result.emplace_back(name, TomlTable(document_, node->as_table(), parent->path(name)));
+    result.emplace_back(name, TomlTable(document_, node->as_table(), parent->full_path(name)));
   }
   return result;
 }
@@ -374,7 +375,7 @@ std::size_t TomlTable::choice(std::string_view key, const std::vector<std::strin
   if (!word) return 0;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end()) {
-    fail(key, "\"" + *word + "\" is not known here" + suggestion(*word, words));
+    fail(key, in_quotes(*word) + " is not known here" + suggestion(*word, words));
   }
   return static_cast<std::size_t>(found - words.begin());
 }
@@ -385,11 +386,11 @@ void TomlTable::fail(std::string_view key, const std::string& problem) const {
 
 void TomlTable::fail(const std::string& problem) const {
   throw InputError(file() + ":" + std::to_string(line()) + ": " +
-                   (path_.empty() ? problem : path_ + ": " + problem));
+                   (path_.empty() ? problem : shortened(path_) + ": " + problem));
 }
 
 void TomlTable::fail_missing(std::string_view key, std::string_view what) const {
-  fail("\"" + std::string(key) + "\" is missing; give " + std::string(what) + key_like(key));
+  fail(in_quotes(key) + " is missing; give " + std::string(what) + key_like(key));
 }
 
 /// Of a key that was not asked for and may be misspelt: " (there is "densty" on line 7)", or nothing.
@@ -400,7 +401,7 @@ std::string TomlTable::key_like(std::string_view key) const {
   }
   const std::string near = nearest_name(key, others);
   if (near.empty()) return "";
-  return " (there is \"" + near + "\" on line " + std::to_string(line(near)) + ")";
+  return " (there is " + in_quotes(near) + " on line " + std::to_string(line(near)) + ")";
 }
 
 void TomlTable::fail_choice(const std::vector<std::string>& keys) const {
@@ -429,13 +430,13 @@ void TomlTable::finish() const {
     const std::string& key = name;  // clang 14 lets no lambda take `name`
     if (!asked.contains(key)) {
       const std::vector<std::string> known(asked.begin(), asked.end());
-      throw InputError(file() + ":" + std::to_string(line(key)) + ": unknown key \"" + path(key) +
-                       "\"" + suggestion(key, known));
+      throw InputError(file() + ":" + std::to_string(line(key)) + ": unknown key " +
+                       in_quotes(full_path(key)) + suggestion(key, known));
     }
     // A table that was never opened was asked for as a whole (has): its keys are not checked.
     const auto check = [&](const toml::node& below) {
       if (below.is_table() && document_->asked.contains(below.as_table())) {
-        TomlTable(document_, below.as_table(), path(key)).finish();
+        TomlTable(document_, below.as_table(), full_path(key)).finish();
       }
     };
     check(*node);
@@ -456,7 +457,9 @@ int TomlTable::line(std::string_view key) const {
   return node == nullptr ? line() : line_of(node->source());
 }
 
-std::string TomlTable::path(std::string_view key) const {
+std::string TomlTable::path(std::string_view key) const { return shortened(full_path(key)); }
+
+std::string TomlTable::full_path(std::string_view key) const {
   if (key.empty()) return path_;
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }

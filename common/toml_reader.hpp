@@ -80,11 +80,12 @@ class TomlTable {
   const std::string& source() const;             ///< the whole file as it was read
   int line() const;                              ///< of the table's header
   int line(std::string_view key) const;          ///< of the key's value; of the table if missing
-  std::string path(std::string_view key) const;  ///< "cable.length"
+  std::string path(std::string_view key) const;  ///< "cable.length", shortened
 
  private:
   struct Document;
   TomlTable(std::shared_ptr<Document> document, const void* table, std::string path);
+  std::string full_path(std::string_view key) const;
   std::string key_like(std::string_view key) const;
   [[noreturn]] void fail_type(std::string_view key, std::string_view wanted) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "description/built_in_effects.hpp"
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "description/effect_reader.hpp"
@@ -17,7 +18,7 @@ std::string_view built_in_effect_text(std::string_view id) {
   for (const BuiltInEffect& effect : built_in_effects()) {
     if (effect.id == id) return effect.text;
   }
-  throw InputError("\"" + std::string(id) + "\" is not a built-in effect" +
+  throw InputError(in_quotes(id) + " is not a built-in effect" +
                    suggestion(id, built_in_effect_ids()));
 }
 

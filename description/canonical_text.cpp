@@ -118,6 +118,10 @@ class CanonicalText {
     }
     line("support.side", effect.support.side);
     line("support.down", effect.support.down);
+    line("support.across", effect.support.across);
+    line("support.clamp_side", effect.support.clamp_side);
+    line("support.clamp_down", effect.support.clamp_down);
+    line("support.clamp_across", effect.support.clamp_across);
     line("centre_offset", effect.kinematics.centre_offset);
     line("load_offset", effect.kinematics.load_offset);
     line("load_inertia", effect.kinematics.load_inertia);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <set>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/toml_quoted.hpp"
@@ -20,7 +21,7 @@ Effect named_effect(const TomlTable& file, const std::string& name) {
   if (name.ends_with(".toml")) {
     const auto path = std::filesystem::path(file.file()).parent_path() / name;
     if (!is_file(path)) {
-      file.fail("effects", "there is no file \"" + path.string() +
+      file.fail("effects", "there is no file \"" + shortened(path.string(), kLongestPath) +
                                "\"; effects are given by path relative to this file, or by the id "
                                "of a built-in one");
     }
@@ -28,7 +29,7 @@ Effect named_effect(const TomlTable& file, const std::string& name) {
   }
   const auto ids = built_in_effect_ids();
   if (std::find(ids.begin(), ids.end(), name) == ids.end()) {
-    file.fail("effects", "\"" + name + "\" is not a built-in effect" + suggestion(name, ids) +
+    file.fail("effects", in_quotes(name) + " is not a built-in effect" + suggestion(name, ids) +
                              " A file is given by its path, ending in .toml");
   }
   return built_in_effect(name);
@@ -45,8 +46,8 @@ Description description_in(const TomlTable& file) {
   description.source_file = file.file();
   description.id = file.text("id");
   if (!is_identifier(description.id)) {
-    file.fail("id", "\"" + description.id +
-                        "\" is not a name; a name is a letter, then letters, digits, _");
+    file.fail("id", in_quotes(description.id) +
+                        " is not a name; a name is a letter, then letters, digits, _");
   }
   for (const long count : file.integers("links")) {
     if (count < 1 || count > 100000) {
@@ -90,10 +91,32 @@ Description parse_description(const std::string& text, const std::string& name) 
 std::vector<std::string> space_words() { return {"plane", "3d"}; }
 
 std::string conflict_in(const Description& description) {
-  if (description.space == Space::kPlane || description.effects.empty())
-    return conflict_between(description.effects);
-  return "\"" + description.effects.front().id +
-         "\" acts in the plane only, and space is \"3d\"; leave one of them away";
+  bool clamped = false;
+  for (const Effect& effect : description.effects) {
+    const bool of_space = effect.support.across.given() || effect.support.turns();
+    if (description.space == Space::kPlane) {
+      if (of_space)
+        return in_quotes(effect.id) +
+               " moves the support across the plane or turns its clamp, which needs "
+               "space = \"3d\"";
+      continue;
+    }
+    const auto kinematics = effect.kinematics.all();
+    const bool support_alone = effect.forces.empty() && effect.scalars.empty() &&
+                               effect.coordinates.empty() && effect.states.empty() &&
+                               !effect.sensor.given() &&
+                               std::none_of(kinematics.begin(), kinematics.end(),
+                                            [](const Expression* e) { return e->given(); });
+    if (!support_alone)
+      return in_quotes(effect.id) +
+             " acts in the plane only, and space is \"3d\"; leave one of them away";
+    if (effect.support.turns() && clamped)
+      return in_quotes(effect.id) +
+             " is the second effect that gives the direction of the clamp; leave "
+             "one away";
+    clamped = clamped || effect.support.turns();
+  }
+  return conflict_between(description.effects);
 }
 
 std::string conflict_between(const std::vector<Effect>& effects) {
@@ -101,12 +124,12 @@ std::string conflict_between(const std::vector<Effect>& effects) {
   std::string conflict;
   for (const Effect& effect : effects) {
     if (!ids.insert(effect.id).second) {
-      return "\"" + effect.id + "\" stands there twice; name each effect once";
+      return in_quotes(effect.id) + " stands there twice; name each effect once";
     }
     // Signals are columns of data by their own names, coordinates and states are told apart alike.
     const auto check = [&](const std::string& name) {
       if (!names.insert(name).second) {
-        conflict = "two effects both add \"" + name + "\"; rename one in its file";
+        conflict = "two effects both add " + in_quotes(name) + "; rename one in its file";
       }
     };
     for (const Coordinate& coordinate : effect.coordinates) check(coordinate.name);

@@ -50,7 +50,8 @@ Description parse_description(const std::string& text, const std::string& name);
 /// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
 
-/// The same for the effects of a description, which in space has none yet.
+/// The same for the effects of a description. In space they may move the support and turn its clamp, one
+/// of them, and nothing else yet; in the plane the clamp does not turn.
 std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -91,9 +92,15 @@ struct ScalarTerm {
   Expression value;
 };
 
-/// Prescribed motion of the support, m. It depends on time, parameters, constants and signals only.
+/// Prescribed motion of the support, m, and in space the direction of its clamp, from which the first
+/// link continues without bending: a vector of any length but zero; straight down if nothing is given, and
+/// a component that is not given is zero. They depend on time, parameters, constants and signals only.
 struct Support {
-  Expression side, down;
+  Expression side, down, across;                    ///< across: in space
+  Expression clamp_side, clamp_down, clamp_across;  ///< in space; of no unit
+
+  bool moves() const { return side.given() || down.given() || across.given(); }
+  bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
 };
 
 /// Changes of the kinematics. Changes by several effects are added.
@@ -106,6 +113,11 @@ struct Kinematics {
   Expression pivot_rest_angle;  ///< rad, at joint 1 alone
   Expression extension;         ///< m, added to the length of link i; may use coordinates
   Expression gravity_tilt;      ///< rad, gravity turned from down towards side
+
+  std::array<const Expression*, 8> all() const {
+    return {&centre_offset, &load_offset,      &load_inertia, &load_mass,
+            &rest_angle,    &pivot_rest_angle, &extension,    &gravity_tilt};
+  }
 };
 
 /// A further generalised coordinate, one for each link.

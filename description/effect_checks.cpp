@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "description/expression_syntax.hpp"
 
@@ -16,8 +17,8 @@ class Checks {
   void check_physics() const {
     bool changes_kinematics = false;
     each_kinematic([&](const Expression&) { changes_kinematics = true; });
-    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.side.given() &&
-        !effect_.support.down.given() && !changes_kinematics && !effect_.sensor.given()) {
+    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.moves() &&
+        !effect_.support.turns() && !changes_kinematics && !effect_.sensor.given()) {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
           "support, kinematics or sensor");
@@ -34,10 +35,7 @@ class Checks {
   // Calls act(expression) for each that is given.
   template <class Action>
   void each_kinematic(const Action& act) const {
-    const Kinematics& k = effect_.kinematics;
-    for (const Expression* expression :
-         {&k.centre_offset, &k.load_offset, &k.load_inertia, &k.load_mass, &k.rest_angle,
-          &k.pivot_rest_angle, &k.extension, &k.gravity_tilt}) {
+    for (const Expression* expression : effect_.kinematics.all()) {
       if (expression->given()) act(*expression);
     }
   }
@@ -55,7 +53,7 @@ class Checks {
   static void refuse(const Expression& expression, const std::set<std::string>& names,
                      const std::string& why) {
     for (const std::string& used : names_in(expression)) {
-      if (names.contains(used)) fail_at(expression, "\"" + used + "\" " + why);
+      if (names.contains(used)) fail_at(expression, in_quotes(used) + " " + why);
     }
   }
 
@@ -99,14 +97,16 @@ class Checks {
     for (const ScalarTerm& term : effect_.scalars) use(term.value);
     for (const ExtraState& state : effect_.states) use(state.rate);
     for (const Expression* expression :
-         {&effect_.support.side, &effect_.support.down, &effect_.sensor.side, &effect_.sensor.down,
-          &effect_.sensor.angle, &effect_.sensor.clock}) {
+         {&effect_.support.side, &effect_.support.down, &effect_.support.across,
+          &effect_.support.clamp_side, &effect_.support.clamp_down, &effect_.support.clamp_across,
+          &effect_.sensor.side, &effect_.sensor.down, &effect_.sensor.angle,
+          &effect_.sensor.clock}) {
       use(*expression);
     }
     each_kinematic(use);
     const auto check = [&](const std::string& name) {
       if (!used.contains(name)) {
-        fail("\"" + name + "\" stands in no expression; use it or take it away");
+        fail(in_quotes(name) + " stands in no expression; use it or take it away");
       }
     };
     for (const EffectParameter& parameter : effect_.parameters) check(parameter.name);

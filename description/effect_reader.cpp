@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/in_quotes.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
@@ -91,7 +92,7 @@ class EffectReader {
     };
     if (name.empty() || !letter(name[0]) || !std::all_of(name.begin(), name.end(), inner)) {
       table.fail(key,
-                 "\"" + name + "\" is not a name; a name is a letter, then letters, digits, _");
+                 in_quotes(name) + " is not a name; a name is a letter, then letters, digits, _");
     }
   }
 
@@ -102,13 +103,14 @@ class EffectReader {
     if (underscore != std::string::npos && underscore + 1 < name.size() &&
         std::all_of(name.begin() + static_cast<long>(underscore) + 1, name.end(),
                     [](unsigned char c) { return std::isdigit(c); })) {
-      table.fail(key, "\"" + name + "\" ends like the name of one joint or link; choose another");
+      table.fail(key, in_quotes(name) + " ends like the name of one joint or link; choose another");
     }
     if (reserved_names().contains(name)) {
-      table.fail(key, "\"" + name + "\" has a meaning in expressions already; choose another name");
+      table.fail(key,
+                 in_quotes(name) + " has a meaning in expressions already; choose another name");
     }
     if (!names_.insert(name).second) {
-      table.fail(key, "\"" + name + "\" is given twice in this effect; choose another name");
+      table.fail(key, in_quotes(name) + " is given twice in this effect; choose another name");
     }
   }
 
@@ -324,8 +326,10 @@ class EffectReader {
 
   void read_whole_chain_terms() {
     if (const auto table = file_.optional_table("support")) {
-      effect_.support = {expression(*table, "side"), expression(*table, "down")};
-      if (!effect_.support.side.given() && !effect_.support.down.given()) {
+      effect_.support = {expression(*table, "side"),       expression(*table, "down"),
+                         expression(*table, "across"),     expression(*table, "clamp_side"),
+                         expression(*table, "clamp_down"), expression(*table, "clamp_across")};
+      if (!effect_.support.moves() && !effect_.support.turns()) {
         table->fail("has neither side nor down; give one or leave the table out");
       }
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/nesting.hpp"
@@ -27,8 +28,6 @@ const std::map<std::string, std::string>& smooth_substitutes() {
   };
   return substitutes;
 }
-
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
@@ -224,11 +223,8 @@ const std::vector<std::string>& function_names() {
 }
 
 void fail_at(const Expression& expression, const std::string& problem) {
-  constexpr std::size_t kShown = 200;  // characters
-  const bool whole = expression.text.size() <= kShown;
-  throw InputError(
-      expression.file + ":" + std::to_string(expression.line) + ": " + expression.key + ": in \"" +
-      (whole ? expression.text : expression.text.substr(0, kShown) + "...") + "\": " + problem);
+  throw InputError(expression.file + ":" + std::to_string(expression.line) + ": " + expression.key +
+                   ": in " + in_quotes(expression.text) + ": " + problem);
 }
 
 }  // namespace catena

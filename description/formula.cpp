@@ -351,6 +351,11 @@ std::vector<Formula> formulas(const Effect& effect) {
   }
   all.add("Motion of the support to the side", subscripted("r", "s"), effect.support.side);
   all.add("Motion of the support downwards", subscripted("r", "d"), effect.support.down);
+  all.add("Motion of the support across", subscripted("r", "a"), effect.support.across);
+  const std::string clamp = "Direction of the clamp, ";
+  all.add(clamp + "side", subscripted("e", "s"), effect.support.clamp_side);
+  all.add(clamp + "down", subscripted("e", "d"), effect.support.clamp_down);
+  all.add(clamp + "across", subscripted("e", "a"), effect.support.clamp_across);
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/in_quotes.hpp"
 #include "common/nearest_name.hpp"
 #include "common/nesting.hpp"
 
@@ -76,13 +77,13 @@ class UnitParser {
 
   Unit parse() {
     const Unit unit = products();
-    if (at_ < text_.size()) fail("\"" + std::string(text_.substr(at_)) + "\" cannot be read");
+    if (at_ < text_.size()) fail(in_quotes(text_.substr(at_)) + " cannot be read");
     return unit;
   }
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw std::invalid_argument("unit \"" + std::string(text_) + "\": " + problem +
+    throw std::invalid_argument("unit " + in_quotes(text_) + ": " + problem +
                                 "; write it as in \"kg/m^2\", \"N m s/rad\" or \"1\"");
   }
 
@@ -142,16 +143,16 @@ class UnitParser {
       names.push_back(known);
     }
     if (const auto hint = refused_units().find(name); hint != refused_units().end()) {
-      fail("\"" + name + "\" is not a coherent SI unit; give the value in " + hint->second);
+      fail(in_quotes(name) + " is not a coherent SI unit; give the value in " + hint->second);
     }
     const auto is_known = [&](const std::string& part) {
       return std::find(names.begin(), names.end(), part) != names.end();
     };
     for (std::size_t end = 1; end < name.size(); ++end)
       if (is_known(name.substr(0, end)) && is_known(name.substr(end)))
-        fail("\"" + name + "\" is not a known unit; did you mean \"" + name.substr(0, end) + " " +
-             name.substr(end) + "\"?");
-    fail("\"" + name + "\" is not a known unit" + suggestion(name, names));
+        fail(in_quotes(name) + " is not a known unit; did you mean " +
+             in_quotes(name.substr(0, end) + " " + name.substr(end)) + "?");
+    fail(in_quotes(name) + " is not a known unit" + suggestion(name, names));
   }
 
   long whole_number() {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "description/description.hpp"
 #include "generator/derivation/chain.hpp"
@@ -65,8 +66,8 @@ class ChainWithEffects {
     for (const ex& part : parts) sum += written_out_.of(part);
     for (const auto& [name, symbol] : unknown_)
       if (sum.has(symbol))
-        throw InputError("--effect: \"" + name +
-                         "\" has no symbol in a derivation; only effects without coordinates, "
+        throw InputError("--effect: " + in_quotes(name) +
+                         " has no symbol in a derivation; only effects without coordinates, "
                          "states, signals and the time can be checked");
     return sum.subs(replaced_, GiNaC::subs_options::no_pattern);
   }

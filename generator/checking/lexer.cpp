@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "common/in_quotes.hpp"
+
 namespace catena::checking {
 namespace {
 
@@ -101,6 +103,7 @@ class Lexer {
   }
 
   std::string read_name() {
+    const Location where = here();
     const std::size_t start = position_;
     while (is_letter(at(0)) || is_digit(at(0)) ||
            (at(0) == '_' && (is_letter(at(1)) || is_digit(at(1)))))
@@ -109,7 +112,12 @@ class Lexer {
       throw error_at(file_, here(),
                      "expected a letter or a digit after '_'; a subscript that is an expression "
                      "goes into brackets, as in k[i+1]");
-    return std::string(text_.substr(start, position_ - start));
+    std::string name(text_.substr(start, position_ - start));
+    if (name.size() > kMostQuoted)  // messages repeat names whole
+      throw error_at(file_, where,
+                     "the name " + in_quotes(name) + " is too long; at most " +
+                         std::to_string(kMostQuoted) + " characters are possible");
+    return name;
   }
 
   std::string read_text(Location start) {
@@ -180,8 +188,8 @@ std::string described(const Token& token) {
   if (token.kind == Token::Kind::kEndOfFile) return "the end of the file";
   if (token.kind == Token::Kind::kEndOfStatement)
     return token.text == ";" ? "';'" : "the end of the line";
-  if (token.kind == Token::Kind::kText) return "the text \"" + token.text + "\"";
-  return "'" + token.text + "'";
+  if (token.kind == Token::Kind::kText) return "the text " + in_quotes(token.text);
+  return "'" + shortened(token.text) + "'";
 }
 
 std::vector<Token> tokenize(std::string_view text, const std::string& file) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
 #include "common/sha256.hpp"
@@ -157,6 +158,10 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   // For this processor alone takes the compiler half the time.
   if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
+  // Loops with roots become vectors, as those of the plane do anyway.
+  if (description.space == Space::kThreeDimensional)
+    flags.insert(flags.end(), {"-ftree-vectorize", "-fvect-cost-model=dynamic", "-fno-math-errno",
+                               "-fno-trapping-math"});
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         // models of another generator are not taken from the cache
                         sha256_of_file(derive) + "\n" + "interface " +
@@ -177,7 +182,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       if (!effect.source_file.starts_with("built in"))
         foreign += (foreign.empty() ? "" : ", ") +
                    fs::path(effect.source_file).lexically_normal().string();
-    options.notice("deriving and compiling the model \"" + description.id + "\" with " +
+    options.notice("deriving and compiling the model " + in_quotes(description.id) + " with " +
                    std::to_string(links) + " links (kept in " + cache.folder().string() + ")" +
                    (foreign.empty() ? "" : "; it runs code made from " + foreign));
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/median.hpp"
 #include "common/number_text.hpp"
@@ -155,8 +156,8 @@ void recognise_time(const Table& table, const KnownOfRecording& known, Recognise
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   const double step = median(steps);
   if (!(step > 0))
-    throw InputError(table.file + ": column \"" + table.names.front() +
-                     "\": the first column is to be the time, which increases");
+    throw InputError(table.file + ": column " + in_quotes(table.names.front()) +
+                     ": the first column is to be the time, which increases");
   std::string unit = unit_in_name(table.names.front());
   if (found.spec.source == DataSource::kDeepLabCut) unit = "frames";
   if (!one_of(unit, {"s", "ms", "frames"}))
@@ -164,16 +165,17 @@ void recognise_time(const Table& table, const KnownOfRecording& known, Recognise
     unit = step == 1 ? "frames" : step > 1 ? "ms" : "s";
   found.spec.time_unit = unit;
   if (unit != "frames" && !std::isnan(known.frame_rate))
-    throw InputError("--frame-rate: " + number_text(known.frame_rate) + "; column \"" +
-                     table.names.front() + "\" of " + table.file + " is a time in " + unit +
-                     ", not a count of frames");
+    throw InputError("--frame-rate: " + number_text(known.frame_rate) + "; column " +
+                     in_quotes(table.names.front()) + " of " + table.file + " is a time in " +
+                     unit + ", not a count of frames");
   if (unit == "frames") {
     found.spec.frame_rate = known.frame_rate;
     if (std::isnan(known.frame_rate))
-      throw InputError(table.file + ": column \"" + table.names.front() +
-                       "\" counts frames; give the frames per second by --frame-rate");
+      throw InputError(table.file + ": column " + in_quotes(table.names.front()) +
+                       " counts frames; give the frames per second by --frame-rate");
   }
-  found.understood.push_back("time: column \"" + table.names.front() + "\" in " + unit + ", " +
+  found.understood.push_back("time: column " + in_quotes(table.names.front()) + " in " + unit +
+                             ", " +
                              number_text(1 / (frame_step(steps, step) * in_seconds(found.spec))) +
                              " frames per second, " + std::to_string(table.rows()) + " frames");
 }
@@ -248,8 +250,8 @@ void recognise_axes(const Tracks& tracks, const KnownOfRecording& known,
                     : (tracks.at(0, row) - origin)[1];
   });
   spec.upward = down < 0;
-  found.understood.push_back("axes: \"" + spec.points[0].side_column + "\" to the side, \"" +
-                             spec.points[0].down_column + "\" grows " +
+  found.understood.push_back("axes: " + in_quotes(spec.points[0].side_column) + " to the side, " +
+                             in_quotes(spec.points[0].down_column) + " grows " +
                              (spec.upward ? "upwards" : "downwards"));
   if (!known.origin.empty()) {
     spec.origin = {known.origin[0], known.origin[1]};
@@ -329,7 +331,7 @@ RecognisedRecording recognise_recording(const std::filesystem::path& file,
   recognise_axes(tracks, known, found);
   recognise_start(known, found);
   for (const std::string& name : passed_over)
-    found.understood.push_back("column \"" + name + "\" is not used");
+    found.understood.push_back("column " + in_quotes(name) + " is not used");
   return found;
 }
 

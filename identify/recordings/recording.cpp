@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
@@ -30,9 +31,9 @@ void warn_of_time_unit(const ExperimentSpec& experiment, const Table& table, Rec
   const std::string unit = unit_in_name(name);
   if (unit != "s" && unit != "ms" && unit != "frames") return;
   if (unit == experiment.time_unit) return;
-  recording.warnings.push_back("time_unit: the column is called \"" + name +
-                               "\", but its times are read as " + experiment.time_unit +
-                               "; time_unit = \"" + unit + "\" would agree with it");
+  recording.warnings.push_back("time_unit: the column is called " + in_quotes(name) +
+                               ", but its times are read as " + experiment.time_unit +
+                               "; time_unit = " + in_quotes(unit) + " would agree with it");
 }
 
 /// Where the times of the file are, in s.
@@ -44,7 +45,7 @@ std::vector<double> read_times(const ExperimentSpec& experiment, const Table& ta
                                                          : 1;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const std::string where =
-        table.file + ":" + std::to_string(table.lines[i]) + ": column \"" + name + "\"";
+        table.file + ":" + std::to_string(table.lines[i]) + ": column " + in_quotes(name);
     if (std::isnan(time[i])) throw InputError(where + ": empty; every row needs its time");
     time[i] *= unit;
     if (i && !(time[i] > time[i - 1]))
@@ -58,6 +59,7 @@ std::vector<double> read_times(const ExperimentSpec& experiment, const Table& ta
 std::string first_names(std::vector<std::string> names) {
   constexpr std::size_t kNamed = 9;
   const std::size_t count = names.size();
+  for (std::string& name : names) name = shortened(name);
   if (count <= kNamed) return listed(names);
   names.resize(kNamed);
   std::string text;
@@ -130,8 +132,8 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
       point.link = i;
       if (!table.has(point.angle_column)) break;
       if (i > links)
-        throw InputError(table.file + ": column \"" + point.angle_column + "\"; the model has " +
-                         std::to_string(links) +
+        throw InputError(table.file + ": column " + in_quotes(point.angle_column) +
+                         "; the model has " + std::to_string(links) +
                          " links; say which angles to use in [[experiment]]");
     } else if (experiment.source != DataSource::kCatena) {
       const auto column = static_cast<std::size_t>(2 * i - 1);  // after the time: x and y of each

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "identify/recordings/recording.hpp"
 #include "identify/recordings/table.hpp"
@@ -17,7 +18,7 @@ Signals read_signals(const std::vector<SignalSpec>& specs, const Model& model,
     const auto spec = std::find_if(specs.begin(), specs.end(),
                                    [&](const SignalSpec& s) { return s.name == wanted.name; });
     if (spec == specs.end())
-      throw InputError(where + ": the model needs the signal \"" + wanted.name + "\" (" +
+      throw InputError(where + ": the model needs the signal " + in_quotes(wanted.name) + " (" +
                        wanted.unit + "); add a [[signal]] with name, data, time and column");
     const Table table = read_table(spec->data);
     try {

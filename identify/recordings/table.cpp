@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/whole_file.hpp"
@@ -58,10 +59,9 @@ bool Table::has(std::string_view name) const {
 const std::vector<double>& Table::column(std::string_view name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw InputError(file + ": there is no column \"" + std::string(name) + "\"" +
-                     suggestion(name, names));
+    throw InputError(file + ": there is no column " + in_quotes(name) + suggestion(name, names));
   if (std::find(found + 1, names.end(), name) != names.end())
-    throw InputError(file + ": two columns are called \"" + std::string(name) + "\"; rename one");
+    throw InputError(file + ": two columns are called " + in_quotes(name) + "; rename one");
   return columns[static_cast<std::size_t>(found - names.begin())];
 }
 
@@ -94,8 +94,9 @@ Table read_table(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::optional<double> value = number_of(fields[i], separator);
       if (!value)
-        throw InputError(where + ": column \"" + table.names[i] + "\": \"" + fields[i] +
-                         "\" is not a number; leave a field empty where nothing was seen");
+        throw InputError(where + ": column " + in_quotes(table.names[i]) + ": " +
+                         in_quotes(fields[i]) +
+                         " is not a number; leave a field empty where nothing was seen");
       table.columns[i].push_back(*value);
     }
     table.lines.push_back(number);

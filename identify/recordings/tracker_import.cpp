@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/recordings/table.hpp"
@@ -50,7 +51,7 @@ double to_number(std::string text, bool decimal_comma, const std::filesystem::pa
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value))
-    fail(file, line, "\"" + text + "\" is not a number");
+    fail(file, line, in_quotes(text) + " is not a number");
   return value;
 }
 
@@ -58,7 +59,7 @@ double to_number(std::string text, bool decimal_comma, const std::filesystem::pa
 double to_time(const std::string& text, const std::filesystem::path& file, int line) {
   if (text.find(':') == std::string::npos) return to_number(text, true, file, line);
   const std::vector<std::string> parts = split_cells(text, ':');
-  if (parts.size() != 4) fail(file, line, "\"" + text + "\" is no time h:mm:ss:cc");
+  if (parts.size() != 4) fail(file, line, in_quotes(text) + " is no time h:mm:ss:cc");
   const auto part = [&](std::size_t i) { return to_number(parts[i], false, file, line); };
   return 3600 * part(0) + 60 * part(1) + part(2) + 0.01 * part(3);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The harness of libFuzzer. CATENA_FUZZ_READER names the reader (readers.cpp); scripts/fuzz runs it.
+// The harness of libFuzzer, a program for each group of readers. CATENA_FUZZ_READER names the reader; scripts/fuzz runs it.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -12,10 +12,10 @@ namespace {
 
 const catena::tests::Reader& chosen() {
   const char* name = std::getenv("CATENA_FUZZ_READER");
-  for (const catena::tests::Reader& reader : catena::tests::readers())
+  for (const catena::tests::Reader& reader : catena::tests::CATENA_READERS())
     if (name != nullptr && std::string(name) == reader.name) return reader;
   std::fputs("CATENA_FUZZ_READER must be one of:", stderr);
-  for (const catena::tests::Reader& reader : catena::tests::readers())
+  for (const catena::tests::Reader& reader : catena::tests::CATENA_READERS())
     std::fprintf(stderr, " %s", reader.name);
   std::fputs("\n", stderr);
   std::exit(2);

@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
+
+#include "common/input_error.hpp"
 
 namespace catena::tests {
 
@@ -14,12 +17,27 @@ struct Reader {
   void (*read)(const std::string& text);
 };
 
-std::span<const Reader> readers();
+// Apart, as libFuzzer looks at all code of a program after each input.
+std::span<const Reader> description_readers();
+std::span<const Reader> recording_readers();
+std::span<const Reader> run_log_readers();
+std::span<const Reader> result_readers();
+std::span<const Reader> derivation_readers();
 
 /// The path of a file with this text, in a folder of the program's own.
 std::filesystem::path written(const std::string& name, const std::string& text);
 
-/// Apart: the results of a fit and those of a file have the same names.
-void read_a_run_log(const std::string& text);
+/// Throws what is a fault if a message is longer than some quoted values, listed names and names of
+/// files are.
+void require_short(std::string_view message);
+
+template <void (*read)(const std::string&)>
+void refused_or_read(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    require_short(error.what());
+  }
+}
 
 }  // namespace catena::tests

@@ -6,6 +6,7 @@
 #include "tests/fuzz/readers.hpp"
 
 namespace catena::tests {
+namespace {
 
 /// The lines of the text with the checks that the log wants: without, none would be read.
 void read_a_run_log(const std::string& text) {
@@ -18,5 +19,11 @@ void read_a_run_log(const std::string& text) {
   const RunLog log(written("run.log", whole), "key", true);
   (void)log.finished(0);
 }
+
+constexpr Reader kRunLogReaders[] = {{"run_log", refused_or_read<read_a_run_log>}};
+
+}  // namespace
+
+std::span<const Reader> run_log_readers() { return kRunLogReaders; }
 
 }  // namespace catena::tests
