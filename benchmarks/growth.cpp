@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Time per step as a function of the number of links of the same cable: 0.02 s from the smooth
-// start at tolerance 1e-6.
+// start at tolerance 1e-6; of models in space hinged at the support and in no plane.
 //
 //   growth [--model N library.so]...  >  file.csv
 #include <algorithm>
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   std::map<int, Model> models;
   for (const int n : {12, 60}) models.emplace(n, Model::built_in(n));
   for (int i = 1; i + 2 < argc; i += 3)
-    models.emplace(std::stoi(argv[i + 1]), Model::load(argv[i + 2]));
+    models.insert_or_assign(std::stoi(argv[i + 1]), Model::load(argv[i + 2]));
 
   struct Row {
     int links;
@@ -37,9 +37,15 @@ int main(int argc, char** argv) {
       options.absolute_tolerance_position = 1e-8;
       options.absolute_tolerance_velocity = 1e-7;
       options.energy = false;
-      const auto run =
-          catena::simulate(model, cable.parameters(model, 0.6),
-                           catena::from_angles(model, cable.start()), {0.0, 0.02}, options);
+      const int n = row.links;
+      const bool in_space = model.in_space();
+      const auto run = catena::simulate(
+          model, in_space ? cable.hinged(model) : cable.parameters(model, 0.6),
+          in_space ? catena::from_directions(
+                         model, {cable.start(), Eigen::VectorXd::LinSpaced(n, 0, 0.5),
+                                 Eigen::VectorXd::Zero(n), Eigen::VectorXd::Constant(n, 0.8)})
+                   : catena::from_angles(model, cable.start()),
+          {0.0, 0.02}, options);
       if (run.status != catena::Status::kSuccess) {
         std::fprintf(stderr, "%d links: %s\n", row.links, run.message.c_str());
         return 1;

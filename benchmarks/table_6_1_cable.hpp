@@ -33,6 +33,21 @@ struct Cable {
     return p;
   }
 
+  /// In the plane or in space, free to turn at the support: there is no torque in space.
+  Eigen::VectorXd hinged(const Model& model) const {
+    Eigen::VectorXd p = model.default_parameters();
+    if (!model.in_space()) p.segment(5 * links, links).setZero();  // torques
+    p.segment(0, links).setConstant(length);
+    p.segment(links, links).setConstant(mass);
+    p.segment(2 * links, links).setConstant(inertia);
+    p.segment(3 * links, links).setConstant(stiffness);
+    p.segment(4 * links, links).setConstant(damping);
+    p[model.parameter_index("stiffness_1")] = 0.0;
+    p[model.parameter_index("load_mass")] = load;
+    p[model.parameter_index("gravity")] = gravity;
+    return p;
+  }
+
   /// Angles of the start: from 0.6 rad at the support to 0.9 rad at the load.
   Eigen::VectorXd start() const { return Eigen::VectorXd::LinSpaced(links, 0.6, 0.9); }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 
 #include "common/cpu_seconds.hpp"
 #include "common/number_text.hpp"
@@ -98,6 +99,11 @@ void Integrator::start_quadratures() {
   const catena_model& table = dynamics_.table();
   for (int i = 0; i < table.energies; ++i)
     if (table.energy_item[i].kind != CATENA_STORED) integrated_.push_back(i);
+  // The force that moves the support depends on accelerations.
+  for (const int i : integrated_) {
+    if (std::string_view(table.energy_item[i].name) == "support")
+      acceleration_.resize(static_cast<std::size_t>(n_));
+  }
   if (integrated_.empty()) return;
   quadrature_.reset(
       new_state_vector(static_cast<sunindextype>(integrated_.size()), context_.get()));
@@ -162,7 +168,14 @@ int Integrator::rates(double t, N_Vector y, N_Vector ydot, void* user) {
 int Integrator::powers(double t, N_Vector y, N_Vector power, void* user) {
   auto& self = *static_cast<Integrator*>(user);
   const double *q = elements(y), *v = q + self.n_, *z = v + self.n_;
-  const catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
+  catena_point at = self.dynamics_.at(t, q, v, self.dynamics_.zero(), z);
+  if (!self.acceleration_.empty()) {
+    if (const int pivot = self.dynamics_.model().acceleration(at, self.acceleration_.data())) {
+      self.rates_failure_ = {Status::kSingular, pivot - 1, t};
+      return 1;
+    }
+    at.a = self.acceleration_.data();
+  }
   self.dynamics_.model().energy(at, self.energies_.data());
   for (std::size_t i = 0; i < self.integrated_.size(); ++i)
     elements(power)[i] = self.energies_[static_cast<std::size_t>(self.integrated_[i])];

@@ -83,6 +83,7 @@ class Integrator {
   NVectorHandle sensitivities_, sensitivities_output_;
   std::vector<int> integrated_;  // energy items that are powers
   std::vector<double> energies_;
+  std::vector<double> acceleration_;  // where a power depends on it
   StepSolver::Failure rates_failure_;
   bool keeps_check_points_ = false;
   CvodesHandle cvodes_;  // last: freed first

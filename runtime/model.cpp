@@ -10,6 +10,7 @@
 #include <string>
 
 #include "common/impossible_value.hpp"
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
@@ -117,8 +118,7 @@ int Model::parameter_index(std::string_view name) const {
     if (name == table_->parameter[i].name) return i;
     names.emplace_back(table_->parameter[i].name);
   }
-  throw InputError("the model has no parameter \"" + std::string(name) + "\"" +
-                   suggestion(name, names));
+  throw InputError("the model has no parameter " + in_quotes(name) + suggestion(name, names));
 }
 
 Eigen::VectorXd Model::default_parameters() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/in_quotes.hpp"
 #include "common/number_text.hpp"
 #include "common/parallel.hpp"
 #include "runtime/adjoint_solver.hpp"
@@ -55,8 +56,8 @@ void check_signals(const Model& model, const Signals& signals, const std::vector
            std::to_string(model.signals()));
   for (int i = 0; i < model.signals(); ++i)
     if (signals.name(i) != model.table().signal[i].name)
-      refuse("signal " + std::to_string(i + 1) + " is \"" + signals.name(i) +
-             "\", the model asks for \"" + model.table().signal[i].name + "\"");
+      refuse("signal " + std::to_string(i + 1) + " is " + in_quotes(signals.name(i)) +
+             ", the model asks for " + in_quotes(model.table().signal[i].name));
   if (signals.count() > 0 &&
       (times.front() < signals.first_time() || times.back() > signals.last_time()))
     refuse("signals are given from " + number_text(signals.first_time()) + " to " +

@@ -32,7 +32,7 @@ std::vector<double> parameters(const Description& description, const catena_mode
                                unsigned seed) {
   std::set<std::string, std::less<>> moving;  // effects that move the support
   for (const Effect& effect : description.effects) {
-    if (effect.support.side.given() || effect.support.down.given()) moving.insert(effect.id);
+    if (effect.support.moves() || effect.support.turns()) moving.insert(effect.id);
   }
   std::mt19937_64 generator(seed);
   std::vector<double> p = cable_parameters(table);
@@ -196,6 +196,10 @@ RestFrequencies rest_frequencies(const Description& description, int links,
   if (table.coordinates > kMostCoordinates) {
     result.why_not = "the differences would take too long with more than " +
                      std::to_string(kMostCoordinates) + " coordinates";
+    return result;
+  }
+  if (description.space != Space::kPlane) {
+    result.why_not = "in space this is not written yet";
     return result;
   }
   RandomPoint rest = still(table);

@@ -49,6 +49,10 @@ ex value_of_angle_over_sine(const ex& cosine) {
 }
 ex value_of_inverse_square_root(const ex& x) { return GiNaC::pow(x, -kHalf).evalf(); }
 
+ex simplified_inverse_square_root(const ex& x) {
+  return x.is_equal(1) ? ex(1) : inverse_square_root(x).hold();
+}
+
 ex derivative_of_squared_angle(const ex& cosine, unsigned) { return -2 * angle_over_sine(cosine); }
 ex derivative_of_angle_over_sine(const ex& cosine, unsigned) {
   return angle_over_sine_slope(cosine);
@@ -64,7 +68,8 @@ REGISTER_FUNCTION(squared_angle,
 REGISTER_FUNCTION(angle_over_sine, evalf_func(value_of_angle_over_sine)
                                        .derivative_func(derivative_of_angle_over_sine))
 REGISTER_FUNCTION(angle_over_sine_slope, dummy())
-REGISTER_FUNCTION(inverse_square_root, evalf_func(value_of_inverse_square_root)
+REGISTER_FUNCTION(inverse_square_root, eval_func(simplified_inverse_square_root)
+                                           .evalf_func(value_of_inverse_square_root)
                                            .derivative_func(derivative_of_inverse_square_root))
 
 Chain::Chain(const Description& description, int links, const std::string& only_term,
@@ -74,8 +79,8 @@ Chain::Chain(const Description& description, int links, const std::string& only_
       only_term_(only_term),
       time_(definitions_, rate_family),
       forces_(effect_forces) {
-  if (!in_plane() && !description_.effects.empty())
-    throw std::invalid_argument("a chain in space has no effects");
+  if (const std::string conflict = conflict_in(description_); !in_plane() && !conflict.empty())
+    throw std::invalid_argument(conflict);
   make_inputs();
   make_kinematics();
   add_chain_terms();
@@ -130,7 +135,7 @@ void Chain::add_angles() {
 }
 
 // The coordinates of space: the components of one vector for each link, made a unit vector. Entry 0 is
-// the clamp, from where the first link hangs straight down.
+// the clamp, which points straight down if nothing turns it.
 void Chain::add_directions() {
   for (const Axis axis : axes()) direction_.push_back({axis == kDown ? ex(1) : ex(0)});
   direction_square_.resize(1);
@@ -153,6 +158,29 @@ void Chain::add_directions() {
     for (const Axis axis : axes())
       direction_[axis].push_back(
           define_variable("unit" + ending(axis), i, scale * component(axis)));
+  }
+}
+
+// The direction of the clamp, made a unit vector as those of links are.
+void Chain::turn_clamp() {
+  for (const Effect& effect : description_.effects) {
+    const Support& support = effect.support;
+    if (!support.turns()) continue;
+    const Expression* const components[] = {&support.clamp_side, &support.clamp_down,
+                                            &support.clamp_across};
+    std::vector<ex> clamp;
+    ex square = 0;
+    for (const Axis axis : axes()) {
+      clamp.push_back(
+          define_variable("clamp" + ending(axis), kNoIndex,
+                          evaluate(effect, *components[axis], kShape, Place::kLoad, 0, "1")));
+      square += clamp.back() * clamp.back();
+    }
+    const ex scale =
+        definitions_.define("clamp_scale", kNoIndex,
+                            inverse_square_root(define_variable("clamp_square", kNoIndex, square)));
+    for (const Axis axis : axes())
+      direction_[axis][0] = define_variable("unit" + ending(axis), 0, scale * clamp[axis]);
   }
 }
 
@@ -229,7 +257,9 @@ void Chain::make_kinematics() {
   for (const Effect& effect : description_.effects) {
     support[kSide] += evaluate(effect, effect.support.side, kShape, Place::kLoad, 0, "m");
     support[kDown] += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
+    support[kAcross] += evaluate(effect, effect.support.across, kShape, Place::kLoad, 0, "m");
   }
+  if (!in_plane()) turn_clamp();
   for (const Axis axis : axes())
     joint_.push_back({define_variable("joint" + ending(axis), 0, support[axis])});
   centre_ = middle_ = Points(joint_.size(), std::vector<ex>(1));
@@ -356,14 +386,27 @@ void Chain::add_dissipation(const std::string& item, const ex& function) {
   energy_functions_.dissipation.push_back(function);
   ex power = 0;
   for (const int number : definitions_.symbols_of(function)) {
-    const auto rate = variable_of_rate_.find(number);
-    if (rate == variable_of_rate_.end()) continue;
     const ex symbol = definitions_[number].symbol;
     const ex derivative = function.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
-    add_generalised_force(rate->second, derivative);
-    power += symbol * derivative;
+    if (add_force_of_rate(number, derivative)) power += symbol * derivative;
   }
   add_energy(item, EnergyItem::kDissipated, power);
+}
+
+// A force that does work on a rate: one of a variable, or one of turning, which is linear in those. Returns
+// whether it is one.
+bool Chain::add_force_of_rate(int number, const ex& force) {
+  const auto rate = variable_of_rate_.find(number);
+  if (rate != variable_of_rate_.end()) add_generalised_force(rate->second, force);
+  if (!turning_.contains(number)) return rate != variable_of_rate_.end();
+  const Symbol symbol = definitions_[number];
+  const ex named = definitions_.define(symbol.family + "_force", symbol.index, force);
+  for (const int argument : definitions_.symbols_of(symbol.value)) {
+    const ex partial =
+        symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(definitions_[argument].symbol));
+    add_force_of_rate(argument, named * partial);
+  }
+  return true;
 }
 
 // Virtual work: forces times the variations of their variables. The powers of all components are
@@ -445,16 +488,18 @@ void Chain::add_joint_terms(Link k) {
     for (const auto& axes_of_plane :
          {std::pair{kSide, kDown}, {kDown, kAcross}, {kAcross, kSide}}) {
       const Axis b = axes_of_plane.first, c = axes_of_plane.second;
+      const std::string about = ending(Axis(3 - b - c));
       const auto cross = [&](Link i, const ex& x_b, const ex& x_c) {
         return direction_[b][i] * x_c - direction_[c][i] * x_b;
       };
       const auto turning = [&](Link i) {
-        return cross(i, time_.of(direction_[b][i]), time_.of(direction_[c][i]));
+        return define_turning("turning" + about, i,
+                              cross(i, time_.of(direction_[b][i]), time_.of(direction_[c][i])));
       };
-      const ex rate = turning(k) - turning(k - 1);
+      const ex rate = define_turning("joint_turning" + about, k, turning(k) - turning(k - 1));
       rate_squared += rate * rate;
       const ex moment =
-          definitions_.define("joint_moment" + ending(Axis(3 - b - c)), k,
+          definitions_.define("joint_moment" + about, k,
                               stiffness_[k] * angle_over_sine(joint_cosine) *
                                       cross(k - 1, direction_[b][k], direction_[c][k]) +
                                   damping_[k] * rate);
@@ -465,6 +510,13 @@ void Chain::add_joint_terms(Link k) {
   }
   if (wanted("elastic")) add_potential("joint_elastic", kHalf * stiffness_[k] * squared);
   if (wanted("friction")) add_dissipation("joint_damping", kHalf * damping_[k] * rate_squared);
+}
+
+// A component of an angular velocity, linear in the rates of variables.
+ex Chain::define_turning(const std::string& family, Link i, const ex& value) {
+  ex rate = definitions_.define(family, i, value);
+  if (GiNaC::is_a<GiNaC::symbol>(rate)) turning_.insert(definitions_.number_of(rate));
+  return rate;
 }
 
 // The length of cable that bends in joint i.
@@ -507,7 +559,9 @@ void Chain::pull_back() {
   if (!in_plane()) {
     direction_force_ = Points(direction_.size(), moment);
     for (const Axis axis : axes())
-      for (Link i = 1; i <= links_; ++i) keep(direction_force_[axis], direction_[axis][i], i);
+      for (Link i = 0; i <= links_; ++i)
+        if (GiNaC::is_a<GiNaC::symbol>(direction_[axis][i]))
+          keep(direction_force_[axis], direction_[axis][i], i);
   }
   for (Link i = 1; i <= links_; ++i) {
     ex tension = 0;
@@ -525,10 +579,13 @@ void Chain::pull_back() {
   for (const Axis axis : axes()) support_force_.push_back(cut[axis][1]);
 }
 
-// The force that moves the support does work.
+// The force that moves the support does work, and the moment that turns the clamp.
 void Chain::add_support_power() {
   ex power = 0;
-  for (const Axis axis : axes()) power += support_force_[axis] * time_.of(joint_[axis][0]);
+  for (const Axis axis : axes()) {
+    power += support_force_[axis] * time_.of(joint_[axis][0]);
+    if (!in_plane()) power += direction_force_[axis][0] * time_.of(direction_[axis][0]);
+  }
   if (!power.is_zero()) add_energy("support", EnergyItem::kSupplied, power);
 }
 

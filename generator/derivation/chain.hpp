@@ -67,7 +67,7 @@ class Chain {
  public:
   /// Derives the equations. `only_term` is empty for all terms; otherwise it names the only one
   /// that is kept: "kinetic", "gravity", "elastic", "friction", "torque" or the id of an effect.
-  /// Throws std::invalid_argument for effects in space.
+  /// Throws std::invalid_argument for effects that space does not have (conflict_in).
   Chain(const Description& description, int links, const std::string& only_term = "",
         EffectForces effect_forces = EffectForces::kMerged);
 
@@ -129,6 +129,7 @@ class Chain {
   void make_kinematics();
   void add_angles();
   void add_directions();
+  void turn_clamp();
   void add_coordinate(const ex& q, const ex& v, const ex& a);
   void add_chain_terms();
   void add_joint_terms(Link k);
@@ -151,6 +152,8 @@ class Chain {
   ex generalised_force_of(int variable);
   ex spacing(Link i) const;
   ex define_variable(const std::string& family, int index, const ex& value);
+  ex define_turning(const std::string& family, Link i, const ex& value);
+  bool add_force_of_rate(int number, const ex& force);
 
   /// The symbols that an expression at link or joint i may use (docs/effects.md): those of the
   /// shape, or those of the motion too.
@@ -176,10 +179,10 @@ class Chain {
   std::vector<ex> reach_;             ///< length of link i with its extension
   Points direction_;                  ///< of link i, towards the free end: a unit vector
   std::vector<ex> direction_square_;  ///< in space: |q_i|^2
-  Points direction_force_;
-  Points joint_;   ///< far end of link i; 0 is the support
-  Points centre_;  ///< mass centre of link i
-  Points middle_;  ///< middle of link i, where effects act
+  Points direction_force_;            ///< entry 0: of the clamp
+  Points joint_;                      ///< far end of link i; 0 is the support
+  Points centre_;                     ///< mass centre of link i
+  Points middle_;                     ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
   std::vector<ex> load_;  ///< by axis
   ex cos_tilt_, sin_tilt_;
@@ -195,6 +198,7 @@ class Chain {
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y
+  std::set<int> turning_;                ///< numbers of components of angular velocities
   std::map<int, ex> generalised_force_;  ///< number of y -> its generalised force
   std::string apart_;  ///< the effect whose forces are being added apart; empty: none
   std::map<int, std::map<std::string, ex>> force_of_effect_;  ///< number of y -> effect -> force

@@ -125,12 +125,12 @@ std::vector<Proof> prove_closed_form(int links) {
       for (size_t i = 1; i <= n && mass.found; ++i) {
         for (size_t j = 1; j <= n; ++j) {
           const bool upper = j > i;
-          const auto& row = upper ? mass.upper_row[i] : mass.lower_row[i];
-          const auto& column = upper ? mass.upper_column[j] : mass.lower_column[j];
-          ex entry = i == j ? mass.diagonal[i] : ex(0);
+          const auto& row = upper ? mass.upper_row[i][0] : mass.lower_row[i][0];
+          const auto& column = upper ? mass.upper_column[j][0] : mass.lower_column[j][0];
+          ex entry = i == j ? mass.diagonal[i][0][0] : ex(0);
           for (size_t r = 0; i != j && r < row.size(); ++r) entry += row[r] * column[r];
-          if (j == i + 1) entry += mass.above[i];
-          if (i == j + 1) entry += mass.below[i];
+          if (j == i + 1) entry += mass.above[i][0][0];
+          if (i == j + 1) entry += mass.below[i][0][0];
           model.mass_matrix[(i - 1) * n + j - 1] = translated(entry);
         }
       }

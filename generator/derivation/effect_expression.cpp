@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/in_quotes.hpp"
 #include "common/nearest_name.hpp"
 #include "description/expression_syntax.hpp"
 
@@ -17,8 +18,6 @@ using GiNaC::numeric;
 
 constexpr int kLargestExponent = 100;  // numerator and denominator of the power
 constexpr int kLargestDecimal = 400;   // powers of ten in a number
-
-std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 
 ex apply_function(const std::string& name, const ex& x) {
   if (name == "sin") return GiNaC::sin(x);

@@ -84,7 +84,9 @@ NeutralProofs prove_neutral(const Description& description, int links) {
   }
   if (!has_neutral) return result;
 
-  Chain model(description, links), plain(plain_chain(), links);
+  Description without = plain_chain();
+  without.space = description.space;
+  Chain model(description, links), plain(without, links);
   AtNeutral at_neutral(description, model, plain);
   WrittenOut written_out(plain.definitions());
   const auto difference = [&](const ex& of_model, const ex& of_plain) {

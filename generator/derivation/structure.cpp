@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/structure.hpp"
 
+#include <functional>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace catena {
 
@@ -21,6 +24,7 @@ struct Basis {
   enum Kind { kPerturbation, kCarriedDown, kCarriedUp } kind;
   std::string family;  // empty for u
   int index;
+  int component = 0;  // of u
   auto operator<=>(const Basis&) const = default;
 };
 using Form = std::map<Basis, ex>;
@@ -54,6 +58,16 @@ class Linearisation {
         if (definitions_[argument].family != symbol.family) continue;
         if (definitions_[argument].index == symbol.index - 1) down_.insert(symbol.family);
         if (definitions_[argument].index == symbol.index + 1) up_.insert(symbol.family);
+      }
+    }
+    const std::vector<std::pair<const std::vector<ex>*, ex>> moved = {
+        {&chain.coordinates(), weights_.position},
+        {&chain.rates(), weights_.velocity},
+        {&chain.accelerations(), weights_.acceleration}};
+    for (const auto& [symbols, weight] : moved) {
+      for (int k = 0; k < components(); ++k) {
+        const ex& first = symbols->at(static_cast<size_t>(k) * static_cast<size_t>(links_));
+        moved_[definitions_[definitions_.number_of(first)].family] = {k, weight};
       }
     }
     for (const auto& family : down_) {
@@ -96,8 +110,33 @@ class Linearisation {
     return form;
   }
 
+  /// Of u at one link.
+  int components() const { return static_cast<int>(chain_.coordinates().size()) / links_; }
+
   const std::set<std::string>& down() const { return down_; }
   const std::set<std::string>& up() const { return up_; }
+
+  // A name of an expression of several components; one for all that are the same written out, as far as
+  // they are short. Entries of symmetric blocks have one name so.
+  ex one_name(const std::string& family, int index, const ex& value) {
+    constexpr size_t kShort = 4;  // terms
+    if (GiNaC::is_a<GiNaC::symbol>(value) || GiNaC::is_a<GiNaC::numeric>(value)) return value;
+    GiNaC::exmap inside;
+    for (const int number : definitions_.symbols_of(value)) {
+      const auto found = short_forms_.find(number);
+      if (found != short_forms_.end()) inside[definitions_[number].symbol] = found->second;
+    }
+    const ex short_form = value.subs(inside, GiNaC::subs_options::no_pattern).expand();
+    if (GiNaC::is_a<GiNaC::add>(short_form) && short_form.nops() > kShort)
+      return definitions_.define(family, index, value);
+    const auto [known, is_new] = names_.emplace(definitions_.canonical_key(short_form), 0);
+    if (is_new) {
+      known->second = definitions_.define(family, index, value);
+      if (GiNaC::is_a<GiNaC::symbol>(known->second))
+        short_forms_[definitions_.number_of(known->second)] = short_form;
+    }
+    return known->second;
+  }
 
   // The change of a carried definition at link i, if it is there.
   Form carried(const std::string& family, int i) {
@@ -162,12 +201,9 @@ class Linearisation {
     Form form;
     if (state_rates_.count(number)) {
       form = change_of_state(number);
-    } else if (symbol.family == "theta") {
-      add(form, {Basis::kPerturbation, "", symbol.index}, weights_.position);
-    } else if (symbol.family == "theta_dot") {
-      add(form, {Basis::kPerturbation, "", symbol.index}, weights_.velocity);
-    } else if (symbol.family == "theta_ddot") {
-      add(form, {Basis::kPerturbation, "", symbol.index}, weights_.acceleration);
+    } else if (const auto moved = moved_.find(symbol.family); moved != moved_.end()) {
+      add(form, {Basis::kPerturbation, "", symbol.index, moved->second.component},
+          moved->second.weight);
     } else if (symbol.family == "sine") {
       add(form, {Basis::kPerturbation, "", symbol.index},
           weights_.position *
@@ -186,11 +222,7 @@ class Linearisation {
         form[{Basis::kCarriedUp, symbol.family, symbol.index}] = 1;
       } else {
         for (const auto& [basis, coefficient] : inner) {
-          // Functions and roots in derivatives get names too; the slope of a force apart is apart.
-          add(form, basis,
-              chain_.is_effect_force(number)
-                  ? definitions_.define(slope_family(symbol, basis), symbol.index, coefficient)
-                  : definitions_.named(coefficient, symbol.family + "_slope", symbol.index));
+          add(form, basis, slope(number, basis, coefficient));
         }
       }
     }
@@ -198,9 +230,21 @@ class Linearisation {
     return form;
   }
 
+  // The coefficient of a definition's change. Functions and roots in it get names; the slope of a force
+  // apart is apart. Of several components each coefficient has a name, lest sums be multiplied out.
+  ex slope(int number, const Basis& basis, const ex& coefficient) {
+    const Symbol symbol = definitions_[number];
+    if (components() > 1) return one_name(slope_family(symbol, basis), symbol.index, coefficient);
+    if (chain_.is_effect_force(number))
+      return definitions_.define(slope_family(symbol, basis), symbol.index, coefficient);
+    return definitions_.named(coefficient, symbol.family + "_slope", symbol.index);
+  }
+
   // A name that is the same at every link.
-  static std::string slope_family(const Symbol& symbol, const Basis& basis) {
-    const std::string by = basis.family.empty() ? "angle" : basis.family;
+  std::string slope_family(const Symbol& symbol, const Basis& basis) const {
+    const std::string by = !basis.family.empty() ? basis.family
+                           : components() == 1   ? "angle"
+                                                 : "component_" + std::to_string(basis.component);
     if (symbol.index == kNoIndex || basis.index == symbol.index)
       return symbol.family + "_slope_by_" + by;
     return symbol.family + "_slope_by_" + by + (basis.index < symbol.index ? "_before" : "_after");
@@ -232,11 +276,18 @@ class Linearisation {
   Definitions& definitions_;
   Weights weights_;
   int links_;
-  std::map<int, ex> state_rates_;  // of extra states, by the state's number
-  std::set<int> reached_;          // definitions that the residual needs
+  struct Moved {
+    int component;
+    ex weight;
+  };
+  std::map<std::string, Moved> moved_;  // families of q, v and a
+  std::map<int, ex> state_rates_;       // of extra states, by the state's number
+  std::set<int> reached_;               // definitions that the residual needs
   std::set<std::string> down_, up_;
   std::map<Basis, int> numbers_;
   std::map<int, Form> known_;
+  std::map<int, ex> short_forms_;    // of names
+  std::map<std::string, ex> names_;  // by their short forms
 };
 
 ex entry(const Form& form, const Basis& basis) {
@@ -270,10 +321,13 @@ void require_only(const Form& form, const std::string& family, int i, bool allow
   }
 }
 
+using Columns = std::vector<std::vector<ex>>;  // [component][rank] or [component][component]
+
 void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasiseparable& result) {
   Definitions& definitions = chain.definitions();
-  const int n = chain.links();
-  if (static_cast<int>(chain.coordinates().size()) != n) {
+  const int n = chain.links(), before = definitions.size();
+  const size_t block = chain.axes().size() == 2 ? 1 : 3;
+  if (chain.coordinates().size() != block * static_cast<size_t>(n)) {
     throw NotOfThisForm("there are coordinates besides one angle a link");
   }
   Linearisation linearisation(chain, weights);
@@ -281,118 +335,169 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   const std::vector<std::string> up(linearisation.up().begin(), linearisation.up().end());
   const size_t links = static_cast<size_t>(n) + 2;
   const auto table = [&](size_t columns) {
-    return std::vector<std::vector<ex>>(links, std::vector<ex>(columns));
+    return std::vector<Columns>(links, Columns(block, std::vector<ex>(columns)));
+  };
+  const auto perturbation = [](size_t component, int i) {
+    return Basis{Basis::kPerturbation, "", i, static_cast<int>(component)};
+  };
+  // Names of what belongs to a row, or to a row and a column, of a block.
+  const auto ending = [&](auto a) { return block == 1 ? "" : "_" + std::to_string(a); };
+  const auto joined = [&](std::initializer_list<std::string_view> parts) {
+    std::string name = prefix;
+    for (const std::string_view part : parts) name += part;
+    return name;
   };
   auto B = table(down.size()), B_value = B, Hx = B;
   auto G = table(up.size()), Hy = G;
-  std::vector<std::vector<std::vector<ex>>> S(
-      links, std::vector<std::vector<ex>>(up.size(), std::vector<ex>(down.size())));
-  std::vector<ex> D(links), below(links), above(links);
+  std::vector<Columns> S(links, Columns(up.size(), std::vector<ex>(down.size())));
+  auto D = table(block), below = D, above = D;
 
   for (int i = 1; i <= n; ++i) {
-    const Basis own{Basis::kPerturbation, "", i};
     for (size_t f = 0; f < down.size(); ++f) {
       const Form form = linearisation.carried(down[f], i);
       require_only(form, down[f], i, false);
-      B_value[i][f] = definitions.named(entry(form, own), prefix + down[f] + "_gain", i);
-      B[i][f] = definitions.define(prefix + down[f] + "_gain", i, B_value[i][f]);
+      for (size_t b = 0; b < block; ++b) {
+        const std::string name = prefix + down[f] + "_gain" + ending(b);
+        B_value[i][b][f] = definitions.named(entry(form, perturbation(b, i)), name, i);
+        B[i][b][f] = block == 1 ? definitions.define(name, i, B_value[i][b][f])
+                                : linearisation.one_name(name, i, B_value[i][b][f]);
+      }
     }
-    const Form r = linearisation.at_link(chain.residual()[static_cast<size_t>(i) - 1], i);
-    D[i] = entry(r, own);
-    below[i] = definitions.named(entry(r, {Basis::kPerturbation, "", i - 1}), prefix + "below", i);
-    above[i] = definitions.named(entry(r, {Basis::kPerturbation, "", i + 1}), prefix + "above", i);
-    for (size_t f = 0; f < down.size(); ++f) {
-      Hx[i][f] = entry(r, {Basis::kCarriedDown, down[f], i - 1});
+    for (size_t a = 0; a < block; ++a) {
+      const size_t row = a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1;
+      Form r = linearisation.at_link(chain.residual()[row], i);
+      for (auto& [basis, coefficient] : r) {
+        const std::string by = basis.family.empty() ? ending(basis.component) : basis.family;
+        const std::string place = std::to_string(basis.index - i + 1);
+        if (block > 1)
+          coefficient = linearisation.one_name(
+              joined({"residual", ending(a), "_by_", by, "_", place}), i, coefficient);
+      }
+      for (size_t b = 0; b < block; ++b) {
+        D[i][a][b] = entry(r, perturbation(b, i));
+        below[i][a][b] = definitions.named(entry(r, perturbation(b, i - 1)),
+                                           joined({"below", ending(a), ending(b)}), i);
+        above[i][a][b] = definitions.named(entry(r, perturbation(b, i + 1)),
+                                           joined({"above", ending(a), ending(b)}), i);
+      }
+      for (size_t f = 0; f < down.size(); ++f)
+        Hx[i][a][f] = entry(r, {Basis::kCarriedDown, down[f], i - 1});
+      for (size_t g = 0; g < up.size(); ++g)
+        Hy[i][a][g] = entry(r, {Basis::kCarriedUp, up[g], i + 1});
     }
-    for (size_t g = 0; g < up.size(); ++g) Hy[i][g] = entry(r, {Basis::kCarriedUp, up[g], i + 1});
   }
+  std::set<int> sums;
   for (int i = n; i >= 1; --i) {
     for (size_t g = 0; g < up.size(); ++g) {
       const Form form = linearisation.carried(up[g], i);
       require_only(form, up[g], i, true);
-      G[i][g] = entry(form, {Basis::kPerturbation, "", i});
+      for (size_t b = 0; b < block; ++b) G[i][b][g] = entry(form, perturbation(b, i));
       for (size_t f = 0; f < down.size(); ++f) {
         const ex F = entry(form, {Basis::kCarriedDown, down[f], i - 1});
         S[i][g][f] = definitions.define(prefix + up[g] + "_per_" + down[f], i, S[i + 1][g][f] + F);
+        if (GiNaC::is_a<GiNaC::symbol>(S[i][g][f])) sums.insert(definitions.number_of(S[i][g][f]));
       }
     }
   }
   // Rows and columns of the two triangles, without those that are zero for every link.
   auto P = table(down.size()), V = table(up.size());
   std::vector<bool> keep_lower(down.size()), keep_upper(up.size());
-  result.diagonal.resize(links);
   for (int i = 1; i <= n; ++i) {
-    ex D_written_out = D[i];
-    for (size_t f = 0; f < down.size(); ++f) {
-      P[i][f] = Hx[i][f];
-      for (size_t g = 0; g < up.size(); ++g) P[i][f] += Hy[i][g] * S[i + 1][g][f];
-      P[i][f] = P[i][f].expand();
-      if (i > 1 && !P[i][f].is_zero()) keep_lower[f] = true;
-      const ex below_here = P[i][f] - Hx[i][f];
-      D[i] += below_here * B[i][f];
-      D_written_out += below_here * B_value[i][f];
-    }
-    // sin^2 + cos^2 = 1 may make the written-out form shorter.
-    D_written_out = without_sine_squares(definitions, D_written_out);
-    if (length_of(D_written_out) <= length_of(D[i].expand())) D[i] = D_written_out;
-    for (size_t g = 0; g < up.size(); ++g) {
-      V[i][g] = G[i][g];
-      for (size_t f = 0; f < down.size(); ++f) V[i][g] += S[i + 1][g][f] * B[i][f];
-      V[i][g] = V[i][g].expand();
-      if (i < n && !Hy[i][g].is_zero()) keep_upper[g] = true;
+    for (size_t a = 0; a < block; ++a) {
+      std::vector<ex> written_out = D[i][a];
+      for (size_t f = 0; f < down.size(); ++f) {
+        P[i][a][f] = Hx[i][a][f];
+        for (size_t g = 0; g < up.size(); ++g) P[i][a][f] += Hy[i][a][g] * S[i + 1][g][f];
+        P[i][a][f] = P[i][a][f].expand();
+        if (i > 1 && !P[i][a][f].is_zero()) keep_lower[f] = true;
+        const ex below_here = P[i][a][f] - Hx[i][a][f];
+        for (size_t b = 0; b < block; ++b) {
+          D[i][a][b] += below_here * B[i][b][f];
+          written_out[b] += below_here * B_value[i][b][f];
+        }
+      }
+      if (block == 1) {
+        // sin^2 + cos^2 = 1 may make the written-out form shorter.
+        const ex shorter = without_sine_squares(definitions, written_out[0]);
+        if (length_of(shorter) <= length_of(D[i][0][0].expand())) D[i][0][0] = shorter;
+      }
+      for (size_t g = 0; g < up.size(); ++g) {
+        V[i][a][g] = G[i][a][g];
+        for (size_t f = 0; f < down.size(); ++f) V[i][a][g] += S[i + 1][g][f] * B[i][a][f];
+        V[i][a][g] = V[i][a][g].expand();
+        if (i < n && !Hy[i][a][g].is_zero()) keep_upper[g] = true;
+      }
     }
   }
   for (size_t f = 0; f < down.size(); ++f) {
     bool column = false;
-    for (int i = 1; i < n; ++i) column = column || !B[i][f].is_zero();
+    for (int i = 1; i < n; ++i)
+      for (size_t b = 0; b < block; ++b) column = column || !B[i][b][f].is_zero();
     keep_lower[f] = keep_lower[f] && column;
   }
+  // Symmetric if the rows of each triangle are the columns of the other, coefficient by
+  // coefficient, with what was named here written out but for the sums over links.
+  const std::function<ex(const ex&)> open = [&](const ex& e) {
+    GiNaC::exmap values;
+    for (const int number : definitions.symbols_of(e)) {
+      if (number >= before && !sums.contains(number) && !definitions[number].is_input)
+        values[definitions[number].symbol] = definitions[number].value;
+    }
+    return values.empty() ? e : open(e.subs(values, GiNaC::subs_options::no_pattern).expand());
+  };
+  const auto equal = [&](const ex& a, const ex& b) {
+    return a.is_equal(b) || (open(a) - open(b)).expand().is_zero();
+  };
   for (auto* list :
        {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {
-    list->resize(links);
+    list->assign(links, Columns(block));
   }
+  result.diagonal = table(block);
   result.symmetric = true;
-  const auto named = [&](const ex& e, const char* what, int i) {
-    return definitions.named(e, prefix + what, i);
-  };
   for (int i = 1; i <= n; ++i) {
-    std::vector<ex> lower_column_values;
-    for (size_t f = 0; f < down.size(); ++f) {
-      if (!keep_lower[f]) continue;
-      result.lower_row[i].push_back(named(P[i][f], "lower_row", i));
-      result.lower_column[i].push_back(B[i][f]);
-      lower_column_values.push_back(B_value[i][f]);
+    bool same = true;
+    for (size_t a = 0; a < block; ++a) {
+      const auto named = [&](const ex& e, const std::string& what) {
+        return definitions.named(e, prefix + what, i);
+      };
+      std::vector<ex>& lower_row = result.lower_row[i][a];
+      std::vector<ex>& upper_row = result.upper_row[i][a];
+      for (size_t f = 0; f < down.size(); ++f) {
+        if (!keep_lower[f]) continue;
+        lower_row.push_back(named(P[i][a][f], "lower_row" + ending(a)));
+        result.lower_column[i][a].push_back(B[i][a][f]);
+      }
+      for (size_t g = 0; g < up.size(); ++g) {
+        if (!keep_upper[g]) continue;
+        upper_row.push_back(named(Hy[i][a][g], "upper_row" + ending(a)));
+        result.upper_column[i][a].push_back(named(V[i][a][g], "upper_column" + ending(a)));
+      }
+      for (size_t b = 0; b < block; ++b)
+        result.diagonal[i][a][b] = named(D[i][a][b], "diagonal" + ending(a) + ending(b));
+      same = same && lower_row.size() == upper_row.size();
+      for (size_t r = 0; same && r < lower_row.size(); ++r) {
+        same = (i == n || equal(result.lower_column[i][a][r], upper_row[r])) &&
+               (i == 1 || equal(lower_row[r], result.upper_column[i][a][r]));
+      }
+      for (size_t b = 0; same && b < block; ++b)
+        same = i == 1 || equal(below[i][a][b], above[i - 1][b][a]);
+      for (size_t b = 0; same && b < a; ++b)
+        same = equal(result.diagonal[i][a][b], result.diagonal[i][b][a]);
     }
-    for (size_t g = 0; g < up.size(); ++g) {
-      if (!keep_upper[g]) continue;
-      result.upper_row[i].push_back(named(Hy[i][g], "upper_row", i));
-      result.upper_column[i].push_back(named(V[i][g], "upper_column", i));
-    }
-    result.diagonal[i] = named(D[i], "diagonal", i);
-    // Symmetric if the rows of each triangle are the columns of the other, coefficient by
-    // coefficient.
-    GiNaC::exmap values;
-    for (size_t f = 0; f < down.size(); ++f) {
-      if (GiNaC::is_a<GiNaC::symbol>(B[i][f])) values[B[i][f]] = B_value[i][f];
-    }
-    const auto equal = [&](const ex& a, const ex& b) {
-      return (a.subs(values, GiNaC::subs_options::no_pattern) -
-              b.subs(values, GiNaC::subs_options::no_pattern))
-          .expand()
-          .is_zero();
-    };
-    bool same = result.lower_row[i].size() == result.upper_row[i].size();
-    for (size_t r = 0; same && r < result.lower_row[i].size(); ++r) {
-      same = (i == n || equal(lower_column_values[r], result.upper_row[i][r])) &&
-             (i == 1 || equal(result.lower_row[i][r], result.upper_column[i][r]));
-    }
-    if (i > 1) same = same && equal(below[i], above[i - 1]);
     result.symmetric = result.symmetric && same;
   }
   result.below = below;
   result.above = above;
-  result.upper_rank = static_cast<int>(result.upper_row[1].size());
-  result.lower_rank = static_cast<int>(result.lower_row[1].size());
+  // One link has nothing to couple. Blocks have arrays all the same, of zeros.
+  for (auto* list :
+       {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {
+    for (Columns& rows : *list)
+      for (std::vector<ex>& row : rows)
+        if (block > 1 && row.empty()) row.push_back(0);
+  }
+  result.block = static_cast<int>(block);
+  result.upper_rank = static_cast<int>(result.upper_row[1][0].size());
+  result.lower_rank = static_cast<int>(result.lower_row[1][0].size());
   result.found = true;
 }
 

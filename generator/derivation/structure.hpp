@@ -20,7 +20,7 @@
 //
 // and e_i, f_i are added on the two neighbouring diagonals: N is tridiagonal plus semiseparable.
 // Whether the definitions have this form is decided exactly, coefficient by coefficient, for each
-// link.
+// link. In space u_i has three components, and what has the index i above are blocks.
 //
 // Extra states have rates f(q, v, z); the rate of a state must not depend on another state. In an
 // implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
@@ -36,15 +36,17 @@
 
 namespace catena {
 
-/// N = T + (upper part of U V') + (lower part of P Q'), T tridiagonal; links are counted from 1.
+/// N = T + (upper part of U V') + (lower part of P Q'), T tridiagonal; links are counted from 1. In space
+/// each entry is a block of 3 x 3, for the components of the vectors along two links.
 struct Quasiseparable {
   bool found = false;
   std::string reason;      ///< why it was not found
   bool symmetric = false;  ///< proved: P = V, Q = U, e = f
-  int upper_rank = 0, lower_rank = 0;
-  // entry [i][r], i = 1..links (entry 0 unused)
-  std::vector<std::vector<GiNaC::ex>> upper_row, upper_column, lower_row, lower_column;
-  std::vector<GiNaC::ex> diagonal, below, above;  ///< T_{i,i} with all of N_ii; e_i; f_i
+  int block = 1, upper_rank = 0, lower_rank = 0;
+  /// [i][a][r] or [i][a][b]: i = 1..links (entry 0 unused), a and b = 0..block-1 are components
+  using Entries = std::vector<std::vector<std::vector<GiNaC::ex>>>;
+  Entries upper_row, upper_column, lower_row, lower_column;
+  Entries diagonal, below, above;  ///< T_{i,i} with all of N_ii; e_i; f_i
 };
 
 /// Weights of accelerations, velocities and coordinates in N.

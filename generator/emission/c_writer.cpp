@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "generator/emission/c_block_matrices.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/model_text.hpp"
 #include "generator/emission/statement_text.hpp"
@@ -252,7 +253,7 @@ static int32_t newton_factor(const void* context, const catena_point* at, double
 
 static void newton_solve(const void* context, const double* work, double* x) {
   (void)context;
-  newton_solve_in_place((const NewtonMatrix*)work, x);
+  newton_solve_in_place((@Solved*)work, x);
 }
 
 /* CATENA_DIRECTIONS right-hand sides, one after the other. */
@@ -264,7 +265,9 @@ static void newton_solves(const void* context, const double* work, double* x) {
     for (int i = 0; i < kCoordinates; ++i) x[i * CATENA_DIRECTIONS + k] = one[i];
   }
 }
+)";
 
+const char* const kNewtonTransposed = R"(
 static void newton_solve_transposed(const void* context, const double* work, double* x) {
   const NewtonMatrix* const m = (const NewtonMatrix*)work;
   double carried[@upper] = {0.0}, sum[@lower] = {0.0};
@@ -291,6 +294,8 @@ static void newton_solve_transposed(const void* context, const double* work, dou
 std::string filled_in(const std::string& text, const std::string& type, const MatrixForm& form) {
   const std::map<std::string, std::string> values = {
       {"Matrix", type == "mass" ? "MassMatrix" : "NewtonMatrix"},
+      {"Solved", form.block > 1 ? "NewtonMatrix" : "const NewtonMatrix"},
+      {"block", std::to_string(form.block)},
       {"matrix", type},
       {"upper", std::to_string(std::max(form.upper_rank, 1))},
       {"lower", std::to_string(std::max(form.lower_rank, 1))}};
@@ -316,7 +321,8 @@ std::string matrices_text(const ModelFunctions& functions) {
       text = kDense;
       break;
     case MatrixForm::kSymmetricSemiseparable:
-      text = kSemiseparable;
+      text = functions.mass.block > 1 ? filled_in(kBlockSemiseparable, "mass", functions.mass)
+                                      : kSemiseparable;
       break;
     case MatrixForm::kQuasiseparable:
       text = kQuasiseparable;
@@ -324,7 +330,9 @@ std::string matrices_text(const ModelFunctions& functions) {
       text = filled_in(text, "mass", functions.mass);
       break;
   }
-  if (functions.summary.structured) text += filled_in(kQuasiseparable, "newton", functions.newton);
+  const MatrixForm& newton = functions.newton;
+  if (functions.summary.structured)
+    text += filled_in(newton.block > 1 ? kBlockQuasiseparable : kQuasiseparable, "newton", newton);
   return text;
 }
 
@@ -432,7 +440,7 @@ std::string c_source_text(const Description& description, const ModelFunctions& 
       << ",\n  kStates = " << s.states << ",\n  kSignals = " << s.signals
       << ",\n  kParameters = " << s.parameters;
   // A single link has rank 0, an array at least one entry.
-  if (functions.mass.kind == MatrixForm::kSymmetricSemiseparable)
+  if (functions.mass.kind == MatrixForm::kSymmetricSemiseparable && functions.mass.block == 1)
     out << ",\n  kRank = " << std::max(functions.mass.lower_rank, 1);
   out << "\n};\n"
       << (functions.space == Space::kPlane ? kSinesAndCosines : kAngleOverSine)
@@ -441,7 +449,12 @@ std::string c_source_text(const Description& description, const ModelFunctions& 
     if (function.in_table || function.name != functions.accelerations)
       out << function_text(functions, function);
   }
-  if (s.structured) out << filled_in(kNewton, "newton", functions.newton);
+  if (s.structured) {
+    const bool blocks = functions.newton.block > 1;
+    out << filled_in(kNewton, "newton", functions.newton)
+        << filled_in(blocks ? kBlockNewtonTransposed : kNewtonTransposed, "newton",
+                     functions.newton);
+  }
   TableText table;
   table.size = "sizeof(catena_model)";
   table.null = table.context = "NULL";

@@ -8,42 +8,50 @@ using GiNaC::ex;
 
 namespace {
 
+// Entry r of row a of what a matrix keeps for each link is in array a * columns + r. Blocks of one entry
+// have no arrays of `diagonal`, `below` and `above`. `lower_triangle`: of a symmetric block.
 void add_entries(std::vector<Output>& outputs, const std::string& array,
-                 const std::vector<std::vector<ex>>& rows) {
-  for (size_t i = 1; i + 1 < rows.size(); ++i) {
-    for (size_t r = 0; r < rows[i].size(); ++r) {
-      outputs.push_back({{"matrix", array, static_cast<int>(r)},
-                         static_cast<int>(i),
-                         ArrayPlace{{}, true, -1},
-                         rows[i][r]});
-    }
-  }
-}
-
-void add_entries(std::vector<Output>& outputs, const std::string& array,
-                 const std::vector<ex>& entries) {
+                 const Quasiseparable::Entries& entries, bool numbered,
+                 bool lower_triangle = false) {
   for (size_t i = 1; i + 1 < entries.size(); ++i) {
-    outputs.push_back(
-        {{"matrix", array, {}}, static_cast<int>(i), ArrayPlace{{}, true, -1}, entries[i]});
+    int number = 0;
+    for (size_t a = 0; a < entries[i].size(); ++a) {
+      const size_t columns = lower_triangle ? a + 1 : entries[i][a].size();
+      for (size_t r = 0; r < columns; ++r, ++number) {
+        outputs.push_back({{"matrix", array, numbered ? std::optional(number) : std::nullopt},
+                           static_cast<int>(i),
+                           ArrayPlace{{}, true, -1},
+                           entries[i][a][r]});
+      }
+    }
   }
 }
 
 std::vector<Output> all_entries(const Quasiseparable& q, bool symmetric) {
   std::vector<Output> outputs;
+  const bool blocks = q.block > 1;
   if (symmetric) {
-    add_entries(outputs, "row", q.lower_row);
-    add_entries(outputs, "column", q.lower_column);
-    add_entries(outputs, "diagonal", q.diagonal);
+    add_entries(outputs, "row", q.lower_row, true);
+    add_entries(outputs, "column", q.lower_column, true);
+    add_entries(outputs, "diagonal", q.diagonal, blocks, true);
     return outputs;
   }
-  add_entries(outputs, "upper_row", q.upper_row);
-  add_entries(outputs, "upper_column", q.upper_column);
-  add_entries(outputs, "lower_row", q.lower_row);
-  add_entries(outputs, "lower_column", q.lower_column);
-  add_entries(outputs, "diagonal", q.diagonal);
-  add_entries(outputs, "below", q.below);
-  add_entries(outputs, "above", q.above);
+  add_entries(outputs, "upper_row", q.upper_row, true);
+  add_entries(outputs, "upper_column", q.upper_column, true);
+  add_entries(outputs, "lower_row", q.lower_row, true);
+  add_entries(outputs, "lower_column", q.lower_column, true);
+  add_entries(outputs, "diagonal", q.diagonal, blocks);
+  add_entries(outputs, "below", q.below, blocks);
+  add_entries(outputs, "above", q.above, blocks);
   return outputs;
+}
+
+bool any_nonzero(const Quasiseparable::Entries& entries) {
+  for (const auto& rows : entries)
+    for (const auto& row : rows)
+      for (const ex& entry : row)
+        if (!entry.is_zero()) return true;
+  return false;
 }
 
 }  // namespace
@@ -72,15 +80,12 @@ void FunctionBuilder::mass_and_acceleration() {
     add("acceleration", acceleration_comment, {at(), result("a")}, {}, Frame::kDenseAcceleration);
     return;
   }
-  bool tridiagonal_part = false;
-  for (const auto* entries : {&mass.below, &mass.above}) {
-    for (const ex& entry : *entries) tridiagonal_part = tridiagonal_part || !entry.is_zero();
-  }
-  const bool symmetric = mass.symmetric && !tridiagonal_part;
+  const bool symmetric = mass.symmetric && !any_nonzero(mass.below) && !any_nonzero(mass.above);
   s.mass_symmetric = mass.symmetric;
   s.mass_rank = mass.lower_rank;
+  s.block = mass.block;
   result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
-                  mass.upper_rank, mass.lower_rank};
+                  mass.upper_rank, mass.lower_rank, mass.block};
   const std::vector<Output> entries = all_entries(mass, symmetric);
   add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
              Frame::kMassMatrix);
@@ -110,7 +115,8 @@ void FunctionBuilder::newton() {
   }
   s.newton_upper_rank = newton.upper_rank;
   s.newton_lower_rank = newton.lower_rank;
-  result_.newton = {MatrixForm::kQuasiseparable, newton.upper_rank, newton.lower_rank};
+  result_.newton = {MatrixForm::kQuasiseparable, newton.upper_rank, newton.lower_rank,
+                    newton.block};
   add_inner("newton_matrix", "ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).",
             {at(), number("ca"), number("cv"), number("cq"), {ParameterKind::kMatrix, "matrix"}},
             body(all_entries(newton, false), at_));

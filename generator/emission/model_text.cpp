@@ -17,10 +17,12 @@ constexpr std::size_t kHeadWidth = 95;
 
 std::string matrix_type(const MatrixForm& form, NumberOfLinks links) {
   const std::string size = links == NumberOfLinks::kAny ? "kAtRunTime, " : "kLinks, ";
-  const std::string lower = std::to_string(form.lower_rank) + ">";
+  const std::string block = form.block > 1 ? "Block" : "";
+  const std::string lower = std::to_string(form.lower_rank) +
+                            (form.block > 1 ? ", " + std::to_string(form.block) : "") + ">";
   return form.kind == MatrixForm::kSymmetricSemiseparable
-             ? "SymmetricSemiseparable<T, " + size + lower
-             : "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
+             ? "Symmetric" + block + "Semiseparable<T, " + size + lower
+             : block + "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
 }
 
 std::string template_parameter(const Parameter& parameter) {
@@ -368,7 +370,9 @@ std::string structure_text(const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
   if (s.mass_structured) {
+    const std::string rows = std::to_string(s.block);
     out << "//   M: semiseparable of rank " << s.mass_rank
+        << (s.block > 1 ? ", in blocks of " + rows + " x " + rows : "")
         << (s.mass_symmetric ? ", symmetric" : "") << " (proved for every pair of links)\n";
   } else {
     out << "//   M: no structure used: " << s.why_not << "\n";
@@ -413,7 +417,10 @@ std::string indented(const std::string& text) {
 }
 
 std::string space_include(const ModelFunctions& functions) {
-  return functions.space == Space::kPlane ? "" : "#include \"angle_over_sine.hpp\"\n";
+  return functions.space == Space::kPlane ? ""
+                                          : "#include \"angle_over_sine.hpp\"\n"
+                                            "#include \"block_quasiseparable.hpp\"\n"
+                                            "#include \"block_semiseparable.hpp\"\n";
 }
 
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {

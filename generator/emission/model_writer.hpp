@@ -25,6 +25,7 @@ struct ModelSummary {
   bool mass_structured = false;  ///< mass matrix: semiseparable
   bool mass_symmetric = false;   ///< proved from its rows and columns
   int mass_rank = 0, newton_upper_rank = 0, newton_lower_rank = 0;
+  int block = 1;  ///< both are of blocks of so many rows
   bool stiffness_tridiagonal = false, damping_tridiagonal = false;
   std::string why_not;  ///< what stands in the way of a structure
   Layout layout = Layout::kLoops;

@@ -49,6 +49,34 @@ inline T angle_over_sine(const T& cosine) {
   return sum;
 }
 
+/// The same in double precision, without branches, so that loops over joints become vectors. asin(x)/x is
+/// a quotient of polynomials in x^2 <= 1/4 (of fdlibm's e_asin.c, to 2^-58); with x the sine of half the
+/// angle, the cosine, or the cosine of half the angle.
+inline double angle_over_sine(const double& cosine) {
+  constexpr double kPi = 3.14159265358979323846;
+  const double below = 0.5 * (1.0 - cosine), above = 0.5 * (1.0 + cosine);
+  const bool small = cosine >= 0.5, large = cosine <= -0.5;
+  const double middle = cosine * cosine, not_small = large ? above : middle;
+  const double square = small ? below : not_small;
+  double p = 3.47933107596021167570e-05, q = 7.70381505559019352791e-02;
+  p = multiply_add(p, square, 7.91534994289814532176e-04);
+  p = multiply_add(p, square, -4.00555345006794114027e-02);
+  p = multiply_add(p, square, 2.01212532134862925881e-01);
+  p = multiply_add(p, square, -3.25565818622400915405e-01);
+  p = multiply_add(p, square, 1.66666666666666657415e-01);
+  q = multiply_add(q, square, -6.88283971605453293030e-01);
+  q = multiply_add(q, square, 2.02094576023350569471e+00);
+  q = multiply_add(q, square, -2.40339491173441421878e+00);
+  q = multiply_add(q, square, 1.0);
+  const double arcsine = 1.0 + square * p / q;  // over x
+  const double root = sqrt(above), other_root = 2.0 * sqrt(below);
+  const double large_angle = kPi - 2.0 * (root * arcsine),
+               middle_angle = 0.5 * kPi - cosine * arcsine;
+  const double angle = large ? large_angle : middle_angle;
+  const double numerator = small ? arcsine : angle, factor = small ? 1.0 : other_root;
+  return numerator / (root * factor);
+}
+
 /// The derivative of angle_over_sine by the cosine, (c b / sin b - 1) / sin^2 b, which loses more digits
 /// near c = 1.
 template <class T>
@@ -63,8 +91,20 @@ inline T angle_over_sine_slope(const T& cosine) {
   return ratio<T>(-1, 3) * sum;
 }
 
+/// The same in double precision, without branches.
+inline double angle_over_sine_slope(const double& cosine) {
+  const double rest = 1.0 - cosine;
+  double sum = 1.0;
+#pragma GCC unroll 16
+  for (int k = kTermsOfSlope; k > 0; --k)
+    sum = multiply_add(ratio<double>((k + 1) * (k + 1), k * (2 * k + 3)) * rest, sum, 1.0);
+  const double far = (cosine * angle_over_sine(cosine) - 1.0) / (rest * (1.0 + cosine));
+  const double near = ratio<double>(-1, 3) * sum;
+  return rest < 0.125 ? near : far;
+}
+
 #ifdef __GNUC__
-// Branches: element by element.
+// Element by element.
 #define CATENA_ELEMENTWISE(function)                                  \
   template <int count>                                                \
   inline Batch<count> function(const Batch<count>& x) {               \

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "generator/derivation/chain.hpp"
+#include "generator/derivation/structure.hpp"
 #include "generator/derivation/written_out.hpp"
 
 using catena::Chain;
@@ -65,9 +66,57 @@ TEST_CASE("the power of the equations in space is that of the energies") {
   CHECK(catena::WrittenOut(chain.definitions()).of(balance).is_zero());
 }
 
-TEST_CASE("a chain in space has no effects") {
+// What the emitted solvers factor, from rows and columns, against the derivatives of the equations, all
+// symbols kept.
+TEST_CASE("the blocks of the matrices in space are the derivatives of the equations") {
+  const auto compare = [](int links, const char* term, bool mass_alone) {
+    Chain chain(in_space(), links, term);
+    catena::Definitions& names = chain.definitions();
+    catena::Weights weights{1, 0, 0};
+    if (!mass_alone) weights = {names.input("ca"), names.input("cv"), names.input("cq")};
+    const catena::Quasiseparable matrix = catena::find_structure(chain, weights, "matrix_");
+    REQUIRE_MESSAGE(matrix.found, matrix.reason);
+    CHECK(matrix.block == 3);
+    if (mass_alone) CHECK(matrix.symmetric);
+    catena::WrittenOut written_out(names, {"direction_scale"});
+    catena::Differential change(names, [](const std::string& family) { return family + "_by"; });
+    const auto n = static_cast<std::size_t>(links);
+    const auto unit = [&](std::size_t k) { return names.input("unit_" + std::to_string(k)); };
+    for (std::size_t k = 0; k < 3 * n; ++k) {
+      change.set(chain.coordinates()[k], weights.position * unit(k));
+      change.set(chain.rates()[k], weights.velocity * unit(k));
+      change.set(chain.accelerations()[k], weights.acceleration * unit(k));
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t i = 1; i <= n; ++i) {
+        ex row = -change.of(chain.residual()[a * n + i - 1]);
+        for (std::size_t b = 0; b < 3; ++b) {
+          for (std::size_t j = 1; j <= n; ++j) {
+            ex entry = i == j       ? matrix.diagonal[i][a][b]
+                       : j == i + 1 ? matrix.above[i][a][b]
+                       : i == j + 1 ? matrix.below[i][a][b]
+                                    : ex(0);
+            const auto& rows = (j > i ? matrix.upper_row : matrix.lower_row)[i][a];
+            const auto& columns = (j > i ? matrix.upper_column : matrix.lower_column)[j][b];
+            for (std::size_t r = 0; i != j && r < rows.size(); ++r) entry += rows[r] * columns[r];
+            row += entry * unit(b * n + j - 1);
+          }
+        }
+        CAPTURE(a);
+        CAPTURE(i);
+        CHECK(written_out.of(row).is_zero());
+      }
+    }
+  };
+  for (const int links : {1, 2, 3, 5}) compare(links, "kinetic", true);
+  for (const char* term : {"kinetic", "elastic", "friction"}) compare(3, term, false);
+}
+
+TEST_CASE("effects in space move the support and nothing else") {
   catena::Description description = in_space();
   description.effects.push_back(catena::built_in_effect("load_drag"));
-  CHECK_THROWS_WITH_AS(Chain(description, 2), "a chain in space has no effects",
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      Chain(description, 2),
+      "\"load_drag\" acts in the plane only, and space is \"3d\"; leave one of them away",
+      std::invalid_argument);
 }

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The C of matrices in blocks, of models in space: what generator/emission/support has as
+// block_semiseparable.hpp, from one end, and block_quasiseparable.hpp, which have the derivation.
+// @Matrix: the type; @matrix: what its functions begin with; @upper, @lower: ranks; @block: rows of a block.
+#pragma once
+
+namespace catena {
+
+inline const char* const kBlockSemiseparable = R"(
+/* M_ij = row_i column_j' for j < i, in blocks of @block x @block, symmetric. Entry (a, r) of a row is in
+   array a * @lower + r, entry (a, b), b <= a, of a diagonal block in array a (a + 1) / 2 + b. */
+typedef struct {
+  double row[@block * @lower][kLinks], column[@block * @lower][kLinks];
+  double diagonal[@block * (@block + 1) / 2][kLinks];
+} MassMatrix;
+
+static void to_dense(const MassMatrix* matrix, double* M) {
+  for (int i = 0; i < kLinks; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      for (int a = 0; a < @block; ++a) {
+        for (int b = 0; b < @block; ++b) {
+          const int high = a > b ? a : b, low = a > b ? b : a;
+          const int left = a * kLinks + i, right = b * kLinks + j;
+          double entry = 0.0;
+          if (i == j) entry = matrix->diagonal[high * (high + 1) / 2 + low][i];
+          for (int r = 0; j < i && r < @lower; ++r)
+            entry += matrix->row[a * @lower + r][i] * matrix->column[b * @lower + r][j];
+          M[left * kCoordinates + right] = entry;
+          M[right * kCoordinates + left] = entry;
+        }
+      }
+    }
+  }
+}
+
+/* Overwrites x, the right-hand side, with the solution; uses the matrix up. Returns 0, or the 1-based
+   number of an unknown whose pivot is not positive. */
+static int32_t solve_in_place(MassMatrix* matrix, double* x) {
+  double w[@lower][@lower] = {{0.0}}, carried[@lower] = {0.0}, sum[@lower] = {0.0};
+  for (int j = kLinks - 1; j >= 0; --j) {
+    double column[@block][@lower], row[@block][@lower], scaled[@block][@lower];
+    double pivot[@block][@block], y[@block];
+    for (int a = 0; a < @block; ++a) {
+      y[a] = x[a * kLinks + j];
+      for (int r = 0; r < @lower; ++r) {
+        column[a][r] = matrix->column[a * @lower + r][j];
+        row[a][r] = matrix->row[a * @lower + r][j];
+      }
+      for (int b = 0; b <= a; ++b) pivot[a][b] = matrix->diagonal[a * (a + 1) / 2 + b][j];
+    }
+    for (int a = 0; a < @block; ++a) {
+      for (int r = 0; r < @lower; ++r) {
+        double reached = 0.0;
+        for (int s = 0; s < @lower; ++s) reached += w[r][s] * column[a][s];
+        for (int b = 0; b <= a; ++b) pivot[a][b] -= reached * column[b][r];
+        y[a] -= column[a][r] * carried[r];
+        row[a][r] -= reached;
+      }
+    }
+    /* pivot = L D L' */
+    for (int k = 0; k < @block; ++k) {
+      if (!(pivot[k][k] > 0.0)) return k * kLinks + j + 1;
+      for (int a = k + 1; a < @block; ++a) {
+        const double factor = pivot[a][k] / pivot[k][k];
+        for (int b = k + 1; b <= a; ++b) pivot[a][b] -= factor * pivot[b][k];
+        for (int r = 0; r < @lower; ++r) row[a][r] -= factor * row[k][r];
+        y[a] -= factor * y[k];
+      }
+      for (int a = k + 1; a < @block; ++a) pivot[a][k] /= pivot[k][k];
+    }
+    for (int a = 0; a < @block; ++a) {
+      for (int r = 0; r < @lower; ++r) {
+        scaled[a][r] = row[a][r] / pivot[a][a];
+        carried[r] += scaled[a][r] * y[a];
+        for (int s = 0; s < @lower; ++s) w[r][s] += scaled[a][r] * row[a][s];
+      }
+      y[a] /= pivot[a][a];
+    }
+    for (int k = @block - 1; k > 0; --k) {
+      for (int a = 0; a < k; ++a) {
+        for (int r = 0; r < @lower; ++r) scaled[a][r] -= pivot[k][a] * scaled[k][r];
+        y[a] -= pivot[k][a] * y[k];
+      }
+    }
+    for (int a = 0; a < @block; ++a) {
+      x[a * kLinks + j] = y[a];
+      for (int r = 0; r < @lower; ++r) matrix->row[a * @lower + r][j] = scaled[a][r];
+    }
+  }
+  for (int j = 0; j < kLinks; ++j) {
+    for (int a = 0; a < @block; ++a) {
+      for (int r = 0; r < @lower; ++r)
+        x[a * kLinks + j] -= matrix->row[a * @lower + r][j] * sum[r];
+    }
+    for (int a = 0; a < @block; ++a) {
+      for (int r = 0; r < @lower; ++r)
+        sum[r] += matrix->column[a * @lower + r][j] * x[a * kLinks + j];
+    }
+  }
+  return 0;
+}
+)";
+
+inline const char* const kBlockQuasiseparable = R"(
+/* In blocks of @block x @block: M_ij = upper_row_i upper_column_j' for j > i,
+   lower_row_i lower_column_j' for j < i, and above_i (j = i + 1), below_i (j = i - 1) besides; diagonal_i
+   is the whole block. Entry (a, r) is in array a * rank + r, (a, b) in array a * @block + b. */
+typedef struct {
+  double upper_row[@block * @upper][kLinks], upper_column[@block * @upper][kLinks];
+  double lower_row[@block * @lower][kLinks], lower_column[@block * @lower][kLinks];
+  double diagonal[@block * @block][kLinks], below[@block * @block][kLinks];
+  double above[@block * @block][kLinks];
+} @Matrix;
+
+/* sum += sign * left right, of @block x middle and middle x columns. */
+static void @matrix_add(int middle, int columns, double sign, const double* left,
+                        const double* right, double* sum) {
+  for (int a = 0; a < @block; ++a) {
+    for (int c = 0; c < middle; ++c) {
+      for (int b = 0; b < columns; ++b)
+        sum[a * columns + b] += sign * left[a * middle + c] * right[c * columns + b];
+    }
+  }
+}
+
+static void @matrix_take(int entries, double (*const array)[kLinks], int j, double* entry) {
+  for (int k = 0; k < entries; ++k) entry[k] = array[k][j];
+}
+
+static void @matrix_put(int entries, double (*array)[kLinks], int j, const double* entry) {
+  for (int k = 0; k < entries; ++k) array[k][j] = entry[k];
+}
+
+/* array_j = inverse * matrix, columns many. */
+static void @matrix_put_scaled(int columns, const double* inverse, const double* matrix,
+                               double (*array)[kLinks], int j) {
+  double product[@block * (@block + @upper + @lower)] = {0.0};
+  @matrix_add(@block, columns, 1.0, inverse, matrix, product);
+  @matrix_put(@block * columns, array, j, product);
+}
+
+/* Returns 0, or the 1-based row whose pivot vanished; uses m up. */
+static int32_t @matrix_invert(double* m, double* inverse) {
+  enum { n = @block };
+  for (int k = 0; k < n * n; ++k) inverse[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
+  for (int k = 0; k < n; ++k) {
+    const double pivot = m[k * n + k];
+    if (!(pivot > 0.0 || pivot < 0.0)) return k + 1;
+    for (int b = 0; b < n; ++b) {
+      m[k * n + b] /= pivot;
+      inverse[k * n + b] /= pivot;
+    }
+    for (int a = 0; a < n; ++a) {
+      const double factor = m[a * n + k];
+      if (a == k) continue;
+      for (int b = 0; b < n; ++b) {
+        m[a * n + b] -= factor * m[k * n + b];
+        inverse[a * n + b] -= factor * inverse[k * n + b];
+      }
+    }
+  }
+  return 0;
+}
+
+/* Factors in place: diagonal holds the inverse pivots then, rows are multiplied by them. Returns 0, or
+   the 1-based number of an unknown whose pivot vanished. */
+static int32_t @matrix_factor_in_place(@Matrix* m) {
+  enum { block = @block, bb = block * block, up = block * @upper, low = block * @lower };
+  double w[@upper][@lower] = {{0.0}}, pivot[bb], inverse[bb], column[up], row[low];
+  @matrix_take(bb, m->diagonal, kLinks - 1, pivot);
+  @matrix_take(up, m->upper_column, kLinks - 1, column);
+  @matrix_take(low, m->lower_row, kLinks - 1, row);
+  for (int k = 0; k < bb; ++k) m->above[k][kLinks - 1] = 0.0;
+  for (int j = kLinks - 1;; --j) {
+    double own_upper[up], above[bb], below[bb], upper[up], lower[low], scaled_row[low];
+    double scaled_below[bb], next_column[up], next_row[low];
+    const int32_t failed = @matrix_invert(pivot, inverse);
+    if (failed != 0) return (failed - 1) * kLinks + j + 1;
+    @matrix_put(bb, m->diagonal, j, inverse);
+    @matrix_take(bb, m->above, j, above);
+    @matrix_put_scaled(block, inverse, above, m->above, j);
+    @matrix_take(up, m->upper_row, j, own_upper);
+    @matrix_put_scaled(@upper, inverse, own_upper, m->upper_row, j);
+    @matrix_put(up, m->upper_column, j, column);
+    @matrix_put_scaled(@lower, inverse, row, m->lower_row, j);
+    if (j == 0) return 0;
+    @matrix_take(low, m->lower_row, j, scaled_row);
+    @matrix_take(up, m->upper_row, j - 1, upper);
+    @matrix_take(low, m->lower_column, j - 1, lower);
+    @matrix_take(bb, m->above, j - 1, above);
+    @matrix_take(bb, m->below, j, below);
+    for (int a = 0; a < block; ++a) {
+      for (int b = 0; b < block; ++b) {
+        for (int r = 0; r < @upper; ++r)
+          above[a * block + b] += upper[a * @upper + r] * column[b * @upper + r];
+        for (int s = 0; s < @lower; ++s)
+          below[a * block + b] += row[a * @lower + s] * lower[b * @lower + s];
+      }
+    }
+    @matrix_put(bb, m->above, j - 1, above);
+    @matrix_put_scaled(block, inverse, below, m->below, j);
+    @matrix_take(bb, m->below, j, scaled_below);
+    @matrix_take(bb, m->diagonal, j - 1, pivot);
+    @matrix_take(up, m->upper_column, j - 1, next_column);
+    @matrix_take(low, m->lower_row, j - 1, next_row);
+    @matrix_add(block, block, -1.0, above, scaled_below, pivot);
+    @matrix_add(@upper, @lower, -1.0, upper, &w[0][0], next_row);
+    @matrix_add(block, @lower, -1.0, above, scaled_row, next_row);
+    for (int a = 0; a < block; ++a) {
+      for (int s = 0; s < @lower; ++s) {
+        double reached = 0.0;
+        for (int r = 0; r < @upper; ++r) reached += upper[a * @upper + r] * w[r][s];
+        for (int b = 0; b < block; ++b) pivot[a * block + b] -= reached * lower[b * @lower + s];
+      }
+      for (int r = 0; r < @upper; ++r) {
+        for (int s = 0; s < @lower; ++s)
+          next_column[a * @upper + r] -= w[r][s] * lower[a * @lower + s];
+        for (int b = 0; b < block; ++b)
+          next_column[a * @upper + r] -= column[b * @upper + r] * scaled_below[b * block + a];
+      }
+    }
+    for (int r = 0; r < @upper; ++r) {
+      for (int s = 0; s < @lower; ++s) {
+        for (int a = 0; a < block; ++a)
+          w[r][s] += column[a * @upper + r] * scaled_row[a * @lower + s];
+      }
+    }
+    memcpy(column, next_column, sizeof column);
+    memcpy(row, next_row, sizeof row);
+  }
+}
+
+/* sum_r += sum over a of array_(a, r) x_a, of link j */
+static void @matrix_gather(int rank, double (*const array)[kLinks], int j, const double* x,
+                           double* sum) {
+  for (int a = 0; a < @block; ++a) {
+    for (int r = 0; r < rank; ++r) sum[r] += array[a * rank + r][j] * x[a * kLinks + j];
+  }
+}
+
+/* x_a -= sum over r of array_(a, r) of link i times given_r, stride apart */
+static void @matrix_subtract(int rank, double (*const array)[kLinks], int i, const double* given,
+                             int stride, double* x) {
+  for (int a = 0; a < @block; ++a) {
+    for (int r = 0; r < rank; ++r) x[a * kLinks] -= array[a * rank + r][i] * given[r * stride];
+  }
+}
+
+/* Overwrites x, the right-hand side, with the solution; after @matrix_factor_in_place. */
+static void @matrix_solve_in_place(@Matrix* m, double* x) {
+  double carried[@upper] = {0.0}, sum[@lower] = {0.0};
+  for (int j = kLinks - 1; j >= 0; --j) {
+    double own[@block];
+    if (j + 2 < kLinks) @matrix_gather(@upper, m->upper_column, j + 2, x, carried);
+    for (int a = 0; a < @block; ++a) own[a] = x[a * kLinks + j];
+    for (int a = 0; a < @block; ++a) {
+      x[a * kLinks + j] = 0.0;
+      for (int b = 0; b < @block; ++b) x[a * kLinks + j] += m->diagonal[a * @block + b][j] * own[b];
+    }
+    @matrix_subtract(@upper, m->upper_row, j, carried, 1, x + j);
+    if (j + 1 < kLinks) @matrix_subtract(@block, m->above, j, x + j + 1, kLinks, x + j);
+  }
+  for (int j = 1; j < kLinks; ++j) {
+    if (j > 1) @matrix_gather(@lower, m->lower_column, j - 2, x, sum);
+    @matrix_subtract(@lower, m->lower_row, j, sum, 1, x + j);
+    @matrix_subtract(@block, m->below, j, x + j - 1, kLinks, x + j);
+  }
+}
+)";
+
+inline const char* const kBlockNewtonTransposed = R"(
+static void newton_solve_transposed(const void* context, const double* work, double* x) {
+  NewtonMatrix* const m = (NewtonMatrix*)work; /* only read */
+  double carried[@upper] = {0.0}, sum[@lower] = {0.0};
+  (void)context;
+  for (int j = kLinks - 2; j >= 0; --j) {
+    if (j + 2 < kLinks) newton_gather(@lower, m->lower_row, j + 2, x, sum);
+    newton_subtract(@lower, m->lower_column, j, sum, 1, x + j);
+    for (int b = 0; b < @block; ++b) {
+      for (int a = 0; a < @block; ++a)
+        x[a * kLinks + j] -= m->below[b * @block + a][j + 1] * x[b * kLinks + j + 1];
+    }
+  }
+  for (int j = 1; j < kLinks; ++j) {
+    if (j > 1) newton_gather(@upper, m->upper_row, j - 2, x, carried);
+    newton_subtract(@upper, m->upper_column, j, carried, 1, x + j);
+    for (int b = 0; b < @block; ++b) {
+      for (int a = 0; a < @block; ++a)
+        x[a * kLinks + j] -= m->above[b * @block + a][j - 1] * x[b * kLinks + j - 1];
+    }
+  }
+  for (int j = 0; j < kLinks; ++j) {
+    double own[@block];
+    for (int a = 0; a < @block; ++a) own[a] = x[a * kLinks + j];
+    for (int a = 0; a < @block; ++a) {
+      x[a * kLinks + j] = 0.0;
+      for (int b = 0; b < @block; ++b) x[a * kLinks + j] += m->diagonal[b * @block + a][j] * own[b];
+    }
+  }
+}
+)";
+
+}  // namespace catena
