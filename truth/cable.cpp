@@ -20,20 +20,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "truth/vector.hpp"
+
 namespace truth {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-struct Vector {
-  double side = 0, down = 0;
-};
-Vector operator+(Vector a, Vector b) { return {a.side + b.side, a.down + b.down}; }
-Vector operator-(Vector a, Vector b) { return {a.side - b.side, a.down - b.down}; }
-Vector operator*(double s, Vector a) { return {s * a.side, s * a.down}; }
-double dot(Vector a, Vector b) { return a.side * b.side + a.down * b.down; }
-double norm(Vector a) { return std::sqrt(dot(a, a)); }
 
 /// The sign of a rate (rad/s), smooth below 0.008 rad/s, which is below all rates of interest.
 double rounded_sign(double rate) { return std::tanh(rate / 0.008); }

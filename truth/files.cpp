@@ -7,6 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "truth/random.hpp"
+
 namespace truth {
 namespace {
 
@@ -20,6 +22,17 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+Cable as_stated(Cable cable, double off, std::uint64_t seed) {
+  Random random(seed ^ 0x0ff5e7);
+  const auto wrong = [&](double value, double share) {
+    return value * (1 + (random.uniform() < 0.5 ? -share : share));
+  };
+  cable.density = wrong(cable.density, off);
+  cable.load_mass = wrong(cable.load_mass, off);
+  cable.length = wrong(cable.length, off / 5);
+  return cable;
+}
 
 void write_text(const std::string& text, const std::filesystem::path& path) {
   std::ofstream file(path);
@@ -89,7 +102,9 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       "\nload_mass = " + number(cable.load_mass) + "\nheld = [" + number(held.at(0)) + ", " +
       number(held.at(1)) + "]\n\n[camera]\nrate = " + number(camera.rate) +
       "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
-      "\nlost = " + number(camera.lost) + "\npixel = " + number(camera.pixel) +
+      "\nlens = " + number(camera.lens) + "\nshutter = " + number(camera.shutter) +
+      "\nmisplaced = " + number(camera.misplaced) + "\nlost = " + number(camera.lost) +
+      "\npixel = " + number(camera.pixel) +
       "\nautocorrelation = " + number(camera.kind.autocorrelation) +
       "\nshaking = " + number(camera.kind.shaking) +
       "\nnoisy_marker = " + number(camera.kind.noisy_marker) +

@@ -10,6 +10,7 @@
 
 #include "truth/camera.hpp"
 #include "truth/files.hpp"
+#include "truth/rod.hpp"
 
 int main(int argc, char** argv) {
   truth::Cable cable;
@@ -19,6 +20,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> effects;
   std::filesystem::path output;
   int case_links = 24;
+  bool rod = false;
+  double knowns_off = 0;
 
   CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
   app.add_option("--output", output, "folder to write to")->required();
@@ -27,6 +30,11 @@ int main(int argc, char** argv) {
   app.add_option("--links", cable.links, "links of the hidden chain")->check(CLI::Range(1, 500));
   app.add_option("--case-links", case_links, "links of the case's model")
       ->check(CLI::Range(1, 500));
+  app.add_flag("--rod", rod, "an elastic rod of finite elements, as many as --links; no chain");
+  app.add_option(
+         "--knowns-off", knowns_off,
+         "share by which the case's density and load are wrong, a fifth of it for the length")
+      ->check(CLI::Range(0.0, 0.1));
   app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
   app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
   app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");
@@ -50,6 +58,14 @@ int main(int argc, char** argv) {
   app.add_option("--outliers", camera.kind.outliers, "share of coordinates 20 times --noise off")
       ->check(CLI::Range(0.0, 0.1));
   app.add_option("--lost", camera.lost, "share of marks not seen")->check(CLI::Range(0.0, 0.9));
+  app.add_option("--lens", camera.lens,
+                 "share by which marks a cable's length from the middle are "
+                 "seen farther out")
+      ->check(CLI::Range(-0.1, 0.1));
+  app.add_option("--shutter", camera.shutter, "s in which a picture is read, from the support down")
+      ->check(CLI::Range(0.0, 0.03));
+  app.add_option("--misplaced", camera.misplaced, "m, of marks along the cable")
+      ->check(CLI::Range(0.0, 0.05));
   app.add_option("--pixel", camera.pixel, "m")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", camera.seed, "of noise and losses");
   app.add_option("--step", integration.step, "of the integrator, s")->check(CLI::PositiveNumber);
@@ -64,10 +80,17 @@ int main(int argc, char** argv) {
       truth::set_hidden(hidden, effect.substr(0, equals), std::stod(effect.substr(equals + 1)));
     }
     const auto start = truth::catenary_angles(cable, held[0], held[1]);
-    const truth::Recording recording = truth::film(cable, hidden, start, camera, integration);
+    const truth::Moves moves = [&](const std::vector<double>& arc,
+                                   const std::vector<double>& time) {
+      return rod ? truth::move_rod(cable, hidden, held, arc, time, integration)
+                 : truth::move(cable, hidden, start, arc, time, integration);
+    };
+    const truth::Recording recording = truth::film(cable, hidden, moves, camera);
     std::filesystem::create_directories(output);
     truth::write_markers(recording, output / "markers.csv");
-    truth::write_text(truth::case_text(cable, camera, case_links), output / "case.toml");
+    truth::write_text(
+        truth::case_text(truth::as_stated(cable, knowns_off, camera.seed), camera, case_links),
+        output / "case.toml");
     truth::write_text(truth::truth_text(cable, hidden, camera, held), output / "truth.toml");
   } catch (const std::invalid_argument& error) {
     std::cerr << "make_recording: " << error.what() << '\n';

@@ -63,13 +63,30 @@ DIRT = {
     "all": ["--autocorrelation", "0.3", "--noisy-marker", "3", "--shaking", "1", "--tails", "4",
             "--outliers", "0.001"],
 }
+# An elastic rod instead of a chain of links, filmed under these conditions, as make_recording's options.
+CAMERA = ["--lens", "0.005", "--shutter", "0.002", "--misplaced", "0.002"]
+KNOWNS = ["--knowns-off", "0.01"]
+ROD = {
+    "rod": [],
+    "rod_noise": DIRT["all"],
+    "rod_camera": CAMERA,
+    "rod_knowns": KNOWNS,
+    "rod_all": DIRT["all"] + CAMERA + KNOWNS,
+}
+ROD_EFFECTS = ["air_drag_quadratic", "joint_dry_friction", "support_motion", "load_drag", "joint_hysteresis",
+               "air_drag_linear", "steady_wind", "rest_curvature", "air_drag_isotropic"]
+ROD_ELEMENTS = 48  # half as many move no mark by more than 0.7 mm
+# What a wrong camera or wrong knowns may be called; no physics that is missing.
+KNOWNS_AND_SENSORS = {"load_mass", "scale", "camera_tilt", "camera_lens", "clock_offset", "marker_offset",
+                      "origin_offset", "gravity_tilt", "pivot_rest_angle"}
 STRENGTHS = (1, 3, 10)  # times the noise, in what a refitted baseline leaves
 NOISES = (0.001, 0.0005, 0.003)  # m
 RATES = (60, 30, 120)  # frames/s
 LINKS = (24, 48, 36, 60)  # of the hidden chain; the case has 12
-SEEDS, QUIET, DOUBLE, OUT = 20, 500, 60, 60
+SEEDS, QUIET, DOUBLE, OUT, ROD_QUIET, ROD_SINGLE = 20, 500, 60, 60, 300, 300
 FIRST_SEED = 50000  # others were used while the diagnosis was changed
-KINDS = ("quiet", "single", "double", "outside", "dirty_quiet", "dirty_single")
+FIRST_ROD_SEED = 60000  # likewise
+KINDS = ("quiet", "single", "double", "outside", "dirty_quiet", "dirty_single", "rod_quiet", "rod_single")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,7 +100,10 @@ class Trial:
     lost: float
     pixel: float
     seed: int
-    dirt: str = ""  # of DIRT; empty: white noise
+    dirt: str = ""  # of DIRT or ROD; empty: white noise
+
+    def is_rod(self):
+        return self.kind.startswith("rod")
 
     def key(self):
         return (self.kind, "+".join(self.hidden), str(self.strength), str(self.noise), str(self.seed))
@@ -95,8 +115,9 @@ def trials():
     count = {"quiet": 0, "double": 0, "outside": 0}
 
     def add(kind, hidden, strength, noise, k, dirt=""):
-        result.append(Trial(kind, hidden, strength, noise, RATES[k % 3], LINKS[k % 4],
-                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, FIRST_SEED + k, dirt))
+        rod = kind.startswith("rod")
+        result.append(Trial(kind, hidden, strength, noise, RATES[k % 3], ROD_ELEMENTS if rod else LINKS[k % 4],
+                            0.05 if k % 5 == 4 else 0.0, 0.0005 if k % 7 == 6 else 0.0, (FIRST_ROD_SEED if rod else FIRST_SEED) + k, dirt))
 
     effects, dirt = list(EFFECTS), list(DIRT)
     rounds = len(STRENGTHS) * len(NOISES) * SEEDS
@@ -121,4 +142,12 @@ def trials():
         if k < OUT:
             add("outside", (list(OUTSIDE)[k % 4],), STRENGTHS[1 + k // 4 % 2], NOISES[k // 8 % 3], k)
             count["outside"] += 1
+    for k in range(max(ROD_QUIET, ROD_SINGLE)):
+        dirt = list(ROD)[k % len(ROD)]
+        noise = NOISES[k // len(ROD) % 2]  # of 1 mm or half of it
+        if k < ROD_QUIET:
+            add("rod_quiet", (), 0, noise, k, dirt)
+        if k < ROD_SINGLE:
+            add("rod_single", (ROD_EFFECTS[k % len(ROD_EFFECTS)],), STRENGTHS[1 + k // len(ROD_EFFECTS) % 2],
+                noise, k, dirt)
     return result

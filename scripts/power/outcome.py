@@ -37,7 +37,8 @@ def of(trial, strengths, binaries):
             [binaries / "bin" / "make_recording", "--output", folder, *strength.CABLE,
              "--links", str(trial.links), "--case-links", "12", "--noise", str(trial.noise),
              "--rate", str(trial.rate), "--seed", str(trial.seed), "--lost", str(trial.lost),
-             "--pixel", str(trial.pixel), *design.DIRT.get(trial.dirt, []), *effects], capture_output=True, check=False)
+             "--pixel", str(trial.pixel), *(["--rod"] if trial.is_rod() else []),
+             *(design.DIRT | design.ROD).get(trial.dirt, []), *effects], capture_output=True, check=False)
         if made.returncode != 0:
             return row | {"verdict": "not filmed"}, None
         pathlib.Path(folder, "truth.toml").unlink()  # the trial itself is the truth
@@ -62,7 +63,9 @@ def run(command):
 
 
 def judged(trial, found):
-    truth, named = set(trial.hidden), {effect["id"] for effect in found["effects"]}
+    truth, all_named = set(trial.hidden), {effect["id"] for effect in found["effects"]}
+    # Of a rod's recording, what is said of knowns and sensors may be so.
+    named = all_named - (design.KNOWNS_AND_SENSORS - truth) if trial.is_rod() else all_named
     forms = {(f["instead_of"], f["id"]) for f in found["forms"]}
     others = [u for u in found["undecided"]]
     farthest = max((u["difference"] for u in others), default=0.0)
@@ -74,15 +77,15 @@ def judged(trial, found):
         right = (as_named or swapped) and farthest < INDISTINGUISHABLE
     elif found["verdict"] == "partly":  # what is called certain, if anything
         right = all(a in truth or any(a == of and b in truth for of, b in forms)
-                    for a in found.get("certain") or named)
+                    for a in set(found.get("certain") or named) & named)
     elif found["verdict"] == "discovered":  # the library's effects beside the law are wrong
         right = trial.kind == "outside" and len(named) == 1
     else:
         right = found["verdict"] == ("unexplained" if trial.hidden else "none") and \
-            trial.kind in ("quiet", "dirty_quiet", "outside")
+            trial.kind in ("quiet", "dirty_quiet", "rod_quiet", "outside")
     gap = found["rounds"][-1]["gap"]
     held = gap["validate"]
-    return {"verdict": found["verdict"], "effects": "+".join(sorted(named)),
+    return {"verdict": found["verdict"], "effects": "+".join(sorted(all_named)),
             "members": "+".join(sorted(set(found["members"]))), "right": "yes" if right else "no",
             "farthest_member": f"{farthest:.3g}", "links_used": found["links"]["used"],
             "fit_ratio": f"{gap['fit'] / gap['noise_level']:.4g}",
