@@ -54,7 +54,8 @@ std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, uns
 }
 
 std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& options,
-                                     const LeastSquares& least_squares, int threads, RunLog* log) {
+                                     const LeastSquares& least_squares, int threads, RunLog* log,
+                                     const Shard& shard) {
   check_fittable(problem);
   const OptimiserSpec& spec = problem.the_case().optimiser;
   const std::vector<Eigen::VectorXd> starts = start_points(problem, spec.starts, spec.seed);
@@ -65,6 +66,14 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
   Progress total{0, static_cast<int>(std::min<long>(limit, std::numeric_limits<int>::max())),
                  std::numeric_limits<double>::infinity()};
   in_parallel(starts.size(), threads, [&](std::size_t i) {
+    const int start = static_cast<int>(i);
+    if (log)
+      if (const auto known = log->finished(start)) {
+        results[i] = *known;
+        return;
+      }
+    const bool own_work = shard.has(i);
+    if (!own_work && (starts.size() > 1 || shard.of == 0)) return;
     FitOptions own = options;
     own.start = starts[i];
     if (options.time_limit > 0) {
@@ -72,12 +81,7 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
       own.time_limit = std::max(options.time_limit - elapsed.count(), 1e-9);
     }
-    const int start = static_cast<int>(i);
-    if (log) {
-      if (const auto known = log->finished(start)) {
-        results[i] = *known;
-        return;
-      }
+    if (log && own_work) {
       own.recall = [log, start](const Eigen::VectorXd& x) { return log->recall(start, x); };
       own.record = [log, start](const HistoryEntry& entry) { log->record(start, entry); };
     }
@@ -91,7 +95,7 @@ std::vector<FitResult> fit_from_many(const Problem& problem, const FitOptions& o
     results[i] = fit(problem, own, least_squares);
     const FitStatus status = results[i].status;
     const bool cut_short = status == FitStatus::kInterrupted || status == FitStatus::kTimeLimit;
-    if (log && !cut_short) log->finish(start, results[i]);
+    if (log && own_work && !cut_short) log->finish(start, results[i]);
   });
   return results;
 }

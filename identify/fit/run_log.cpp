@@ -3,8 +3,11 @@
 // Lines, their cells separated by tabulators:
 //   catena run log 2 KEY
 //   e START ERROR X MESSAGE CHECK                            an evaluation; ERROR may be "failed"
-//   s START STATUS ERROR START_ERROR X EVALUATIONS WORK ITERATIONS FAILURES MESSAGE CHECK   a start
+//   s START STATUS ERROR START_ERROR X EVALUATIONS WORK ITERATIONS FAILURES NOISE MESSAGE CHECK   a start
+//   r KIND INDEX FIT VALUES CHECK                            a refit
 #include "identify/fit/run_log.hpp"
+
+#include <fmt/format.h>
 
 #include <cerrno>
 #include <cmath>
@@ -57,6 +60,13 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Of all lines so far, too: none can be changed, removed or put elsewhere without notice.
+std::string check_after(const std::string& check, const std::string& content) {
+  std::string next = sha256_hex(check + content);
+  next.resize(kCheckLength);
+  return next;
+}
+
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::size_t begin = 0;
@@ -68,18 +78,29 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 }  // namespace
 
+std::string name_of(const FitResult& fit) {
+  std::string name = sha256_hex(exact(fit.x));
+  name.resize(kCheckLength);
+  return name;
+}
+
 RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool resume,
                std::function<void(const std::string&)> notice)
-    : name_(file.string()), notice_(std::move(notice)) {
+    : name_(file.string()), key_(key), notice_(std::move(notice)) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
   const std::string before = std::filesystem::exists(file) ? bytes_of_file(file) : "";
   if (!before.starts_with(kOurs) && !std::string_view(kOurs).starts_with(before))
     throw InputError(name_ + ": is no log of catena; move it away or choose another folder");
-  const std::size_t whole = resume ? read(before, key) : 0;
-  if (whole > 0) std::filesystem::resize_file(file, whole);  // off with a broken last line
-  file_ = std::fopen(file.c_str(), whole > 0 ? "a" : "w");
-  if (file_ && whole == 0) write(kHead + key + "\n");
+  Record known;
+  if (resume) known = read(name_, before);
+  if (known.whole > 0)
+    std::filesystem::resize_file(file, known.whole);  // off with a broken last line
+  starts_ = std::move(known.starts);
+  refits_ = std::move(known.refits);
+  check_ = std::move(known.check);
+  file_ = std::fopen(file.c_str(), known.whole > 0 ? "a" : "w");
+  if (file_ && known.whole == 0) write(kHead + key + "\n");
   if (!file_ || failed_) throw InputError(name_ + ": cannot be written: " + std::strerror(errno));
 }
 
@@ -87,27 +108,47 @@ RunLog::~RunLog() {
   if (file_) std::fclose(file_);
 }
 
-std::size_t RunLog::read(const std::string& text, const std::string& key) {
+void RunLog::take_over(const std::filesystem::path& file, const Shard& shard) {
+  const std::string name = file.string();
+  Record record = read(name, bytes_of_file(file));
+  const auto require = [&](const char* what, int index) {
+    if (!shard.has(static_cast<std::size_t>(index)))
+      throw InputError(fmt::format(
+          "{}: holds {} {}, which is the work of shard {}, not {}, of {}; it was copied or renamed",
+          name, what, index + 1, static_cast<std::size_t>(index) % shard.of + 1, shard.part + 1,
+          shard.of));
+  };
+  for (const auto& [start, read] : record.starts) require("start", start);
+  for (const auto& [refit, values] : record.refits) require(refit.kind.c_str(), refit.index);
+  const std::scoped_lock lock(mutex_);
+  for (auto& [start, read] : record.starts)
+    if (read.result && !starts_[start].result) starts_[start] = std::move(read);
+  refits_.merge(record.refits);
+}
+
+RunLog::Record RunLog::read(const std::string& name, const std::string& text) const {
+  Record record;
   std::size_t begin = 0;
   int line_number = 1;
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos;
        begin = end + 1, ++line_number) {
     const std::string line = text.substr(begin, end - begin);
     if (begin == 0) {
-      if (line == kHead + key) continue;
-      throw InputError(name_ +
+      if (line == kHead + key_) continue;
+      throw InputError(name +
                        ": belongs to another case, other data, another model or another version "
-                       "of catena; run without --resume to begin anew");
+                       "of catena; remove it, or run without --resume, to begin anew");
     }
     const std::string content = line.substr(0, line.rfind('\t'));
-    if (line != content + "\t" + next_check(content))
-      throw InputError(name_ + ":" + std::to_string(line_number) +
+    record.check = check_after(record.check, content);
+    if (line != content + "\t" + record.check)
+      throw InputError(name + ":" + std::to_string(line_number) +
                        ": this line was damaged or edited, or one before it was removed; remove it "
                        "and all that follow to go on from there, or run without --resume to begin "
                        "anew");
     const std::vector<std::string> cells = cells_of(content);
     if (cells[0] == "e" && cells.size() == 5) {
-      Start& start = starts_[std::atoi(cells[1].c_str())];
+      Start& start = record.starts[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());
       start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
     } else if (cells[0] == "s" && cells.size() == 12) {
@@ -122,26 +163,23 @@ std::size_t RunLog::read(const std::string& text, const std::string& key) {
       result.failures = std::atoi(cells[9].c_str());
       result.error_noise = number(cells[10]);
       result.message = cells[11];
-      Start& start = starts_[std::atoi(cells[1].c_str())];
+      Start& start = record.starts[std::atoi(cells[1].c_str())];
       result.history = start.entries;
       for (const HistoryEntry& entry : start.entries)
         if (!std::isfinite(entry.error)) result.failed.push_back({entry.x, entry.message});
       start.result = std::move(result);
+    } else if (cells[0] == "r" && cells.size() == 5) {
+      record.refits[{cells[1], std::atoi(cells[2].c_str()), cells[3]}] = numbers(cells[4]);
     }
   }
-  return begin;
-}
-
-/// Of all lines so far, too: none can be changed, removed or put elsewhere without notice.
-std::string RunLog::next_check(const std::string& content) {
-  check_ = sha256_hex(check_ + content);
-  check_.resize(kCheckLength);
-  return check_;
+  record.whole = begin;
+  return record;
 }
 
 void RunLog::append(const std::string& content) {
   if (failed_) return;
-  write(content + "\t" + next_check(content) + "\n");
+  check_ = check_after(check_, content);
+  write(content + "\t" + check_ + "\n");
   if (failed_ && notice_)
     notice_(name_ + ": " + std::strerror(errno) +
             "; the fit goes on, but --resume will know only what came before");
@@ -186,6 +224,17 @@ void RunLog::finish(int start, const FitResult& result) {
          "\t" + std::to_string(result.evaluations) + "\t" + exact_number_text(result.work) + "\t" +
          std::to_string(result.iterations) + "\t" + std::to_string(result.failures) + "\t" +
          exact_number_text(result.error_noise) + "\t" + one_line(result.message));
+}
+
+std::optional<Eigen::VectorXd> RunLog::refitted(const Refit& refit) const {
+  const std::scoped_lock lock(mutex_);
+  const auto known = refits_.find(refit);
+  return known == refits_.end() ? std::nullopt : std::optional(known->second);
+}
+
+void RunLog::finish(const Refit& refit, const Eigen::VectorXd& values) {
+  const std::scoped_lock lock(mutex_);
+  append(fmt::format("r\t{}\t{}\t{}\t{}", refit.kind, refit.index, refit.fit, exact(values)));
 }
 
 }  // namespace catena

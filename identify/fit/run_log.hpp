@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -8,15 +9,30 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "identify/fit/fit.hpp"
+#include "identify/fit/shard.hpp"
 
 namespace catena {
 
-/// The log of a run of `catena identify`: one line for every finished evaluation and every finished
-/// start, appended and handed to the system at once, so that a run that is killed at any moment can
-/// be taken up again. Numbers are written exactly. Every line ends with a check of itself and those
+/// One of the refits that follow a fit.
+struct Refit {
+  std::string kind;  ///< a word: "bootstrap"
+  int index = 0;
+  std::string fit;  ///< the fit that it starts from: name_of(FitResult)
+  bool operator<(const Refit& other) const {
+    return std::tie(kind, index, fit) < std::tie(other.kind, other.index, other.fit);
+  }
+};
+
+/// Differs between fits that found different values: 16 digits.
+std::string name_of(const FitResult& fit);
+
+/// The log of a run of `catena identify`: one line for every finished evaluation, start and refit (of a
+/// profile or the bootstrap), appended and handed to the system at once, so that a run that is killed at
+/// any moment can be taken up again. Numbers are written exactly. Every line ends with a check of itself and those
 /// before it; a last line that was cut off is not believed.
 ///
 /// A start that was finished is taken from the log. One that was not is begun again: it asks for
@@ -43,6 +59,15 @@ class RunLog {
   /// A start that was finished: its result; nothing if it was not.
   std::optional<FitResult> finished(int start) const;
   void finish(int start, const FitResult& result);
+  /// What came of a refit; nothing if it was not finished.
+  std::optional<Eigen::VectorXd> refitted(const Refit& refit) const;
+  void finish(const Refit& refit, const Eigen::VectorXd& values);
+
+  /// Knows from now on, too, what the log of a shard says of finished starts and refits. Throws
+  /// InputError as the constructor does, and if another shard's work is in it.
+  void take_over(const std::filesystem::path& file, const Shard& shard);
+  /// Something that was finished could not be written (`notice` was told).
+  bool failed() const { return failed_; }
 
  private:
   struct Start {
@@ -52,19 +77,26 @@ class RunLog {
     std::optional<FitResult> result;
   };
 
-  /// Takes over what a log says. Returns the bytes of its whole lines.
-  std::size_t read(const std::string& text, const std::string& key);
+  /// What a log says.
+  struct Record {
+    std::map<int, Start> starts;
+    std::map<Refit, Eigen::VectorXd> refits;
+    std::size_t whole = 0;  // bytes of its whole lines
+    std::string check;      // of the last of them
+  };
+
+  Record read(const std::string& name, const std::string& text) const;
   void append(const std::string& content);
   void write(const std::string& line);
-  std::string next_check(const std::string& content);
 
-  std::string name_;
+  std::string name_, key_;
   std::function<void(const std::string&)> notice_;
   std::FILE* file_ = nullptr;
-  bool failed_ = false;
+  std::atomic<bool> failed_ = false;
   std::string check_;  // of the last line
   mutable std::mutex mutex_;
   std::map<int, Start> starts_;
+  std::map<Refit, Eigen::VectorXd> refits_;
 };
 
 }  // namespace catena

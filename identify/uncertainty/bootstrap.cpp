@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/uncertainty/bootstrap.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -31,12 +32,24 @@ MatrixXd drawn_again(const MatrixXd& residuals, Index block, std::mt19937_64& ge
 
 MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertainty& uncertainty,
                    const LeastSquares& least_squares, int count, unsigned seed, int threads,
-                   const std::atomic<bool>* stop) {
+                   const std::atomic<bool>* stop, RunLog* log, const Shard& shard) {
   const Evaluation best = evaluate(problem, fit.x, false, false);
   const double rho = std::clamp(uncertainty.autocorrelation, 0.0, 0.97);
   MatrixXd rows(count, fit.x.size());
+  std::atomic<bool> complete = true;
+  const std::string name = name_of(fit);
   in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
     if (stop && *stop) return;
+    const Refit refit{"bootstrap", static_cast<int>(row), name};
+    if (log)
+      if (const auto known = log->refitted(refit)) {
+        rows.row(static_cast<Index>(row)) = known->transpose();
+        return;
+      }
+    if (!shard.has(row)) {
+      complete = false;
+      return;
+    }
     std::mt19937_64 generator(seed + 1'000'003ULL * (row + 1));
     std::vector<Experiment> experiments = problem.experiments();
     for (std::size_t e = 0; e < experiments.size(); ++e) {
@@ -55,9 +68,12 @@ MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertain
     options.start = fit.x;
     options.stop = stop;
     const Problem again(problem.the_case(), problem.model(), std::move(experiments));
-    rows.row(static_cast<Index>(row)) = least_squares(again, options).x.transpose();
+    const Eigen::VectorXd x = least_squares(again, options).x;
+    if (stop && *stop) return;
+    rows.row(static_cast<Index>(row)) = x.transpose();
+    if (log) log->finish(refit, x);
   });
-  if (stop && *stop) rows.resize(0, rows.cols());
+  if (!complete || (stop && *stop)) rows.resize(0, rows.cols());
   return rows;
 }
 

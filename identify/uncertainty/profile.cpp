@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/uncertainty/profile.hpp"
 
+#include <atomic>
 #include <cmath>
 
 #include "common/parallel.hpp"
@@ -69,11 +70,29 @@ double moved(const Unknown& unknown, double best, const Estimate& estimate, doub
   return std::clamp(value, unknown.lower, unknown.upper);
 }
 
+/// What a log keeps of a profile: its verdict, its values, their costs.
+VectorXd values_of(const Profile& profile) {
+  const auto count = static_cast<Eigen::Index>(profile.value.size());
+  VectorXd values(1 + 2 * count);
+  values << static_cast<double>(profile.verdict),
+      Eigen::Map<const VectorXd>(profile.value.data(), count),
+      Eigen::Map<const VectorXd>(profile.cost.data(), count);
+  return values;
+}
+
+void put_values(const VectorXd& values, Profile& profile) {
+  const Eigen::Index count = values.size() / 2;
+  profile.verdict = static_cast<Verdict>(values[0]);
+  profile.value.assign(values.begin() + 1, values.begin() + 1 + count);
+  profile.cost.assign(values.begin() + 1 + count, values.end());
+}
+
 }  // namespace
 
 std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
                                  const Uncertainty& uncertainty, const LeastSquares& least_squares,
-                                 int threads, const std::atomic<bool>* stop) {
+                                 int threads, const std::atomic<bool>* stop, RunLog* log,
+                                 const Shard& shard) {
   std::vector<int> chosen;
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j)
     if (problem.unknowns()[j].parameter >= 0 && problem.unknowns()[j].experiment < 0)
@@ -89,9 +108,21 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
           ? (1 + uncertainty.autocorrelation) / (1 - uncertainty.autocorrelation)
           : 1;
   std::vector<Profile> profiles(chosen.size());
+  std::atomic<bool> complete = true;
+  const std::string name = name_of(fit);
   in_parallel(chosen.size(), threads, [&](std::size_t p) {
     Profile& profile = profiles[p];
     profile.unknown = chosen[p];
+    const Refit refit{"profile", static_cast<int>(p), name};
+    if (log)
+      if (const auto known = log->refitted(refit)) {
+        put_values(*known, profile);
+        return;
+      }
+    if (!shard.has(p)) {
+      complete = false;
+      return;
+    }
     const auto j = static_cast<std::size_t>(chosen[p]);
     const Unknown& unknown = problem.unknowns()[j];
     const double centre = fit.x[chosen[p]];
@@ -124,8 +155,9 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
     profile.verdict = crossed[0] && crossed[1] ? Verdict::kIdentifiable
                       : highest < kFlat        ? Verdict::kStructurallyNot
                                                : Verdict::kPracticallyNot;
+    if (log && !(stop && *stop)) log->finish(refit, values_of(profile));
   });
-  if (stop && *stop) profiles.clear();
+  if (!complete || (stop && *stop)) profiles.clear();
   return profiles;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <vector>
 
+#include "identify/fit/run_log.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 
 namespace catena {
@@ -21,10 +22,11 @@ struct Profile {
 
 /// Profiles of every unknown of the physics around the fit, by refits from the neighbouring point.
 /// Crosses the threshold on both sides: identifiable; nowhere rises: structurally not; else
-/// practically not (within the bounds). Once `stop` is true, it ends without profiles;
-/// nullptr: never.
+/// practically not (within the bounds). Log, shard and `stop` as in bootstrap(): without all profiles
+/// it returns none.
 std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
                                  const Uncertainty& uncertainty, const LeastSquares& least_squares,
-                                 int threads, const std::atomic<bool>* stop = nullptr);
+                                 int threads, const std::atomic<bool>* stop = nullptr,
+                                 RunLog* log = nullptr, const Shard& shard = {});
 
 }  // namespace catena

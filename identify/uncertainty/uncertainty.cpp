@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common/in_quotes.hpp"
 #include "common/number_text.hpp"
 #include "common/special_values.hpp"
 #include "identify/fit/error.hpp"
@@ -273,9 +274,9 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     weak.text = describe(problem, weak.direction);
     Index largest;
     weak.direction.cwiseAbs().maxCoeff(&largest);
-    out.suggestions.push_back("fix \"" +
-                              problem.unknowns()[static_cast<std::size_t>(largest)].name +
-                              "\", or measure what tells it from the others");
+    out.suggestions.push_back(
+        "fix " + in_quotes(problem.unknowns()[static_cast<std::size_t>(largest)].name) +
+        ", or measure what tells it from the others");
     out.weak.push_back(std::move(weak));
   }
   return out;

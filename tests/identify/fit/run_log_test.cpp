@@ -6,7 +6,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "tests/support/failure.hpp"
@@ -105,4 +107,50 @@ TEST_CASE("a log that cannot be written any more says so once, and keeps what it
   const RunLog log(file, "key", true);
   CHECK(log.recall(0, entry(3).x) != nullptr);
   CHECK(log.recall(0, entry(4).x) == nullptr);
+}
+
+TEST_CASE("refits are kept bit by bit, each for the fit that it began at") {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "run.log";
+  FitResult fit;
+  fit.x = Eigen::Vector2d(1.0 / 3, -1e-300);
+  FitResult other = fit;
+  other.x[0] = std::nextafter(other.x[0], 1);
+  CHECK(name_of(other) != name_of(fit));
+  const Refit refit{"bootstrap", 7, name_of(fit)};
+  const Eigen::Vector4d values(0.1, std::numeric_limits<double>::infinity(), -2.0 / 3, 5e-324);
+  RunLog(file, "key", false).finish(refit, values);
+  const RunLog log(file, "key", true);
+  REQUIRE(log.refitted(refit).has_value());
+  CHECK(*log.refitted(refit) == values);
+  CHECK(!log.refitted({"bootstrap", 7, name_of(other)}));
+  CHECK(!log.refitted({"bootstrap", 6, name_of(fit)}));
+  CHECK(!log.refitted({"profile", 7, name_of(fit)}));
+}
+
+TEST_CASE("finished starts are taken over from the log of the shard that has them") {
+  const testing::TemporaryFolder folder;
+  const auto theirs = folder.path() / "theirs.log";
+  {
+    RunLog log(theirs, "key", false);
+    FitResult found;
+    found.status = FitStatus::kConverged;
+    found.x = Eigen::Vector2d(1, 2);
+    log.record(1, entry(1));
+    log.finish(1, found);
+    log.record(4, entry(2));  // not finished
+  }
+  RunLog log(folder.path() / "own.log", "key", false);
+  log.take_over(theirs, {1, 3});
+  REQUIRE(log.finished(1).has_value());
+  CHECK(log.finished(1)->history.size() == 1);
+  CHECK(!log.finished(4));
+  CHECK(log.recall(4, entry(2).x) == nullptr);
+  CHECK(failure([&] {
+          log.take_over(theirs, {0, 3});
+        }).find("the work of shard 2, not 1, of 3") != std::string::npos);
+  RunLog stranger(folder.path() / "stranger.log", "another key", false);
+  CHECK(failure([&] {
+          stranger.take_over(theirs, {1, 3});
+        }).find("theirs.log: belongs to") != std::string::npos);
 }
