@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/score.hpp"
@@ -136,8 +137,8 @@ void check_known(const std::vector<std::string>& ids, const char* key, const Cas
                  const std::vector<std::string>& known) {
   for (const std::string& id : ids)
     if (!has(known, id))
-      throw InputError(the_case.file.string() + ": diagnosis." + key + ": \"" + id +
-                       "\" is no effect" + suggestion(id, known));
+      throw InputError(the_case.file.string() + ": diagnosis." + key + ": " + in_quotes(id) +
+                       " is no effect" + suggestion(id, known));
 }
 
 }  // namespace

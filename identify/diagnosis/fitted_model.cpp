@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/fitted_model.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
-#include "identify/noise/estimate_noise.hpp"
+#include "identify/fit/estimated_noise.hpp"
 #include "identify/problem/evaluation.hpp"
 
 namespace catena {
@@ -64,14 +60,6 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
                                          std::move(experiments));
 }
 
-/// The problem, to be fitted with this noise.
-Problem with_noise(const Problem& problem, const std::vector<NoiseModel>& noise) {
-  std::vector<Experiment> experiments = problem.experiments();
-  for (std::size_t e = 0; e < noise.size(); ++e)
-    experiments[e].noise = std::make_shared<const NoiseModel>(noise[e]);
-  return Problem(problem.the_case(), problem.model(), std::move(experiments));
-}
-
 }  // namespace
 
 FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
@@ -123,47 +111,7 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
 }
 
 std::vector<NoiseModel> noise_of(const FittedModel& model) {
-  const std::vector<Experiment>& experiments = model.problem->experiments();
-  std::map<int, std::vector<std::size_t>> windows;  // of each recording
-  for (std::size_t e = 0; e < experiments.size(); ++e) windows[experiments[e].source].push_back(e);
-  std::vector<NoiseModel> noise(experiments.size());
-  for (const auto& [source, members] : windows) {
-    std::vector<NoiseWindow> parts;
-    for (const std::size_t e : members) {
-      NoiseWindow& window = parts.emplace_back();
-      window.residual.resize(model.predicted[e].rows(), model.predicted[e].cols());
-      window.residual << model.fit_residual[e], model.held_out_residual[e];
-      window.predicted = model.predicted[e];
-      window.time = experiments[e].recording.time;
-      window.fitted = model.fit_residual[e].cols();
-      // A window that is held out whole tells the noise, too: its start is fitted.
-      window.shows_noise = window.fitted > 0 ? window.fitted : window.residual.cols();
-    }
-    const Experiment& experiment = experiments[members.front()];
-    std::vector<int> direction;
-    for (const Channel& channel : experiment.recording.channels)
-      direction.push_back(channel.component == Component::kSide   ? 0
-                          : channel.component == Component::kDown ? 1
-                                                                  : -1);
-    std::vector<NoiseModel> found = estimate_noise(parts, direction, experiment.spec.noise);
-    for (std::size_t w = 0; w < members.size(); ++w) noise[members[w]] = std::move(found[w]);
-  }
-  return noise;
-}
-
-std::vector<std::string> noise_in_words(const FittedModel& model,
-                                        const std::vector<NoiseModel>& noise) {
-  std::vector<std::string> words;
-  std::set<int> told;
-  for (std::size_t e = 0; e < noise.size(); ++e) {
-    const int source = model.problem->experiments()[e].source;
-    if (!told.insert(source).second) continue;
-    const std::string& name =
-        model.problem->the_case().experiments[static_cast<std::size_t>(source)].name;
-    for (const std::string& each : noise[e].words())
-      words.push_back(fmt::format("{}: {}", name, each));
-  }
-  return words;
+  return estimated_noise(*model.problem, model.predicted);
 }
 
 namespace {

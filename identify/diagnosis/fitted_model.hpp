@@ -37,13 +37,8 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
                       const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
                       const std::atomic<bool>* stop);
 
-/// The noise of every experiment: that of its recording, as the residuals show it (of the fitted
-/// part; of windows that are held out whole, too). A noise the case states counts where it is larger.
+/// The noise of every experiment, as the model's residuals show it: estimated_noise().
 std::vector<NoiseModel> noise_of(const FittedModel& model);
-
-/// What is unusual of the noise of each recording: "run: the tracks look smoothed over 5 frames".
-std::vector<std::string> noise_in_words(const FittedModel& model,
-                                        const std::vector<NoiseModel>& noise);
 
 GapTest fit_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);
 GapTest held_out_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);

@@ -68,32 +68,6 @@ VectorXd shares(const VectorXd& misfit) {
   return share / misfit[0];
 }
 
-/// The final model's case with a subset of its effects, fitted from where the whole ended.
-FittedModel fit_subset(DiagnosisState& state, const std::vector<std::string>& kept) {
-  DiagnosisContext& context = state.context;
-  const FittedModel& whole = state.found.final;
-  Case the_case = whole.problem->the_case();
-  for (const std::string& id : state.found.effects)
-    if (std::find(kept.begin(), kept.end(), id) == kept.end())
-      the_case = without_effect(the_case, id);
-  const auto problem =
-      std::make_shared<const Problem>(the_case, context.model_with(kept, the_case.links));
-  const auto fit_from = [&](const FittedModel& model) {
-    return fit_model(problem, transfer(*model.problem, model.x, *problem), state.found.noise,
-                     context.least_squares, context.stop);
-  };
-  FittedModel best = fit_from(whole);
-  // From a far start a fit may end in a minimum of its own. The model without effects was fitted
-  // before, from several starts.
-  for (const Stage& stage : state.found.stages)
-    if (stage.effects == kept && stage.links == the_case.links) {
-      FittedModel other = fit_from(stage.model);
-      if (other.ok && (!best.ok || state.squares(other) < state.squares(best)))
-        best = std::move(other);
-    }
-  return best;
-}
-
 }  // namespace
 
 std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
@@ -137,6 +111,31 @@ std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
   return intervals;
 }
 
+FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::string>& kept) {
+  DiagnosisContext& context = state.context;
+  const FittedModel& whole = state.found.final;
+  Case the_case = whole.problem->the_case();
+  for (const std::string& id : state.found.effects)
+    if (std::find(kept.begin(), kept.end(), id) == kept.end())
+      the_case = without_effect(the_case, id);
+  const auto problem =
+      std::make_shared<const Problem>(the_case, context.model_with(kept, the_case.links));
+  const auto fit_from = [&](const FittedModel& model) {
+    return fit_model(problem, transfer(*model.problem, model.x, *problem), state.found.noise,
+                     context.least_squares, context.stop);
+  };
+  FittedModel best = fit_from(whole);
+  // From a far start a fit may end in a minimum of its own. The model without effects was fitted
+  // before, from several starts.
+  for (const Stage& stage : state.found.stages)
+    if (stage.effects == kept && stage.links == the_case.links) {
+      FittedModel other = fit_from(stage.model);
+      if (other.ok && (!best.ok || state.squares(other) < state.squares(best)))
+        best = std::move(other);
+    }
+  return best;
+}
+
 Shares shares_of(DiagnosisState& state) {
   const std::vector<std::string>& effects = state.found.effects;
   if (effects.empty()) return {};
@@ -149,7 +148,7 @@ Shares shares_of(DiagnosisState& state) {
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < effects.size(); ++i)
       if (subset >> i & 1u) kept.push_back(effects[i]);
-    fits[subset] = fit_subset(state, kept);
+    fits[subset] = fit_with_effects(state, kept);
     state.context.end_task();
   });
   state.context.stop_if_asked();

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "identify/diagnosis/fitted_model.hpp"
+
 namespace catena {
 
 class DiagnosisState;
@@ -40,6 +42,9 @@ struct Shares {
 /// Shares of the effects of `state.found.final`. Empty without effects, and where the model with some
 /// of them cannot be fitted. Throws Interrupted.
 Shares shares_of(DiagnosisState& state);
+
+/// The final model's case with some of its effects (`kept`), fitted from where the whole ended.
+FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::string>& kept);
 
 /// For every subset of the effects (bit i of the index: effect i is in it) the residuals of each
 /// experiment, channels x frames; NaN where nothing was measured.

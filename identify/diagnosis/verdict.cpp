@@ -8,12 +8,14 @@
 #include <cmath>
 
 #include "common/nearest_name.hpp"
+#include "identify/diagnosis/errors_of_knowns.hpp"
 #include "identify/diagnosis/final_model.hpp"
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/same_model.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/wrong_knowns.hpp"
+#include "identify/fit/estimated_noise.hpp"
 
 namespace catena {
 namespace {
@@ -229,7 +231,7 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const auto& [other, name] : same)
     if (std::find(found.effects.begin(), found.effects.end(), name) != found.effects.end())
       note(fmt::format("{} is the same model as {} here", other, name));
-  for (const std::string& words : noise_in_words(found.final, found.noise))
+  for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
   const bool is_closed =
@@ -242,7 +244,17 @@ void conclude(DiagnosisState& state, const Case& asked) {
     return;
   }
   if (!is_closed || found.effects.empty()) {
-    const std::vector<std::string> stand = standing_effects(found);
+    std::vector<std::string> stand = standing_effects(found);
+    std::erase_if(stand, [&](const std::string& id) {
+      if (is_error_of_known(*state.context.find(id)) ||
+          share_beyond_errors_of_knowns(state, id) > kThresholds.worthwhile)
+        return false;
+      note(
+          fmt::format("plausible errors of what the case states and of the sensors could explain "
+                      "most of what {} does",
+                      id));
+      return true;
+    });
     found.certain.clear();
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);

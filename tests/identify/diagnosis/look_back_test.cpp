@@ -35,15 +35,17 @@ Eigen::MatrixXd residuals(double misfit, unsigned seed) {
 FittedModel leaving(double fitted, double held_out) {
   Case the_case = testing::sections(testing::kTwoLinks);
   testing::add_experiment(the_case, "run");
+  Recording recording =
+      testing::empty_markers({0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, 2 * kFrames, 1 / kRate);
+  recording.fit_frames = kFrames;
   FittedModel model;
-  model.problem =
-      std::make_shared<const Problem>(the_case, Model::built_in(2),
-                                      std::vector<Recording>{testing::empty_markers(
-                                          {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, 2 * kFrames, 1 / kRate)});
-  model.x = model.problem->start();
-  model.ok = true;
   model.fit_residual = {residuals(fitted, 1)};
   model.held_out_residual = {residuals(held_out, 2)};
+  recording.measured << -model.fit_residual[0], -model.held_out_residual[0];
+  model.problem = std::make_shared<const Problem>(the_case, Model::built_in(2),
+                                                  std::vector<Recording>{std::move(recording)});
+  model.x = model.problem->start();
+  model.ok = true;
   model.predicted = {Eigen::MatrixXd::Zero(kChannels, Eigen::Index{2} * kFrames)};
   return model;
 }

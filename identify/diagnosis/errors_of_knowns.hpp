@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace catena {
+
+class DiagnosisState;
+struct Candidate;
+
+/// Whether an effect is an error of what the case knows or of a sensor, and no physics that is
+/// missing: it changes what is reported, or its file has words for a wrong known.
+bool is_error_of_known(const Candidate& candidate);
+
+/// The share of the squared misfit of the model without effects that one of the effects found
+/// explains and that no plausible errors of knowns and sensors explain instead: where the model was
+/// fitted or where it was held out, whichever is more.
+///
+/// To the model with the effect and to the one without it, such errors are added: gravity and camera a
+/// little tilted, a heavier load, another length and density, marks that sit elsewhere, a lens, a
+/// shutter that rolls. Each has a standard deviation (DiagnosisThresholds). What they and the free
+/// unknowns change is linearised, and fitted to the fitted part. Zero where the model without the effect cannot be fitted. Throws
+/// Interrupted.
+double share_beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect);
+
+}  // namespace catena
