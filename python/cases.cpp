@@ -17,6 +17,7 @@
 #include "identify/cases/case_writer.hpp"
 #include "identify/diagnosis/diagnosis_folder.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/estimated_noise.hpp"
 #include "identify/fit/estimates.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -268,7 +269,8 @@ struct Identification {
       history.append(py::make_tuple(entry.error, entry.x, entry.message));
     return py::make_tuple(loaded.state(), static_cast<int>(fit.status), fit.message, fit.x,
                           fit.error, fit.start_error, fit.error_noise, fit.evaluations,
-                          fit.iterations, fit.failures, fit.seconds, fit.cpu_seconds, history);
+                          fit.iterations, fit.failures, fit.seconds, fit.cpu_seconds, history,
+                          fit.noise_seen_at);
   }
 
   py::dict unknowns() const {
@@ -304,6 +306,10 @@ Identification identification_from(const py::tuple& state) {
     fit.history.push_back(
         {parts[0].cast<double>(), parts[1].cast<Eigen::VectorXd>(), parts[2].cast<std::string>()});
   }
+  fit.noise_seen_at = state[13].cast<Eigen::VectorXd>();
+  if (fit.noise_seen_at.size() > 0)
+    found.loaded.problem = std::make_shared<const Problem>(
+        with_noise_seen_at(*found.loaded.problem, fit.noise_seen_at));
   return found;
 }
 
@@ -344,7 +350,11 @@ Identification identify(const LoadedCase& loaded, const std::optional<py::functi
   Identification found(loaded);
   {
     py::gil_scoped_release unlock;
-    found.fit = fit(*loaded.problem, options, fit_least_squares);
+    WeighedFit weighed = fit_with_noise(
+        loaded.problem, fit(*before_noise_is_known(loaded.problem), options, fit_least_squares),
+        options, fit_least_squares);
+    found.loaded.problem = std::move(weighed.problem);
+    found.fit = std::move(weighed.fit);
   }
   check.rethrow();
   if (raised) std::rethrow_exception(raised);

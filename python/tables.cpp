@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/in_quotes.hpp"
 #include "identify/recordings/table.hpp"
 
 namespace py = pybind11;
@@ -21,7 +22,7 @@ namespace {
 using Array = py::array_t<double, py::array::forcecast | py::array::c_style>;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& rule) {
-  throw std::invalid_argument("recordings[\"" + name + "\"]: " + rule);
+  throw std::invalid_argument("recordings[" + in_quotes(name) + "]: " + rule);
 }
 
 /// The names of the columns; empty: an array without names.
@@ -51,13 +52,14 @@ Columns named_columns(const py::object& recording, const std::string& name,
                       const std::vector<std::string>& names) {
   Columns columns;
   for (const std::string& column : names) {
-    const Array values = numbers_of(recording[py::str(column)], name, "column \"" + column + "\"");
+    const Array values =
+        numbers_of(recording[py::str(column)], name, "column " + in_quotes(column));
     if (values.ndim() != 1)
-      refuse(name, "column \"" + column + "\" has " + std::to_string(values.ndim()) +
+      refuse(name, "column " + in_quotes(column) + " has " + std::to_string(values.ndim()) +
                        " dimensions; a column has one");
     if (!columns.empty() && columns[0].size() != static_cast<std::size_t>(values.size()))
-      refuse(name, "column \"" + column + "\" has " + std::to_string(values.size()) +
-                       " values, \"" + names[0] + "\" " + std::to_string(columns[0].size()) +
+      refuse(name, "column " + in_quotes(column) + " has " + std::to_string(values.size()) +
+                       " values, " + in_quotes(names[0]) + " " + std::to_string(columns[0].size()) +
                        "; one per frame is wanted");
     columns.emplace_back(values.data(), values.data() + values.size());
   }
@@ -88,7 +90,7 @@ Columns columns_of(const py::object& recording, const std::string& name,
 std::shared_ptr<const Table> table_of(const std::string& experiment, std::vector<std::string> names,
                                       std::vector<std::vector<double>> columns) {
   auto table = std::make_shared<Table>();
-  table->file = "recordings[\"" + experiment + "\"]";
+  table->file = "recordings[" + in_quotes(experiment) + "]";
   table->names = std::move(names);
   table->columns = std::move(columns);
   table->lines.resize(table->columns.empty() ? 0 : table->columns[0].size());

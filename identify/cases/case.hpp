@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,12 @@ struct CableGeometry {
   std::vector<double> link_inertias;  ///< kg m^2, each about the link's own centre
   double load_mass = 0;               ///< kg
   double gravity = 9.81;              ///< m/s^2
+
+  /// m: of all links, however they are given.
+  double whole_length() const {
+    return link_lengths.empty() ? length
+                                : std::accumulate(link_lengths.begin(), link_lengths.end(), 0.0);
+  }
 };
 
 enum class Scale { kLinear, kLogarithmic };
@@ -186,6 +193,9 @@ struct ErrorSpec {
   Measure measure = Measure::kLeastSquares;
   Loss loss = Loss::kNone;  ///< least squares only
   double loss_scale = 3;    ///< in units of the noise
+  /// Least squares only: a first fit shows the noise, a second one makes the residuals white with it.
+  /// Else the noise is what the experiments state.
+  bool noise_estimated = false;
 };
 
 enum class FitMethod { kNelderMead, kLeastSquares, kLbfgs, kSlsqp, kMma };

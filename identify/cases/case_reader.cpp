@@ -9,11 +9,13 @@
 #include <set>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
+#include "common/whole_file.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
@@ -229,8 +231,8 @@ std::vector<SignalSpec> read_signals(const TomlTable& table,
     SignalSpec signal;
     signal.name = entry.text("name");
     signal.data = directory / entry.text("data");
-    if (!std::filesystem::is_regular_file(signal.data))
-      entry.fail("data", signal.data.string() + "; there is no such file");
+    if (!is_file(signal.data))
+      entry.fail("data", shortened(signal.data.string(), kLongestPath) + "; there is no such file");
     signal.time_column = entry.optional_text("time").value_or("time_s");
     signal.column = entry.text("column");
     signals.push_back(signal);
@@ -308,8 +310,9 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
   } else {
     experiment.data = directory / table.text("data");
   }
-  if (!experiment.table && !std::filesystem::is_regular_file(experiment.data))
-    table.fail("data", experiment.data.string() + "; there is no such file");
+  if (!experiment.table && !is_file(experiment.data))
+    table.fail("data",
+               shortened(experiment.data.string(), kLongestPath) + "; there is no such file");
   experiment.kind = static_cast<DataKind>(table.choice("kind", kDataKindWords));
   experiment.use = static_cast<Use>(table.choice("use", kUseWords, false));
   experiment.from = table.optional_number("from").value_or(experiment.from);
@@ -349,6 +352,11 @@ ErrorSpec read_error(const TomlTable& table) {
     error.loss = static_cast<Loss>(table.choice("loss", kLossWords));
   }
   error.loss_scale = optional_positive(table, "loss_scale", error.loss_scale);
+  if (table.has("noise")) {
+    error.noise_estimated = table.choice("noise", kNoiseWords) == 1;
+    if (error.noise_estimated && error.measure != Measure::kLeastSquares)
+      table.fail("noise", "\"estimated\"; only the measure least_squares takes it");
+  }
   return error;
 }
 
@@ -399,8 +407,8 @@ double read_tolerance(const TomlTable& table, std::string_view key) {
   double value = 0;
   std::string unit, rest;
   if (!(words >> value >> unit) || words >> rest || !units.contains(unit) || !(value > 0))
-    table.fail(key, "\"" + text +
-                        "\"; must be a positive number and one of m, cm, mm, um, rad, "
+    table.fail(key, in_quotes(text) +
+                        "; must be a positive number and one of m, cm, mm, um, rad, "
                         "mrad and deg, such as \"2 mm\"");
   return value * units.at(unit);
 }
@@ -426,8 +434,14 @@ void check_value_names(const TomlTable& table, const ParameterSpec& parameter,
                (!std::isnan(experiment.window) && name.starts_with(experiment.name + " from "));
     if (!known)
       table.fail("values",
-                 "\"" + name + "\" is no experiment of this case" + suggestion(name, names));
+                 in_quotes(name) + " is no experiment of this case" + suggestion(name, names));
   }
+}
+
+/// Whether residuals of a fitted experiment cannot be counted in units of their noise.
+bool lacks_noise(const Case& the_case, const ExperimentSpec& experiment) {
+  return experiment.use == Use::kFit && std::isnan(experiment.noise) &&
+         !the_case.error.noise_estimated;
 }
 
 /// A standard deviation weighs a parameter against residuals, which then must be in units of theirs.
@@ -439,11 +453,12 @@ void check_priors(const std::vector<TomlTable>& tables, const Case& the_case) {
       tables[j].fail("standard_deviation",
                      shortest_number(deviation) + "; only the measure least_squares takes it");
     for (const ExperimentSpec& experiment : the_case.experiments)
-      if (experiment.use == Use::kFit && std::isnan(experiment.noise))
+      if (lacks_noise(the_case, experiment))
         tables[j].fail("standard_deviation",
                        shortest_number(deviation) +
-                           "; it is weighed against the noise, and experiment \"" +
-                           experiment.name + "\" states none; give its noise");
+                           "; it is weighed against the noise, and experiment " +
+                           in_quotes(experiment.name) +
+                           " states none; give its noise, or noise = \"estimated\" in [error]");
   }
 }
 
@@ -453,7 +468,7 @@ void check_names(const HandedIn& recordings, const Case& the_case) {
   for (const ExperimentSpec& experiment : the_case.experiments) names.push_back(experiment.name);
   for (const auto& [name, table] : recordings)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError("recordings: \"" + name + "\" is no [[experiment]] of " +
+      throw InputError("recordings: " + in_quotes(name) + " is no [[experiment]] of " +
                        the_case.file.string() + suggestion(name, names));
 }
 
@@ -467,15 +482,16 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   the_case.links = count(model, "links", 0, 1, kMostLinks);
   if (const auto description = model.optional_text("description")) {
     the_case.description = directory / *description;
-    if (!std::filesystem::is_regular_file(the_case.description))
-      model.fail("description", the_case.description.string() + "; there is no such file");
+    if (!is_file(the_case.description))
+      model.fail("description", shortened(the_case.description.string(), kLongestPath) +
+                                    "; there is no such file");
   }
   the_case.cable = read_cable(file.table("cable"), the_case.links);
   std::set<std::string> names;
   for (const TomlTable& table : file.tables("parameter")) {
     the_case.parameters.push_back(read_parameter(table));
     if (!names.insert(the_case.parameters.back().name).second)
-      table.fail("name", "\"" + the_case.parameters.back().name + "\"; names must differ");
+      table.fail("name", in_quotes(the_case.parameters.back().name) + "; names must differ");
   }
   if (const auto initial = file.optional_table("initial"))
     the_case.initial = read_initial(*initial, the_case.links);
@@ -486,7 +502,7 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
         read_experiment(table, static_cast<int>(the_case.experiments.size()) + 1, the_case.links,
                         directory, recordings));
     if (!names.insert(the_case.experiments.back().name).second)
-      table.fail("name", "\"" + the_case.experiments.back().name + "\"; names must differ");
+      table.fail("name", in_quotes(the_case.experiments.back().name) + "; names must differ");
   }
   check_names(recordings, the_case);
   const std::vector<TomlTable> parameters = file.tables("parameter");
@@ -495,11 +511,12 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
   if (const auto table = file.optional_table("error")) {
     the_case.error = read_error(*table);
     for (const ExperimentSpec& experiment : the_case.experiments)
-      if (the_case.error.loss != Loss::kNone && experiment.use == Use::kFit &&
-          std::isnan(experiment.noise))
-        table->fail("loss", "\"" + table->text("loss") +
-                                "\" counts residuals in units of the noise, and experiment \"" +
-                                experiment.name + "\" states none; give its noise");
+      if (the_case.error.loss != Loss::kNone && lacks_noise(the_case, experiment))
+        table->fail("loss",
+                    "\"" + table->text("loss") +
+                        "\" counts residuals in units of the noise, and experiment " +
+                        in_quotes(experiment.name) +
+                        " states none; give its noise, or noise = \"estimated\" in [error]");
   }
   check_priors(parameters, the_case);
   if (const auto table = file.optional_table("optimiser"))

@@ -19,6 +19,7 @@ inline const std::vector<std::string> kLengthUnits = {"m", "cm", "mm", "px"};
 inline const std::vector<std::string> kAngleUnits = {"rad", "deg"};
 inline const std::vector<std::string> kMeasureWords = {"least_squares", "mean_distance",
                                                        "mean_absolute", "likelihood"};
+inline const std::vector<std::string> kNoiseWords = {"stated", "estimated"};
 inline const std::vector<std::string> kLossWords = {"none", "huber", "soft_l1", "cauchy"};
 inline const std::vector<std::string> kMethodWords = {"nelder_mead", "least_squares", "lbfgs",
                                                       "slsqp", "mma"};

@@ -233,6 +233,7 @@ std::string case_text(const Case& the_case, const std::filesystem::path& directo
     out.text("loss", word(kLossWords, the_case.error.loss));
     out.number("loss_scale", the_case.error.loss_scale);
   }
+  if (the_case.error.noise_estimated) out.text("noise", "estimated");
   const OptimiserSpec optimiser, &chosen = the_case.optimiser;
   out.header("[optimiser]");
   out.text("method", word(kMethodWords, chosen.method));

@@ -98,7 +98,12 @@ Residuals fitted_residuals(const Problem& problem, const Evaluation& evaluation)
     make_white(residuals.value);
     for (std::size_t i = first; i < last; ++i)
       kept[i] = !std::isnan(residuals.value[static_cast<Index>(i)]);
-    for (Index j = 0; j < residuals.jacobian.cols(); ++j) make_white(residuals.jacobian.col(j));
+    for (Index j = 0; j < residuals.jacobian.cols(); ++j) {
+      auto along = residuals.jacobian.col(j).segment(static_cast<Index>(first),
+                                                     static_cast<Index>(last - first));
+      if (!along.isZero(0))
+        make_white(residuals.jacobian.col(j));  // else of another window's start
+    }
   }
   if (std::find(kept.begin(), kept.end(), false) == kept.end()) return residuals;
   Residuals seen;
@@ -205,7 +210,9 @@ Eigen::VectorXd noise_of(const Problem& problem, const Residuals& residuals) {
   for (std::size_t i = 0; i < residuals.index.size(); ++i) {
     const Experiment& experiment =
         problem.experiments()[static_cast<std::size_t>(residuals.index[i].experiment)];
-    noise[static_cast<Index>(i)] = experiment.noise ? 1 : experiment.noise_level();
+    const bool white =
+        experiment.noise && in_part(experiment, residuals.index[i].frame, Part::kFit);
+    noise[static_cast<Index>(i)] = white ? 1 : experiment.noise_level();
   }
   return noise;
 }
@@ -295,6 +302,16 @@ double error_of(const Problem& problem, const Evaluation& evaluation, Part part)
                   part == Part::kFit ? fitted_residuals(problem, evaluation)
                                      : residuals_of(problem, evaluation, part),
                   constraints);
+}
+
+const char* error_unit(const Problem& problem) {
+  bool noise_known = false, angles = false;
+  for (const Experiment& experiment : problem.experiments()) {
+    noise_known |= experiment.noise || !std::isnan(experiment.spec.noise);
+    angles |= experiment.spec.kind == DataKind::kAngles;
+  }
+  if (noise_known && problem.the_case().error.measure == Measure::kLeastSquares) return "1";
+  return angles ? "rad" : "m";
 }
 
 Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {

@@ -77,6 +77,9 @@ Eigen::VectorXd channel_weights(const Problem& problem, const Residuals& residua
 /// their weight in the fitted part.
 double error_of(const Problem& problem, const Evaluation& evaluation, Part part);
 
+/// The unit of error_of: "m" or "rad", or "1" where it is counted in noise levels.
+const char* error_unit(const Problem& problem);
+
 /// The fitted part of an evaluation: what the optimisers work with.
 struct Misfit {
   bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty

@@ -125,17 +125,6 @@ bool finished(const FitResult& result) {
   return result.status == FitStatus::kConverged || result.status == FitStatus::kEvaluationLimit;
 }
 
-/// What came before counts too; errors of shorter windows are no errors of the whole.
-void add_effort(FitResult& total, const FitResult& before) {
-  total.evaluations += before.evaluations;
-  total.iterations += before.iterations;
-  total.work += before.work;
-  total.seconds += before.seconds;
-  total.cpu_seconds += before.cpu_seconds;
-  total.failures += before.failures;
-  total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
-}
-
 /// A beginning only gives the next a start: its minimum need not be found more closely.
 constexpr double kBeginningTolerance = 1e-2, kRoughBeginningTolerance = 0.1;
 
@@ -153,6 +142,16 @@ FitResult fit_beginning(const Problem& problem, const FitOptions& options,
 }
 
 }  // namespace
+
+void add_effort(FitResult& total, const FitResult& before) {
+  total.evaluations += before.evaluations;
+  total.iterations += before.iterations;
+  total.work += before.work;
+  total.seconds += before.seconds;
+  total.cpu_seconds += before.cpu_seconds;
+  total.failures += before.failures;
+  total.failed.insert(total.failed.begin(), before.failed.begin(), before.failed.end());
+}
 
 const char* strategy_of(const Problem& problem) {
   if (problem.joined()) return "multiple shooting";

@@ -53,7 +53,12 @@ struct FitResult {
   std::vector<HistoryEntry> history;
   int failures = 0;
   std::vector<Failure> failed;  ///< the first hundred
+  /// The unknowns at whose residuals the noise was estimated; empty where it was not.
+  Eigen::VectorXd noise_seen_at;
 };
+
+/// What came before counts too; errors of other problems on the way are no errors of the last.
+void add_effort(FitResult& total, const FitResult& before);
 
 struct Progress {
   int evaluations = 0, limit = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "identify/fit/error.hpp"
 
@@ -22,7 +23,7 @@ Case with_links(const Case& the_case, int links) {
     if (parameter.sets.find("..") != std::string::npos ||
         (!parameter.sets.empty() &&
          std::isdigit(static_cast<unsigned char>(parameter.sets.back()))))
-      refuse("parameter \"" + parameter.name + "\": sets = \"" + parameter.sets + "\"");
+      refuse("parameter " + in_quotes(parameter.name) + ": sets = " + in_quotes(parameter.sets));
   const auto check = [&](InitialSpec& initial) {
     for (std::vector<double>* of_links : {&initial.azimuths, &initial.azimuth_rates}) {
       if (of_links->empty()) continue;

@@ -17,18 +17,11 @@ using Eigen::Index;
 
 constexpr Index kFewestFramesOfWindow = 8;  // of a window: fewer say nothing beyond their own start
 
-double cable_length(const Case& the_case) {
-  if (the_case.cable.link_lengths.empty()) return the_case.cable.length;
-  double length = 0;
-  for (const double link : the_case.cable.link_lengths) length += link;
-  return length;
-}
-
 /// The recording as its file gives it, checked.
 Recording read_plausible(const Case& the_case, const ExperimentSpec& spec, const Model& model,
                          const ParameterMap& map) {
   Recording recording =
-      read_recording(spec, the_case.links, cable_length(the_case), model.in_space());
+      read_recording(spec, the_case.links, the_case.cable.whole_length(), model.in_space());
   const Eigen::VectorXd lengths = link_lengths(model, map(case_values(the_case, spec.name)));
   for (std::string& warning :
        check_plausible(recording, spec, spec.initial.value_or(the_case.initial), the_case.cable,

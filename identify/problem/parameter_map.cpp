@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
@@ -15,7 +16,7 @@ namespace catena {
 namespace {
 
 [[noreturn]] void fail(const ParameterSpec& parameter, const std::string& problem) {
-  throw InputError(parameter.where + ": parameter \"" + parameter.name + "\": " + problem);
+  throw InputError(parameter.where + ": parameter " + in_quotes(parameter.name) + ": " + problem);
 }
 
 int find(const Model& model, const std::string& name) {
@@ -69,18 +70,19 @@ std::string remedy(const Model& model, const std::string& word) {
   const std::string stem = word.substr(0, word.ends_with("_" + number) ? digits - 1 : digits);
   if (!number.empty() && find(model, stem + "_1") >= 0) {
     const std::string member = stem + "_" + number;
-    if (find(model, member) >= 0) return "; did you mean \"" + member + "\"?";
+    if (find(model, member) >= 0) return "; did you mean " + in_quotes(member) + "?";
     return "; there are " + stem + "_1 to " + stem + "_" + std::to_string(model.links());
   }
   for (int i = 0; i < model.table().parameters; ++i)  // without the name of its effect
     if (const std::string name = model.table().parameter[i].name; name.ends_with("." + word))
-      return "; did you mean \"" + name + "\"?";
+      return "; did you mean " + in_quotes(name) + "?";
   std::vector<std::string> names = known_names(model);
   if (number.empty()) return suggestion(word, names);
   for (int i = 0; i < model.table().parameters; ++i)
     names.insert(names.begin() + i, model.table().parameter[i].name);  // before the families
   const std::string near = nearest_name(word, names);
-  return near.empty() ? suggestion(word, known_names(model)) : "; did you mean \"" + near + "\"?";
+  return near.empty() ? suggestion(word, known_names(model))
+                      : "; did you mean " + in_quotes(near) + "?";
 }
 
 /// EI and damping per length act on joints: the family they set, and their own unit.
@@ -111,14 +113,14 @@ Target find_target(const ParameterSpec& parameter, const Model& model) {
   target.last = links;
   if (parse_range(parameter.sets, target.stem, target.first, target.last) &&
       (target.first < 1 || target.last > links || target.first > target.last))
-    fail(parameter,
-         "sets = \"" + parameter.sets + "\": a range must lie within 1.." + std::to_string(links));
+    fail(parameter, "sets = " + in_quotes(parameter.sets) + ": a range must lie within 1.." +
+                        std::to_string(links));
   for (const PerLength& entry : kPerLength)
     if (target.stem == entry.name) target.per_length = &entry;
   target.indices = family(model, target.per_length ? target.per_length->family : target.stem,
                           target.first, target.last);
   if (target.indices.empty())
-    fail(parameter, "sets = \"" + parameter.sets + "\": the model has no such parameter" +
+    fail(parameter, "sets = " + in_quotes(parameter.sets) + ": the model has no such parameter" +
                         remedy(model, parameter.sets));
   return target;
 }
@@ -129,10 +131,11 @@ void check_unit(const ParameterSpec& parameter, const std::string& wanted) {
   try {
     given = Unit::parse(parameter.unit);
   } catch (const std::invalid_argument& error) {
-    fail(parameter, "unit = \"" + parameter.unit + "\": " + error.what());
+    fail(parameter, "unit = " + in_quotes(parameter.unit) + ": " + error.what());
   }
   if (!(given == Unit::parse(wanted)))
-    fail(parameter, "unit = \"" + parameter.unit + "\": " + parameter.sets + " is in " + wanted);
+    fail(parameter,
+         "unit = " + in_quotes(parameter.unit) + ": " + parameter.sets + " is in " + wanted);
 }
 
 }  // namespace
@@ -173,7 +176,7 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
         fail(parameter,
              "sets = \"cable.density\": [cable] gives link_masses; give density instead");
       if (std::exchange(is_length ? length_set : density_set, true))
-        fail(parameter, "sets = \"" + parameter.sets + "\": set twice");
+        fail(parameter, "sets = " + in_quotes(parameter.sets) + ": set twice");
     } else {
       Target target = find_target(parameter, model);
       check_unit(parameter, target.per_length
@@ -186,7 +189,7 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
         const ParameterSpec*& other = set_by[static_cast<std::size_t>(target)];
         if (other)
           fail(parameter, std::string("sets ") + model.table().parameter[target].name +
-                              ", which parameter \"" + other->name + "\" (" + other->where +
+                              ", which parameter " + in_quotes(other->name) + " (" + other->where +
                               ") sets already");
         other = &parameter;
       }

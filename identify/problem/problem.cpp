@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/impossible_value.hpp"
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
@@ -36,8 +37,8 @@ Model fitting_model(const Case& the_case, Model model) {
   for (const ExperimentSpec& experiment : the_case.experiments) {
     if (experiment.initial) check(*experiment.initial);
     if (model.in_space() && experiment.joined)
-      refuse("experiment: joined: \"" + experiment.name +
-             "\"; windows of a model in space cannot be joined; leave joined out: each window then "
+      refuse("experiment: joined: " + in_quotes(experiment.name) +
+             "; windows of a model in space cannot be joined; leave joined out: each window then "
              "has a start of its own");
   }
   return model;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "common/command_line.hpp"
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/program/progress.hpp"
@@ -98,10 +99,10 @@ std::vector<std::string> motion_file_names(const Problem& problem) {
     const ExperimentSpec& spec = problem.experiments()[e].spec;
     const auto [other, is_new] =
         of_suffix.try_emplace(suffix_of(problem, static_cast<int>(e)), &spec);
-    const std::string rule = spec.where + ": name: \"" + spec.name + "\": ";
+    const std::string rule = spec.where + ": name: " + in_quotes(spec.name) + ": ";
     if (!is_new)
-      throw InputError(rule + "its files would have the names of those of \"" +
-                       other->second->name + "\"; rename one");
+      throw InputError(rule + "its files would have the names of those of " +
+                       in_quotes(other->second->name) + "; rename one");
     if (other->first.size() > kLongestSuffix)
       throw InputError(rule + "too long for the name of a file; at most " +
                        std::to_string(kLongestSuffix - 5) + " bytes are possible");

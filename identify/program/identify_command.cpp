@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include "common/command_line.hpp"
@@ -16,12 +17,14 @@
 #include "identify/cases/case_words.hpp"
 #include "identify/cases/case_writer.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/fit/estimated_noise.hpp"
 #include "identify/fit/estimates.hpp"
 #include "identify/fit/links_study.hpp"
 #include "identify/fit/multi_start.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/program/command.hpp"
 #include "identify/program/progress.hpp"
+#include "identify/program/shards.hpp"
 #include "identify/program/tables.hpp"
 #include "identify/results/csv_tables.hpp"
 #include "identify/results/fit_remarks.hpp"
@@ -36,8 +39,9 @@ struct IdentifyOptions : CommonOptions {
   double time_limit = 0;
   bool resume = false;
   bool check = false;
-  bool profiles = false;
-  int bootstrap = 0;
+  RefitsAsked refits;
+  std::string shard;   ///< "3/8"; empty: all of the work
+  bool merge = false;  ///< of shards; nothing is fitted
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::vector<int> links_study;
   double error_budget = 0.05;
@@ -106,11 +110,13 @@ WorkEstimate estimate_of(const Problem& problem, const IdentifyOptions& options,
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const double threads = std::min(options.threads, cores);
   const double fit = simulations_of_a_fit(problem);
-  const double fits = fit * std::ceil(problem.the_case().optimiser.starts / threads);
-  double rounds_of_refits = std::ceil(options.bootstrap / threads);
-  if (options.profiles)
-    rounds_of_refits +=
-        kRefitsOfProfile * std::ceil(static_cast<double>(problem.unknowns().size()) / threads);
+  const double shards =
+      options.shard.empty() ? 1 : static_cast<double>(named_shard(options.shard, "").of);
+  const auto rounds = [&](double pieces) { return std::ceil(pieces / shards / threads); };
+  const double fits = fit * rounds(problem.the_case().optimiser.starts);
+  double rounds_of_refits = rounds(options.refits.bootstrap);
+  if (options.refits.profiles)
+    rounds_of_refits += kRefitsOfProfile * rounds(static_cast<double>(problem.unknowns().size()));
   const double refits = kShareOfRefit * fit * rounds_of_refits;
   return estimate_of(
       problem,
@@ -125,8 +131,7 @@ WorkEstimate estimate_of(const Problem& problem, const IdentifyOptions& options,
 int study_links(const Case& the_case, const IdentifyOptions& options) {
   WorkEstimate whole;
   IdentifyOptions single = options;  // a study takes one fit for each number of links
-  single.bootstrap = 0;
-  single.profiles = false;
+  single.refits = {};
   for (const int links : options.links_study) {
     Case other = with_links(the_case, links);
     other.optimiser.starts = 1;
@@ -160,23 +165,22 @@ int study_links(const Case& the_case, const IdentifyOptions& options) {
   return interrupted() ? kExitInterrupted : kExitSuccess;
 }
 
-/// Before and after, motions and errors of what was found.
-void complete(const Problem& problem, const IdentifyOptions& options, Identification& found) {
-  found.after = evaluate(problem, found.fit.x, true, false);
-  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e)
-    found.motions.push_back(motion_of(problem, found.fit.x, e));
+/// Errors of what was found, with the profiles and the bootstrap as far as the log or the shard has
+/// them.
+void find_errors(const Problem& problem, const IdentifyOptions& options, RunLog& log,
+                 const Shard& shard, Identification& found) {
   try {
     found.uncertainty = uncertainty_of(problem, found.fit.x);
   } catch (const std::runtime_error&) {
     return;  // sensitivities that fail leave the estimates without errors
   }
-  if (options.profiles && !interrupted())
+  if (options.refits.profiles && !interrupted())
     found.profiles = profiles_of(problem, found.fit, *found.uncertainty, fit_least_squares,
-                                 options.threads, &interrupted());
-  if (options.bootstrap > 0 && !interrupted())
-    found.bootstrap =
-        bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares, options.bootstrap,
-                  problem.the_case().optimiser.seed, options.threads, &interrupted());
+                                 options.threads, &interrupted(), &log, shard);
+  if (options.refits.bootstrap > 0 && !interrupted())
+    found.bootstrap = bootstrap(problem, found.fit, *found.uncertainty, fit_least_squares,
+                                options.refits.bootstrap, problem.the_case().optimiser.seed,
+                                options.threads, &interrupted(), &log, shard);
 }
 
 /// How well joined windows meet: nothing to say where none are joined.
@@ -201,38 +205,86 @@ std::string remark_lines(const Problem& problem, const Evaluation& evaluation) {
   return out;
 }
 
+/// What is unusual of the noise that was estimated, a line each.
+std::string noise_lines(const Problem& problem) {
+  std::string out;
+  for (const std::string& words : noise_in_words(problem)) out += "noise of " + words + "\n";
+  return out;
+}
+
+WorkPart part_of(const IdentifyOptions& options) {
+  const std::filesystem::path output = output_folder(options);
+  if (options.merge) return merge_in(output);
+  return options.shard.empty() ? WorkPart{{}, 0, output} : named_shard(options.shard, output);
+}
+
+/// The end of a shard's work; `done`: what there is of it.
+int end_shard(const IdentifyOptions& options, const RunLog& log, const std::string& done) {
+  if (log.failed())
+    throw std::runtime_error("the shard is not finished; make room and run the shard again");
+  if (interrupted()) return report_interruption("what was finished is kept; run the shard again");
+  if (!options.quiet) std::cout << "shard " << options.shard << ": " << done << "\n";
+  return kExitSuccess;
+}
+
 int identify_case(const IdentifyOptions& options) {
   Case the_case = read_case(options.case_file);
   watch_for_interruption();
   if (!options.links_study.empty()) return study_links(the_case, options);
   const Model model = model_of(the_case, options);
-  const Problem problem(std::move(the_case), model);
-  show_warnings(problem, options);
-  if (options.check) return check_case(problem, options);
-  check_fittable(problem);
+  auto asked = std::make_shared<const Problem>(std::move(the_case), model);
+  show_warnings(*asked, options);
+  if (options.check) return check_case(*asked, options);
+  check_fittable(*asked);
 
-  std::vector<std::string> names = motion_file_names(problem);
-  names.insert(names.end(), {"residuals.csv", "history.csv", "fitted.toml", "result.json"});
-  Identification found;
-  require_yes(options.yes, "the identification", estimate_of(problem, options, found.before));
-  OutputFolder output(output_folder(options), names);
-  {
-    ProgressLine line(!options.quiet);
-    RunLog log(output.path() / "run.log", run_key(problem), options.resume,
-               [&line](const std::string& text) {
-                 line.clear();
-                 std::cerr << "catena: " << text << "\n";
-               });
-    found.starts = fit_from_many(problem, fit_options_of(options, line), fit_least_squares,
-                                 options.threads, &log);
+  const WorkPart part = part_of(options);
+  std::vector<std::string> names;
+  if (!part.is_shard()) {
+    names = motion_file_names(*asked);
+    names.insert(names.end(), {"residuals.csv", "history.csv", "fitted.toml", "result.json"});
   }
-  found.fit = found.starts[best_of(found.starts)];
+  Identification found;
+  const WorkEstimate estimate = estimate_of(*asked, options, found.before);
+  if (!part.is_merge()) require_yes(options.yes, "the identification", estimate);
+  OutputFolder output(part.folder(), names);
+  std::optional<WorkFolder> scratch;  // the log of a merge holds nothing new
+  if (part.is_merge()) scratch.emplace(std::filesystem::temp_directory_path(), "catena-merge-");
+  ProgressLine line(!options.quiet);
+  RunLog log((scratch ? scratch->path() : output.path()) / "run.log", run_key(*asked),
+             options.resume || part.is_shard(), [&line](const std::string& text) {
+               line.clear();
+               std::cerr << "catena: " << text << "\n";
+             });
+  take_over_others(log, part);
+  const FitOptions fit_options = fit_options_of(options, line);
+  found.starts = fit_from_many(*before_noise_is_known(asked), fit_options, fit_least_squares,
+                               options.threads, &log, part.shard);
+  for (std::size_t start = 0; start < found.starts.size(); ++start)
+    if (found.starts[start].status == FitStatus::kNotRun) {
+      if (part.is_merge()) throw start_is_missing(start, part);
+      line.clear();
+      return end_shard(options, log, "its starts are finished, not yet those of all others");
+    }
+  WeighedFit weighed =
+      fit_with_noise(asked, found.starts[best_of(found.starts)], fit_options, fit_least_squares);
+  asked = std::move(weighed.problem);
+  found.fit = std::move(weighed.fit);
+  line.clear();
+  const Problem& problem = *asked;
   if (found.fit.status == FitStatus::kFailed) throw std::runtime_error(found.fit.message);
   if (!std::isfinite(found.fit.error)) {
     if (interrupted()) return report_interruption("no simulation was finished");
     throw std::runtime_error("no simulation was finished within --time-limit");
   }
-  complete(problem, options, found);
+  if (part.is_merge()) require_ends(log, part, found.fit, options.refits);
+  find_errors(problem, options, log, part.shard, found);
+  if (part.is_shard()) {
+    if (!interrupted()) note_end(log, part, found.fit, options.refits);
+    return end_shard(options, log, "finished");
+  }
+  found.after = evaluate(problem, found.fit.x, true, false);
+  for (int e = 0; e < static_cast<int>(problem.experiments().size()); ++e)
+    found.motions.push_back(motion_of(problem, found.fit.x, e));
   const std::string result = identification_result_text(problem, found);
   write_output(output, files_of(problem, found, output.path(), result));
   if (options.json) std::cout << result;
@@ -247,15 +299,37 @@ int identify_case(const IdentifyOptions& options) {
                      "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.4f} "
                      "s of a core; {}\n",
                      kMeasureWords[static_cast<std::size_t>(problem.the_case().error.measure)],
-                     measured_error(problem, found.starts.front().start_error),  // the case's own
+                     measured_error(problem, error_of(problem, found.before, Part::kFit)),
                      measured_error(problem, found.fit.error), found.fit.evaluations,
                      found.fit.failures, found.fit.seconds, found.fit.cpu_seconds,
                      name_of(found.fit.status))
-              << remark_lines(problem, found.after) << "written to "
+              << noise_lines(problem) << remark_lines(problem, found.after) << "written to "
               << output_folder(options).string() << "\n";
   }
   if (interrupted()) return report_interruption("the best so far was written");
   return kExitSuccess;
+}
+
+void add_refit_options(CLI::App& command, RefitsAsked& refits) {
+  command.add_flag("--profiles", refits.profiles, "profile likelihood of every parameter");
+  command
+      .add_option("--bootstrap", refits.bootstrap,
+                  "so many refits of resampled residuals; at most 100000")
+      ->check(CLI::Range(0, kMostFits));
+}
+
+void add_merge_command(CLI::App& program, int& exit_status) {
+  static IdentifyOptions options;
+  options.merge = true;
+  CLI::App* command = program.add_subcommand("merge", "put shards of an identification together");
+  command->footer(
+      "Example:\n  catena identify cable.toml --output fit --bootstrap 1000 --shard 1/2\n"
+      "  catena identify cable.toml --output fit --bootstrap 1000 --shard 2/2\n"
+      "  catena merge cable.toml --output fit --bootstrap 1000\n"
+      "With several starts, run the shards twice: the first time they do the starts.");
+  add_common_options(*command, options, "_result");
+  add_refit_options(*command, options.refits);
+  command->callback([&exit_status] { exit_status = identify_case(options); });
 }
 
 }  // namespace
@@ -272,11 +346,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       "Ctrl-C ends with the best so far.");
   add_common_options(*command, options, "_result");
   command->add_flag("--check", options.check, "only tell what the data can determine; no fit");
-  command->add_flag("--profiles", options.profiles, "profile likelihood of every parameter");
-  command
-      ->add_option("--bootstrap", options.bootstrap,
-                   "so many refits of resampled residuals; at most 100000")
-      ->check(CLI::Range(0, kMostFits));
+  add_refit_options(*command, options.refits);
   command
       ->add_option("--links-study", options.links_study,
                    "refit with these numbers of links: 6,12,24")
@@ -294,7 +364,12 @@ void add_identify_command(CLI::App& program, int& exit_status) {
   command
       ->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
       ->check(CLI::Range(1, kMostThreads));
+  CLI::Option* shard = command->add_option("--shard", options.shard,
+                                           "3/8: a part of starts, profiles and bootstrap");
+  for (const char* other : {"--check", "--links-study", "--time-limit", "--json"})
+    shard->excludes(other);
   command->callback([&exit_status] { exit_status = identify_case(options); });
+  add_merge_command(program, exit_status);
 }
 
 }  // namespace catena

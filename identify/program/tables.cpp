@@ -105,14 +105,9 @@ std::string gap_table(const Problem& problem, const Evaluation* before, const Ev
 }
 
 std::string measured_error(const Problem& problem, double error) {
-  bool noise = false, angles = false;
-  for (const Experiment& experiment : problem.experiments()) {
-    noise |= !std::isnan(experiment.spec.noise);
-    angles |= experiment.spec.kind == DataKind::kAngles;
-  }
-  if (noise && problem.the_case().error.measure == Measure::kLeastSquares)
-    return fmt::format("{:.4g} times the noise", error);
-  return fmt::format("{:.4g} {}", 1e3 * error, angles ? "mrad" : "mm");
+  const std::string unit = error_unit(problem);
+  if (unit == "1") return fmt::format("{:.4g} times the noise", error);
+  return fmt::format("{:.4g} m{}", 1e3 * error, unit);
 }
 
 std::string parameter_table(const Problem& problem, const FitResult& fit,

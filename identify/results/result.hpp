@@ -161,6 +161,7 @@ struct WeakDirection {
 struct ResidualNoise {
   double deviation = kAbsent, autocorrelation = kAbsent;
   bool autocorrelated = false;
+  Words words;  ///< what is unusual of the noise, where it was estimated
   Row singular_values;
   std::vector<ChannelNoise> channels;
   std::vector<WeakDirection> weak_directions;

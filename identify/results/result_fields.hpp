@@ -163,6 +163,7 @@ void fields(auto& archive, Is<ResidualNoise> auto& noise) {
   archive("deviation", noise.deviation);
   archive("lag_one_correlation", noise.autocorrelation);
   archive("autocorrelated", noise.autocorrelated);
+  archive("words", noise.words);
   archive("singular_values", noise.singular_values);
   archive("channels", noise.channels);
   archive("weak_directions", noise.weak_directions);

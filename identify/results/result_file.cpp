@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nesting.hpp"
 #include "common/whole_file.hpp"
@@ -219,9 +220,8 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& rule) const {
-    std::string text = json_.dump();
-    if (text.size() > 60) text = text.substr(0, 57) + "...";
-    throw InputError(fmt::format("{} is {}; {}", where_, text, rule));
+    throw InputError(fmt::format("{} is {}; {}", shortened(where_, kLongestPath),
+                                 shortened(json_.dump()), rule));
   }
 
   Reader at(const char* key) const {

@@ -9,6 +9,7 @@
 #include "description/description.hpp"
 #include "description/formula.hpp"
 #include "identify/cases/case_words.hpp"
+#include "identify/fit/estimated_noise.hpp"
 #include "identify/models/model_provider.hpp"
 #include "identify/results/fit_remarks.hpp"
 #include "identify/results/result_file.hpp"
@@ -177,15 +178,8 @@ results::Measure measure_of(const Problem& problem, const Evaluation& evaluation
       if (count[c] > 0)
         result.parts.push_back({of + recording.channels[c].name, sum[c] / count[c]});
   }
-  bool noise_given = false, angles = false;
-  for (const Experiment& experiment : problem.experiments()) {
-    noise_given |= !std::isnan(experiment.spec.noise);
-    angles |= experiment.spec.kind == DataKind::kAngles;
-  }
-  const Measure measure = problem.the_case().error.measure;
-  const bool in_noise = noise_given && measure == Measure::kLeastSquares;
-  result.name = kMeasureWords[static_cast<std::size_t>(measure)];
-  result.unit = in_noise ? "1" : angles ? "rad" : "m";
+  result.name = kMeasureWords[static_cast<std::size_t>(problem.the_case().error.measure)];
+  result.unit = error_unit(problem);
   result.value = error_of(problem, evaluation, Part::kFit);
   if (residuals_of(problem, evaluation, Part::kValidation).value.size())
     result.validation = error_of(problem, evaluation, Part::kValidation);
@@ -248,6 +242,7 @@ void put_uncertainty(results::Result& result, const Problem& problem, const Iden
   noise.deviation = uncertainty.noise;
   noise.autocorrelation = uncertainty.autocorrelation;
   noise.autocorrelated = uncertainty.autocorrelated;
+  noise.words = noise_in_words(problem);
   noise.singular_values = row_of(uncertainty.singular_values);
   const Residuals residuals = residuals_of(problem, found.after, Part::kFit);
   for (const ChannelNoise& channel : channels_of(problem, residuals)) {

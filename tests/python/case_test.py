@@ -1,48 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python module: a case with its data, and its identification."""
 import pathlib
+import sys
 import tempfile
 import unittest
 
 import catena
 import numpy as np
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
+from cases import DATA, SWING  # noqa: E402
+
 # Errors agree to some multiples of the integrator's relative tolerance, 1e-8: other frames, other
 # steps.
 CASE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "first_cable" / "case.toml"
 # Two links that swing for ever.
-ENDLESS = """
-format = 1
-kind = "case"
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.1
-unit = "N m/rad"
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.0
-unit = "N m s/rad"
-[initial]
-shape = "straight"
-angle = 0.6
-"""
+ENDLESS = SWING.replace("value = 0.005", "value = 0.0")
 FREE = "value = 0.1\nfree = true\nlower = 0.01\nupper = 1.0"
-DATA = """
-[[experiment]]
-name = "swing"
-data = "data.csv"
-kind = "markers"
-[simulation]
-max_steps = 1000000000
-"""
+DATA = DATA.replace("swing.csv", "data.csv") + "[simulation]\nmax_steps = 1000000000\n"
 
 
 class Cases(unittest.TestCase):

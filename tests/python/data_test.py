@@ -166,6 +166,18 @@ class Fits(unittest.TestCase):
         np.testing.assert_array_equal(copy.trajectory.q, run.trajectory.q)
         self.assertEqual((copy.status, copy.statistics.steps), (run.status, run.statistics.steps))
 
+    def test_estimated_noise(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "case.toml"
+            squares = 'measure = "least_squares"'
+            file.write_text(CASE.read_text().replace(squares, f'{squares}\nnoise = "estimated"'))
+            found = catena.Case(file, {self.case.experiments[0].name: columns()}).identify()
+        self.assertTrue(1 < found.error < 2)  # in units of the noise, no more in metres
+        self.assertGreater(found.evaluations, self.found.evaluations)
+        np.testing.assert_allclose(found.x[:2], self.found.x[:2], rtol=0.05)
+        again = pickle.loads(pickle.dumps(found))
+        np.testing.assert_array_equal(again.standard_errors, found.standard_errors)
+
     def test_report(self):
         with tempfile.TemporaryDirectory() as folder:
             report = pathlib.Path(folder) / "report.html"

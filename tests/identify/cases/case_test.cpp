@@ -161,6 +161,7 @@ TEST_CASE("a case is read as it stands") {
   CHECK(the_case.experiments[1].points[0].link == 2);
   CHECK(the_case.experiments[1].signals[0].column == "y");
   CHECK(the_case.error.loss == Loss::kHuber);
+  CHECK_FALSE(the_case.error.noise_estimated);
   CHECK(the_case.optimiser.growing_windows.size() == 2);
   CHECK(the_case.simulation.max_steps == 5000);
 }
@@ -177,6 +178,27 @@ TEST_CASE("a tolerance is a number and a unit, and a diagnosis names effects") {
   CHECK(diagnosis("\"2 mm\"").impossible == std::vector<std::string>{"scale", "camera_tilt"});
   for (const char* wrong : {"\"2\"", "\"2 miles\"", "\"-2 mm\"", "\"2 mm or so\"", "\"\""})
     CHECK(failure([&] { diagnosis(wrong); }).find("diagnosis.good_enough") != std::string::npos);
+}
+
+TEST_CASE("noise may be estimated: a loss and a prior need no stated one") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const auto read = [&](const std::string& text) {
+    return parse_case(text, "case.toml", folder.path());
+  };
+  const std::string loss = "loss_scale = 2.5\n";
+  const std::string estimated = replaced(kWhole, loss, loss + "noise = \"estimated\"\n");
+  const Case unstated = read(replaced(replaced(estimated, "noise = 0.001\n", ""), "value = 0.1\n",
+                                      "value = 0.1\nstandard_deviation = 0.02\n"));
+  CHECK(unstated.error.noise_estimated);
+  CHECK(read(case_text(unstated, folder.path())).error.noise_estimated);
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    CHECK(failure([&] { read(text); }).find(why) != std::string::npos);
+  };
+  refused(replaced(estimated, "\"estimated\"", "\"unknown\""), "noise: \"unknown\"");
+  refused(replaced(estimated, "measure = \"least_squares\"\nloss = \"huber\"",
+                   "measure = \"likelihood\""),
+          "only the measure least_squares takes it");
 }
 
 TEST_CASE("a standard deviation needs a free parameter, least squares and the noise") {
@@ -200,8 +222,7 @@ TEST_CASE("a standard deviation needs a free parameter, least squares and the no
   refused(replaced(known, "free = true\n", ""), "say free = true");
   const std::string loss = "\nloss = \"huber\"\nloss_scale = 2.5";
   refused(replaced(replaced(known, loss, ""), "noise = 0.001\n", ""), "states none");
-  refused(replaced(known, "measure = \"least_squares\"\nloss = \"huber\"\nloss_scale = 2.5",
-                   "measure = \"likelihood\""),
+  refused(replaced(known, "measure = \"least_squares\"" + loss, "measure = \"likelihood\""),
           "only the measure least_squares");
 }
 
