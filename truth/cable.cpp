@@ -20,6 +20,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "truth/hermite.hpp"
 #include "truth/vector.hpp"
 
 namespace truth {
@@ -249,12 +250,9 @@ class Midpoint {
   const VectorXd& q() const { return q_; }
   const VectorXd& v() const { return v_; }
 
-  /// Cubic Hermite between the last two step ends.
+  /// Between the last two step ends.
   VectorXd angles_at(double t) const {
-    const double s = (t - (time() - step_)) / step_;
-    const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s);
-    const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
-    return h00 * q_before_ + h01 * q_ + step_ * (h10 * v_before_ + h11 * v_);
+    return hermite(q_before_, v_before_, q_, v_, step_, (t - (time() - step_)) / step_);
   }
 
   void advance() {

@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "truth/hermite.hpp"
 #include "truth/vector.hpp"
 
 namespace truth {
@@ -220,12 +221,9 @@ class GeneralisedAlpha {
   const VectorXd& q() const { return q_; }
   const VectorXd& v() const { return v_; }
 
-  /// Cubic Hermite between the last two step ends.
+  /// Between the last two step ends.
   VectorXd at(double t) const {
-    const double s = (t - (time() - step_)) / step_;
-    const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s);
-    const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
-    return h00 * q_before_ + h01 * q_ + step_ * (h10 * v_before_ + h11 * v_);
+    return hermite(q_before_, v_before_, q_, v_, step_, (t - (time() - step_)) / step_);
   }
 
   void advance() {
@@ -237,7 +235,6 @@ class GeneralisedAlpha {
       const VectorXd change = factor_.solve(r);
       next -= change;
       const double size = kGamma * step_ * change.lpNorm<Eigen::Infinity>();  // m/s and rad/s
-      if (getenv("DBG")) fprintf(stderr, "%d %g\n", iteration, size);
       if (size < 1e-9 || (size < 1e-7 && size > 0.5 * before)) break;
       if (!(size < 1e6) || iteration > 60)
         throw std::runtime_error("the rod's integrator failed at t = " + std::to_string(time()) +
