@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -45,15 +44,6 @@ const char* ending_program;
 std::terminate_handler usual_end;
 std::atomic<bool> memory_was_short = false;
 
-/// Calls only what a signal handler may call.
-[[noreturn]] void end_without_memory() {
-  constexpr std::string_view kWords = ": not enough memory\n";
-  [[maybe_unused]] const bool said =
-      write(STDERR_FILENO, ending_program, std::strlen(ending_program)) >= 0 &&
-      write(STDERR_FILENO, kWords.data(), kWords.size()) >= 0;
-  std::_Exit(1);
-}
-
 }  // namespace
 
 void end_where_memory_is_short(const char* program) {
@@ -62,16 +52,23 @@ void end_where_memory_is_short(const char* program) {
     memory_was_short = true;
     throw std::bad_alloc();
   });
-  // GiNaC does not restore its expressions when memory is refused, and may read them afterwards.
-  std::signal(SIGSEGV, [](int number) {
-    if (memory_was_short) end_without_memory();
-    std::signal(number, SIG_DFL);
-    std::raise(number);
-  });
   usual_end = std::set_terminate([] {
     if (!memory_was_short) usual_end();
     end_without_memory();
   });
+}
+
+void end_at_first_memory_shortage(const char* program) {
+  ending_program = program;
+  std::set_new_handler(end_without_memory);
+}
+
+void end_without_memory() {
+  constexpr std::string_view kWords = ": not enough memory\n";
+  [[maybe_unused]] const bool said =
+      write(STDERR_FILENO, ending_program, std::strlen(ending_program)) >= 0 &&
+      write(STDERR_FILENO, kWords.data(), kWords.size()) >= 0;
+  std::_Exit(1);
 }
 
 int status_of(const CLI::App& program, const CLI::ParseError& error) {

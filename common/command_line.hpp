@@ -26,6 +26,13 @@ void add_yes_option(CLI::App& command, bool& yes);
 /// ends with status 1 and says so, instead of by a signal.
 void end_where_memory_is_short(const char* program);
 
+/// The first refusal of memory ends the program with status 1, and it says so. For programs that use
+/// libraries which cannot be used any more, nor even destroyed, after an exception within them.
+void end_at_first_memory_shortage(const char* program);
+
+/// What end_at_first_memory_shortage does, for libraries that do not allocate by operator new.
+[[noreturn]] void end_without_memory();
+
 /// To be asked last: `status`, or 1 after a message on standard error where something that was
 /// printed could not be written (a full disk).
 int status_after_output(const char* program, int status);

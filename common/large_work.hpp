@@ -12,8 +12,8 @@ struct WorkEstimate {
   bool or_more = false;  ///< the time is not known, only that it is more than this
 };
 
-/// What is begun without being asked for by --yes (in Python: large_work=True): a wait that nobody is surprised by, and memory
-/// that every machine of today has.
+/// What is begun without being asked for by --yes (in Python: large_work=True): a wait that nobody is
+/// surprised by, and memory that every machine of today has.
 inline constexpr WorkEstimate kMostUnasked = {600, 4e9};
 
 /// Throws InputError "WHAT needs about 40 GB and 20 min; ..." where the work is above kMostUnasked

@@ -2,9 +2,11 @@
 //
 // catena-derive: the commands that need computer algebra. Exit status 0: success; 1: a computation
 // failed or a difference was found; 2: wrong usage or input.
+#include <cln/malloc.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
-#include <new>
 
 #include "common/command_line.hpp"
 #include "common/input_error.hpp"
@@ -31,9 +33,6 @@ int run(int argc, char** argv) {
   } catch (const catena::InputError& error) {
     std::fprintf(stderr, "catena-derive: %s\n", error.what());
     return 2;
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "catena-derive: not enough memory\n");
-    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "catena-derive: %s\n", error.what());
     return 1;
@@ -44,6 +43,12 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  catena::end_where_memory_is_short("catena-derive");
+  // GiNaC does not restore its expressions when memory is refused, and reads them afterwards.
+  catena::end_at_first_memory_shortage("catena-derive");
+  cln::malloc_hook = [](std::size_t size) {
+    void* const memory = std::malloc(size);
+    if (!memory) catena::end_without_memory();
+    return memory;
+  };
   return catena::status_after_output("catena-derive", run(argc, argv));
 }
