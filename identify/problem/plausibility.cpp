@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "common/input_error.hpp"
@@ -53,6 +54,9 @@ class Check {
         lengths_(lengths),
         length_(lengths.sum()),
         period_(2 * std::numbers::pi * std::sqrt(length_ / cable.gravity)) {
+    const catena_model& table = model.table();
+    for (int i = 0; i < table.energies; ++i)
+      movable_ = movable_ || std::string_view(table.energy_item[i].name) == "support";
     for (const char* effect : {"support_", "origin_offset", "scale", "marker_offset"})
       for (int i = 0; i < model.parameters(); ++i)
         movable_ = movable_ || std::string(model.table().parameter[i].name).starts_with(effect);
@@ -462,7 +466,7 @@ class Check {
   const Eigen::VectorXd& lengths_;
   double length_, period_;  // m, s
   std::vector<double> arcs_;
-  bool movable_ = false;
+  bool movable_ = false;  // an effect moves the support, or what the camera shows
   std::vector<std::string> warnings_;
 };
 
