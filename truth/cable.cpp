@@ -374,6 +374,8 @@ VectorXd start_state(const Cable& cable, const Hidden& hidden, const Chain& chai
 Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
             const std::vector<double>& arc, const std::vector<double>& time,
             const Integration& integration) {
+  if (hidden.stribeck != 0 || hidden.drag_growth != 0)
+    throw std::invalid_argument("friction_law and drag_law: coded for the rod only");
   const Chain chain(cable, hidden);
   Midpoint state(chain, hidden, start_state(cable, hidden, chain, start_angles), integration.step);
   Motion motion;

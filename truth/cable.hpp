@@ -38,7 +38,8 @@ struct Integration {
 std::vector<double> catenary_angles(const Cable& cable, double held_side, double held_down);
 
 /// The motion from rest at the given link angles, seen at the points `arc` at times `time`
-/// (increasing, from 0). Throws std::runtime_error if the integration fails.
+/// (increasing, from 0). Throws std::invalid_argument for a hidden law that only the rod has (rod.hpp),
+/// std::runtime_error if the integration fails.
 Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
             const std::vector<double>& arc, const std::vector<double>& time,
             const Integration& integration = {});

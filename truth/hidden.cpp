@@ -44,6 +44,8 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"support_motion.frequency", &Hidden::support_frequency},
       {"support_motion.side_phase", &Hidden::support_side_phase},
       {"support_motion.down_phase", &Hidden::support_down_phase},
+      {"friction_law.stribeck", &Hidden::stribeck},
+      {"drag_law.growth", &Hidden::drag_growth},
       {"clock_offset.offset", &Hidden::clock_offset},
       {"scale.factor", &Hidden::scale},
       {"camera_tilt.tilt", &Hidden::camera_tilt},

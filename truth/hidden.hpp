@@ -38,6 +38,10 @@ struct Hidden {
   double axial_relaxation = 1e-3;  // s
   double support_side_amplitude = 0, support_down_amplitude = 0;                 // m
   double support_frequency = 1, support_side_phase = 0, support_down_phase = 0;  // Hz, rad
+  // laws of the rod's friction and drag that no model has (rod.hpp)
+  double stribeck = 0;  // by how much friction at rest exceeds that in motion, share
+  double drag_growth =
+      0;  // m/s; drag of slow motion is larger: its coefficient goes with Reynolds' number
   // the camera
   double clock_offset = 0;                     // s
   double scale = 1;                            // 1

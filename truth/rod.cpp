@@ -32,6 +32,7 @@ constexpr double kRadius = 3e-3;         // m, of a round section: EA = 4 EI / r
 constexpr double kShearShare = 0.35;     // GA over EA: G = E / 2.6, nine tenths of the area
 constexpr double kRelaxation = 1e-3;     // s, of strain and shear
 constexpr double kFrictionReach = 5e-4;  // rad over an element, until friction slips
+constexpr double kStribeckRate = 0.1;    // rad/(m s), of the curvature
 constexpr double kHoldingStep = 2e-3, kCarried = 3, kLongestHold = 60;  // s
 constexpr double kFollowing = 50;    // 1/s, of the end that is carried
 constexpr double kHeldStill = 1e-7;  // m/s and rad/s
@@ -43,6 +44,19 @@ double slipped(double memory, double turn, double reach) {
   const double a = std::abs(turn) / (reach * reach), b = memory + turn;
   if (a == 0) return b;
   return std::copysign((std::sqrt(1 + 4 * a * std::abs(b)) - 1) / (2 * a), b);
+}
+
+/// The same with friction that is larger by a share `stribeck` at rest than in motion: the LuGre model
+/// (Canudas de Wit and others 1995), z' = w - |w| z / (reach g(w)).
+double slipped_lugre(double memory, double turn, double reach, double rate, double stribeck) {
+  const double limit = reach * (1 + stribeck * std::exp(-std::pow(rate / kStribeckRate, 2)));
+  return (memory + turn) / (1 + std::abs(turn) / limit);
+}
+
+/// What multiplies the coefficient of quadratic drag: that of a cylinder is 1 + 10 Re^(-2/3) times
+/// its largest (White 1974).
+double growth_of_drag(double speed, double growth) {
+  return growth == 0 || speed == 0 ? 1 : 1 + std::pow(growth / speed, 2.0 / 3);
 }
 
 struct Memory {
@@ -86,10 +100,16 @@ class Rod {
   void residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
                 const Memory& memory, double step, VectorXd& r) const;
 
+  /// The friction's memory at the end of a step in which the section of an element turns by `turn`.
+  double friction_after(double memory, double turn, double step) const {
+    if (hidden_.stribeck == 0 || step == 0) return slipped(memory, turn, kFrictionReach);
+    return slipped_lugre(memory, turn, kFrictionReach, turn / (step * h_), hidden_.stribeck);
+  }
+
   void slip(Memory& memory, const VectorXd& v, double step) const {
     for (int e = 0; e < elements_; ++e) {
       const double turn = step * (angle(v, e + 1) - angle(v, e));
-      memory.friction[e] = slipped(memory.friction[e], turn, kFrictionReach);
+      memory.friction[e] = friction_after(memory.friction[e], turn, step);
       memory.hysteresis[e] = slipped(memory.hysteresis[e], turn, hidden_.hysteresis_reach);
     }
   }
@@ -110,13 +130,17 @@ Vector Rod::force_per_length(Vector velocity, double section) const {
   const double vn = dot(velocity, n), vt = dot(velocity, t);
   const Vector wind = velocity - Vector{h.wind, 0};
   const double un = dot(wind, n), ut = dot(wind, t);
-  return -1 * (h.drag_isotropic * norm(velocity) * velocity +
-               (h.drag_linear_normal * vn + h.drag_quadratic_normal * std::abs(vn) * vn +
-                h.wind_normal * std::abs(un) * un) *
-                   n +
-               (h.drag_linear_tangential * vt + h.drag_quadratic_tangential * std::abs(vt) * vt +
-                h.wind_tangential * std::abs(ut) * ut) *
-                   t);
+  const double of_drag = growth_of_drag(norm(velocity), h.drag_growth);
+  const double of_wind = growth_of_drag(norm(wind), h.drag_growth);
+  const auto squared = [](double rate) { return std::abs(rate) * rate; };
+  return -1 *
+         (of_drag * h.drag_isotropic * norm(velocity) * velocity +
+          (h.drag_linear_normal * vn + of_drag * h.drag_quadratic_normal * squared(vn) +
+           of_wind * h.wind_normal * squared(un)) *
+              n +
+          (h.drag_linear_tangential * vt + of_drag * h.drag_quadratic_tangential * squared(vt) +
+           of_wind * h.wind_tangential * squared(ut)) *
+              t);
 }
 
 void Rod::residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
@@ -142,7 +166,9 @@ void Rod::residual(double t, const VectorXd& q, const VectorXd& v, const VectorX
     const double mass = cable_.density * share + load;
     const Vector velocity = place(t, v, k), acceleration = place(t, a, k);
     Vector force = mass * (gravity - acceleration);
-    if (last) force = force - hidden_.load_drag * norm(velocity) * velocity;
+    if (last)
+      force = force - growth_of_drag(norm(velocity), hidden_.drag_growth) * hidden_.load_drag *
+                          norm(velocity) * velocity;
     double moment = -inertia * share * angle(a, k);
     if (held_) {
       force = force - kHoldingDrag * mass * velocity;
@@ -168,8 +194,8 @@ void Rod::residual(double t, const VectorXd& q, const VectorXd& v, const VectorX
                     cable_.bending_damping * bending;
     const double turn = step * bending * h_;
     if (hidden_.joint_friction != 0)
-      moment += hidden_.joint_friction / kFrictionReach *
-                slipped(memory.friction[e], turn, kFrictionReach);
+      moment +=
+          hidden_.joint_friction / kFrictionReach * friction_after(memory.friction[e], turn, step);
     if (hidden_.hysteresis_moment != 0)
       moment += hidden_.hysteresis_moment / hidden_.hysteresis_reach *
                 slipped(memory.hysteresis[e], turn, hidden_.hysteresis_reach);
@@ -320,6 +346,8 @@ void refuse_what_is_not_there(const Hidden& hidden) {
                                 &Hidden::hysteresis_reach,
                                 &Hidden::gravity_tilt,
                                 &Hidden::axial_stiffness,
+                                &Hidden::stribeck,
+                                &Hidden::drag_growth,
                                 &Hidden::support_side_amplitude,
                                 &Hidden::support_down_amplitude,
                                 &Hidden::support_frequency,
@@ -366,10 +394,7 @@ void see(const Rod& rod, double t, const VectorXd& q, Motion& motion) {
     const Vector above = rod.place(t, q, e), below = rod.place(t, q, e + 1);
     const double first = rod.angle(q, e), second = rod.angle(q, e + 1);
     const double chord = norm(below - above);
-    const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h10 = u * (1 - u) * (1 - u);
-    const double h01 = u * u * (3 - 2 * u), h11 = u * u * (u - 1);
-    const Vector at =
-        h00 * above + h01 * below + chord * (h10 * along(first) + h11 * along(second));
+    const Vector at = hermite(above, along(first), below, along(second), chord, u);
     side.push_back(at.side);
     down.push_back(at.down);
     angle.push_back((1 - u) * first + u * second);

@@ -17,7 +17,8 @@ markers or whole pixels; the last 30 % held out. Noise is white, or of other kin
 smoothed tracks, one marker three times noisier, a camera that shakes, Student's t with 4 degrees of
 freedom, 0.1 % outliers of 20 standard deviations, or all but smoothing. What is hidden is coded apart
 from the models (`truth`) and integrated by another method. Some recordings are of no chain of links but of an
-elastic rod of {elements} finite elements whose friction sticks: filmed well (`rod`), with all noise but smoothing
+elastic rod of {elements} finite elements whose friction sticks: filmed well (`rod`), with friction half as
+much larger at rest and drag that goes with Reynolds' number (`rod_laws`), with all noise but smoothing
 (`rod_noise`), by a camera with a lens, a shutter that rolls for 2 ms and marks misplaced by 2 mm (`rod_camera`), with density
 and load stated 1 % wrong and the length 0.2 % (`rod_knowns`), or all of these (`rod_all`). What is then said of knowns and
 sensors does not count, for it may be so; what is said of physics does. An effect's strength is what a refitted

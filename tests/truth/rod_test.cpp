@@ -45,6 +45,14 @@ Motion moved(const Hidden& hidden, double duration = 2) {
   return truth::move_rod(kCable, hidden, kHeld, kArc, frames(duration));
 }
 
+/// Of the lowest mark in the last two seconds, m.
+double last_swing(const Motion& motion) {
+  double largest = 0;
+  for (std::size_t i = motion.side.size() - 60; i < motion.side.size(); ++i)
+    largest = std::max(largest, std::abs(motion.side[i].back()));
+  return largest;
+}
+
 }  // namespace
 
 TEST_CASE("a chain of many links follows the rod, plain and in wind, drag and with a bent shape") {
@@ -105,6 +113,32 @@ TEST_CASE(
   CHECK(fast.crossings > slow.crossings);
 }
 
+TEST_CASE("friction that is larger at rest holds the cable farther from plumb in the end") {
+  const auto stuck_at = [](const Motion& motion) { return std::abs(motion.side.back().back()); };
+  const auto with = [](double stribeck) {
+    Hidden hidden;
+    hidden.joint_friction = 0.1;
+    hidden.stribeck = stribeck;
+    return moved(hidden, 20);
+  };
+  const Motion plain = with(0), lugre = with(1e-9), larger = with(1);
+  // Without excess the two laws differ only before friction slips.
+  CHECK(largest_difference(plain, lugre) < 0.25 * largest_difference(plain, moved({}, 20)));
+  CHECK(stuck_at(larger) > 1.1 * stuck_at(lugre));
+}
+
+TEST_CASE("a drag whose coefficient goes with Reynolds' number lies between two constant ones") {
+  const auto end_of = [](double coefficient, double growth) {
+    Hidden hidden;
+    hidden.drag_quadratic_normal = coefficient;
+    hidden.drag_growth = growth;
+    return last_swing(moved(hidden, 4));
+  };
+  const double grown = end_of(0.1, 0.08);  // at 1 m/s the coefficient is 1.19 times as large
+  CHECK(grown < end_of(0.105, 0));
+  CHECK(grown > end_of(0.2, 0));
+}
+
 TEST_CASE("every hidden effect of the rod moves it; what is not coded is refused") {
   const Motion quiet = moved({}, 1);
   for (const auto& [name, value] :
@@ -135,6 +169,10 @@ TEST_CASE("every hidden effect of the rod moves it; what is not coded is refused
   Hidden unknown;
   unknown.pivot_friction = 0.1;
   CHECK_THROWS_AS(moved(unknown), std::invalid_argument);
+  Hidden of_rods;
+  of_rods.stribeck = 0.5;
+  CHECK_THROWS_AS(truth::move(kCable, of_rods, std::vector<double>(36, 0.1), kArc, {0}),
+                  std::invalid_argument);
 }
 
 TEST_CASE("lens, shutter, misplaced marks and wrong knowns are as asked") {
