@@ -127,7 +127,8 @@ void Chain::add_effect_terms(const Effect& effect) {
     }
   };
   const auto name_of = [&](const char* what, const ex& value, Link i) {
-    return definitions_.define(effect.id + "_" + what, i == 0 ? kNoIndex : i, value);
+    return i == 0 ? definitions_.define(effect.id + "_load_" + what, kNoIndex, value)
+                  : definitions_.define(effect.id + "_" + what, i, value);
   };
   for (const ExtraState& state : effect.states) {
     each(state.at, [&](Link i) {
