@@ -9,6 +9,7 @@
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/recordings/signal_reader.hpp"
+#include "runtime/positions.hpp"
 
 namespace catena {
 namespace {
@@ -17,15 +18,36 @@ using Eigen::Index;
 
 constexpr Index kFewestFramesOfWindow = 8;  // of a window: fewer say nothing beyond their own start
 
+/// A recording of a cable that hangs from the origin: markers less the support, where effects or
+/// signals move it.
+Recording seen_from_support(Recording recording, const Model& model,
+                            const Eigen::VectorXd& parameters, const Signals& signals) {
+  if (signals.count() < model.signals()) return recording;
+  const Eigen::VectorXd any_shape = Eigen::VectorXd::Ones(model.coordinates());
+  for (Index k = 0; k < recording.measured.cols(); ++k) {
+    const Positions at = positions(model, parameters, recording.time[static_cast<std::size_t>(k)],
+                                   any_shape, signals);
+    for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+      const Component component = recording.channels[c].component;
+      if (component != Component::kAngle)
+        recording.measured(static_cast<Index>(c), k) -= component == Component::kSide ? at.side[0]
+                                                        : component == Component::kDown
+                                                            ? at.down[0]
+                                                            : at.across[0];
+    }
+  }
+  return recording;
+}
+
 /// The recording as its file gives it, checked.
 Recording read_plausible(const Case& the_case, const ExperimentSpec& spec, const Model& model,
-                         const ParameterMap& map) {
+                         const Eigen::VectorXd& parameters, const Signals& signals) {
   Recording recording =
       read_recording(spec, the_case.links, the_case.cable.whole_length(), model.in_space());
-  const Eigen::VectorXd lengths = link_lengths(model, map(case_values(the_case, spec.name)));
   for (std::string& warning :
-       check_plausible(recording, spec, spec.initial.value_or(the_case.initial), the_case.cable,
-                       lengths, model))
+       check_plausible(seen_from_support(recording, model, parameters, signals), spec,
+                       spec.initial.value_or(the_case.initial), the_case.cable,
+                       link_lengths(model, parameters), model))
     recording.warnings.push_back(std::move(warning));
   return recording;
 }
@@ -113,8 +135,12 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
   std::vector<Experiment> experiments;
   for (std::size_t e = 0; e < the_case.experiments.size(); ++e) {
     const ExperimentSpec& spec = the_case.experiments[e];
-    Recording recording =
-        recordings.empty() ? read_plausible(the_case, spec, model, map) : std::move(recordings[e]);
+    const Eigen::VectorXd parameters = map(case_values(the_case, spec.name));
+    const Signals signals =
+        read_signals(spec.signals.empty() ? the_case.signals : spec.signals, model, spec.where);
+    Recording recording = recordings.empty()
+                              ? read_plausible(the_case, spec, model, parameters, signals)
+                              : std::move(recordings[e]);
     std::vector<Experiment> parts(1);
     if (std::isnan(spec.window)) {
       parts[0].spec = spec;
@@ -127,11 +153,11 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
     for (Experiment& part : parts) {
       part.source = static_cast<int>(e);
       part.initial = part.spec.initial.value_or(the_case.initial);
-      complete_from_data(part.initial, part.recording,
-                         link_lengths(model, map(case_values(the_case, part.spec.name))));
+      part.signals = signals;
+      const Eigen::VectorXd own = map(case_values(the_case, part.spec.name));
+      complete_from_data(part.initial, seen_from_support(part.recording, model, own, signals),
+                         link_lengths(model, own));
       if (std::isnan(part.spec.start)) part.spec.start = part.recording.time.front();
-      part.signals = read_signals(part.spec.signals.empty() ? the_case.signals : part.spec.signals,
-                                  model, part.spec.where);
       experiments.push_back(std::move(part));
     }
   }

@@ -46,7 +46,7 @@ void check_start(const Model& model, const Eigen::VectorXd& parameters, const In
 /// through the first frame (least squares on the positions, with the least bending that explains
 /// them), rates from a line through the first few frames. In space the azimuths come with the angles:
 /// one vertical plane for all links, but one of its own for a link that points far out of it where the
-/// shape is kAngles. `lengths`: of the links, m. Throws InputError if the recording has nothing there.
+/// shape is kAngles. The support is at the origin. `lengths`: of the links, m. Throws InputError if the recording has nothing there.
 void complete_from_data(InitialSpec& initial, const Recording& recording,
                         const Eigen::VectorXd& lengths);
 

@@ -2,6 +2,7 @@
 //
 // Cases in space: starts, what sensors see, fits.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 using Eigen::VectorXd;
@@ -107,6 +109,48 @@ TEST_CASE("derivatives by the unknowns of a start and by parameters are differen
       CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
     }
   }
+}
+
+TEST_CASE("a start is seen from the support where signals move it") {
+  const testing::TemporaryFolder folder;
+  std::string table = "t,x,z,y,grip_x,grip_z,grip_y\n";
+  for (int k = 0; k < 20; ++k) {
+    const double t = 0.002 * k;
+    table +=
+        fmt::format("{},{},{},{},{},{},0\n", t, 3 + 0.7 * t, -2 + 0.5 * t, 1 - 2 * t, 0.2, 0.9);
+  }
+  folder.write("hand.csv", table);
+  const Model model = Model::load(HELD_BY_HAND_5);
+  Case truth = testing::sections(testing::kTwoLinks);
+  truth.links = 5;
+  testing::add_experiment(truth, "run");
+  for (const auto& [name, column] : {std::pair("hand_side", "x"),
+                                     {"hand_down", "z"},
+                                     {"hand_across", "y"},
+                                     {"grip_side", "grip_x"},
+                                     {"grip_down", "grip_z"},
+                                     {"grip_across", "grip_y"}})
+    truth.experiments[0].signals.push_back(
+        {std::string("hand.") + name, folder.path() / "hand.csv", "t", column});
+  truth.initial = askew();
+  truth.initial.coefficients = {0.3, -0.2, 0.7, 0.1, 0.5};
+  truth.initial.out_of_plane = {0.2, 0.4, -0.3, 0, 0};
+  truth.initial.azimuths = std::vector<double>(5, 0.5);
+  truth.initial.velocity_coefficients = {0.5, -0.8, 1.0, 0.3, 0};
+  truth.initial.out_of_plane_rates = {-0.4, 0.9, 0.6, 0, 0.2};
+  truth.initial.azimuth_rates = {};
+  const Recording recording = testing::with_truth(
+      truth, model, testing::empty_markers({0.2, 0.4, 0.6, 0.8, 1.0}, 8, 0.002, true));
+  const Problem made(truth, model, {recording});
+  const State expected = made.initial_state(made.start(), 0);
+  Case the_case = truth;
+  the_case.initial = {};
+  the_case.initial.shape = the_case.initial.velocity_shape = Shape::kAngles;
+  the_case.initial.at_rest = false;
+  const Problem problem(the_case, model, {recording});
+  const State found = problem.initial_state(problem.start(), 0);
+  CHECK((found.q - expected.q).cwiseAbs().maxCoeff() < 0.02);
+  CHECK((found.v - expected.v).cwiseAbs().maxCoeff() < 1);
 }
 
 TEST_CASE("any start is found from the first frames, without a singular shape") {
