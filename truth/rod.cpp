@@ -74,7 +74,9 @@ class Rod {
         axial_(hidden.axial_stiffness > 0 ? hidden.axial_stiffness
                                           : 4 * cable.bending_stiffness / (kRadius * kRadius)) {}
 
-  Index unknowns() const { return 3 * elements_; }
+  /// Where a node's three coordinates begin: side, down, angle of its section.
+  static Index first_of(Index node) { return 3 * (node - 1); }
+  Index unknowns() const { return first_of(elements_ + 1); }
   int elements() const { return elements_; }
   double length_of_element() const { return h_; }
   double axial() const { return axial_; }
@@ -91,9 +93,9 @@ class Rod {
 
   Vector place(double t, const VectorXd& q, int node, int derivative = 0) const {
     if (node == 0) return support(t, derivative);
-    return {q[3 * (node - 1)], q[3 * (node - 1) + 1]};
+    return {q[first_of(node)], q[first_of(node) + 1]};
   }
-  double angle(const VectorXd& q, int node) const { return node == 0 ? 0 : q[3 * node - 1]; }
+  double angle(const VectorXd& q, int node) const { return node == 0 ? 0 : q[first_of(node) + 2]; }
 
   /// Inertia times a, minus all forces. `memory` is that of the beginning of the step of length
   /// `step`; the sections slip within it at the rates v.
@@ -150,9 +152,9 @@ void Rod::residual(double t, const VectorXd& q, const VectorXd& v, const VectorX
   r.setZero(unknowns());
   const auto push = [&](int node, Vector force, double moment) {
     if (node == 0) return;
-    r[3 * (node - 1)] -= force.side;
-    r[3 * (node - 1) + 1] -= force.down;
-    r[3 * node - 1] -= moment;
+    r[first_of(node)] -= force.side;
+    r[first_of(node) + 1] -= force.down;
+    r[first_of(node) + 2] -= moment;
   };
   // How far a hand that holds the end has carried it: a rest curvature grows on the way.
   const double turned =
@@ -375,7 +377,7 @@ VectorXd held_rod(const Cable& cable, const Hidden& hidden, const std::vector<do
   const Rod rod(cable, still, Vector{held.at(0), held.at(1)});
   VectorXd q(rod.unknowns());
   for (int k = 1; k <= rod.elements(); ++k)
-    q.segment<3>(3 * (k - 1)) << 0, k * rod.length_of_element(), 0;
+    q.segment<3>(Rod::first_of(k)) << 0, k * rod.length_of_element(), 0;
   GeneralisedAlpha state(rod, q, VectorXd::Zero(q.size()), kHoldingStep);
   while (state.time() < kCarried || state.v().lpNorm<Eigen::Infinity>() > kHeldStill) {
     state.advance();

@@ -141,27 +141,26 @@ TEST_CASE("a drag whose coefficient goes with Reynolds' number lies between two 
 
 TEST_CASE("every hidden effect of the rod moves it; what is not coded is refused") {
   const Motion quiet = moved({}, 1);
-  for (const auto& [name, value] :
-       {std::pair<std::string, double>("air_drag_isotropic.coefficient", 0.05),
-        {"air_drag_linear.normal", 0.05},
-        {"air_drag_linear.tangential", 0.2},
-        {"air_drag_quadratic.normal", 0.05},
-        {"air_drag_quadratic.tangential", 1.0},
-        {"steady_wind.normal", 0.05},
-        {"steady_wind.tangential", 0.1},
-        {"load_drag.coefficient", 0.05},
-        {"load_mass.correction", 0.2},
-        {"joint_dry_friction.moment", 0.01},
-        {"rest_curvature.curvature", 0.5},
-        {"joint_hysteresis.moment", 0.02},
-        {"gravity_tilt.tilt", 0.02},
-        {"axial_stretch.axial_stiffness", 200.0},
-        {"support_motion.side_amplitude", 0.01},
-        {"support_motion.down_amplitude", 0.02}}) {
-    CAPTURE(name);
+  for (const auto& effect : {std::pair<std::string, double>("air_drag_isotropic.coefficient", 0.05),
+                             {"air_drag_linear.normal", 0.05},
+                             {"air_drag_linear.tangential", 0.2},
+                             {"air_drag_quadratic.normal", 0.05},
+                             {"air_drag_quadratic.tangential", 1.0},
+                             {"steady_wind.normal", 0.05},
+                             {"steady_wind.tangential", 0.1},
+                             {"load_drag.coefficient", 0.05},
+                             {"load_mass.correction", 0.2},
+                             {"joint_dry_friction.moment", 0.01},
+                             {"rest_curvature.curvature", 0.5},
+                             {"joint_hysteresis.moment", 0.02},
+                             {"gravity_tilt.tilt", 0.02},
+                             {"axial_stretch.axial_stiffness", 200.0},
+                             {"support_motion.side_amplitude", 0.01},
+                             {"support_motion.down_amplitude", 0.02}}) {
+    CAPTURE(effect.first);
     Hidden hidden;
     hidden.wind = 3;
-    truth::set_hidden(hidden, name, value);
+    truth::set_hidden(hidden, effect.first, effect.second);
     const double by = largest_difference(moved(hidden, 1), quiet);
     CHECK(by > 1e-3);
     CHECK(by < 1);

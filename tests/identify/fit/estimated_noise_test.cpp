@@ -17,7 +17,8 @@ using Eigen::Index;
 
 namespace {
 
-constexpr int kFrames = 150, kMarkers = 6;
+constexpr int kFrames = 150;
+constexpr Index kMarkers = 6;
 constexpr double kSigma = 1e-3, kAutoregression = 0.6, kShaking = 2, kNoisier = 6;
 
 /// Two links filmed at 60 Hz by a camera that shakes; noise is correlated in time, one marker is
@@ -31,7 +32,7 @@ std::shared_ptr<const Problem> filmed(unsigned seed) {
   truth.parameters[1].value = 0.005;
   const Model model = Model::built_in(2);
   std::vector<double> places;
-  for (int k = 1; k <= kMarkers; ++k) places.push_back(k / static_cast<double>(kMarkers));
+  for (Index k = 1; k <= kMarkers; ++k) places.push_back(k / static_cast<double>(kMarkers));
   Recording recording =
       testing::with_truth(truth, model, testing::empty_markers(places, kFrames, 1.0 / 60));
   std::mt19937_64 random(seed);
