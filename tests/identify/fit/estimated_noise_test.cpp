@@ -32,7 +32,7 @@ std::shared_ptr<const Problem> filmed(unsigned seed) {
   truth.parameters[1].value = 0.005;
   const Model model = Model::built_in(2);
   std::vector<double> places;
-  for (Index k = 1; k <= kMarkers; ++k) places.push_back(k / static_cast<double>(kMarkers));
+  for (int k = 1; k <= kMarkers; ++k) places.push_back(k / static_cast<double>(kMarkers));
   Recording recording =
       testing::with_truth(truth, model, testing::empty_markers(places, kFrames, 1.0 / 60));
   std::mt19937_64 random(seed);
