@@ -50,7 +50,7 @@ inline State askew(const Model& model) {
 }
 
 inline catena::Simulation run(const Model& model, const VectorXd& parameters, const State& initial,
-                       const std::vector<double>& times) {
+                              const std::vector<double>& times) {
   catena::Simulation result = simulate(model, parameters, initial, times, tight());
   REQUIRE_MESSAGE(result.status == catena::Status::kSuccess, result.message);
   return result;

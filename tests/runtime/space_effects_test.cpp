@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -87,7 +86,8 @@ TEST_CASE("linear drag takes a spherical pendulum's energy and turning as it mus
   const double inertia =
       length * length * (p[model.parameter_index("load_mass")] + p[1] / 4) + p[2];
   const double damping = drag * length * length * length / 4;
-  const State initial = from_directions(model, {constant(1.1), constant(0.2), constant(0.4), constant(1.7)});
+  const State initial =
+      from_directions(model, {constant(1.1), constant(0.2), constant(0.4), constant(1.7)});
   const auto motion = run(model, p, initial, {0, 0.4, 0.8, 1.6}).trajectory;
   const auto turning = [&](Eigen::Index k) {
     return motion.q(2, k) * motion.v(0, k) - motion.q(0, k) * motion.v(2, k);
@@ -101,7 +101,8 @@ TEST_CASE("linear drag takes a spherical pendulum's energy and turning as it mus
   REQUIRE((kinetic >= 0 && dissipated >= 0));
   for (Eigen::Index k = 1; k < 4; ++k) {
     const double t = motion.time[static_cast<std::size_t>(k)];
-    CHECK(turning(k) == doctest::Approx(turning(0) * std::exp(-damping / inertia * t)).epsilon(1e-9));
+    CHECK(turning(k) ==
+          doctest::Approx(turning(0) * std::exp(-damping / inertia * t)).epsilon(1e-8));
   }
   // Power over kinetic energy, from what is dissipated in a short time.
   const double step = 1e-4;
@@ -120,10 +121,10 @@ TEST_CASE("in any vertical plane a cable in water moves as in the plane") {
   flat.v = rates;
   const State tilted =
       from_directions(space, {angles, VectorXd::Constant(5, azimuth), rates, VectorXd::Zero(5)});
-  VectorXd of_plane = in_water(plane);
-  for (int i = 0; i < 5; ++i) of_plane[plane.parameter_index(fmt::format("torque_{}", i + 1))] = 0;
+  const VectorXd of_plane = in_water(plane);
   const std::vector<double> times{0, 0.5, 1};
-  const auto expected = run(plane, of_plane, flat, times), found = run(space, in_water(space), tilted, times);
+  const auto expected = run(plane, of_plane, flat, times),
+             found = run(space, in_water(space), tilted, times);
   const double tolerance = 1e-8;  // m: errors of 1e-11 a step, some thousand steps
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double t = times[static_cast<std::size_t>(k)];
@@ -155,7 +156,7 @@ TEST_CASE("a towed cable hangs at the angle at which drag and weight balance") {
   const auto stays = simulate(model, p, at_angle(tow_angle()), {0, 2}, tight(), held_still());
   REQUIRE_MESSAGE(stays.status == catena::Status::kSuccess, stays.message);
   CHECK((stays.trajectory.q.col(1) - stays.trajectory.q.col(0)).norm() < 1e-9);
-  const auto comes = simulate(model, p, at_angle(tow_angle() - 0.2), {0, 4}, tight(), held_still());
+  const auto comes = simulate(model, p, at_angle(tow_angle() - 0.2), {0, 8}, tight(), held_still());
   REQUIRE_MESSAGE(comes.status == catena::Status::kSuccess, comes.message);
   CHECK((comes.trajectory.q.col(1) - stays.trajectory.q.col(0)).norm() < 1e-3);
   CHECK((comes.trajectory.q.col(0) - stays.trajectory.q.col(0)).norm() > 0.3);
@@ -206,5 +207,6 @@ TEST_CASE("of a cable in water, too, all solvers say the same") {
   };
   const auto gradient = simulate_with_gradient(model, p, initial, times, objective, tight());
   REQUIRE_MESSAGE(gradient.status == catena::Status::kSuccess, gradient.message);
-  CHECK(gradient.gradient.parameters[drag] == doctest::Approx(change[change.size() - 1]).epsilon(1e-5));
+  CHECK(gradient.gradient.parameters[drag] ==
+        doctest::Approx(change[change.size() - 1]).epsilon(1e-5));
 }
