@@ -156,10 +156,10 @@ TEST_CASE("a towed cable hangs at the angle at which drag and weight balance") {
   const auto stays = simulate(model, p, at_angle(tow_angle()), {0, 2}, tight(), held_still());
   REQUIRE_MESSAGE(stays.status == catena::Status::kSuccess, stays.message);
   CHECK((stays.trajectory.q.col(1) - stays.trajectory.q.col(0)).norm() < 1e-9);
-  const auto comes = simulate(model, p, at_angle(tow_angle() - 0.2), {0, 8}, tight(), held_still());
+  const auto comes = simulate(model, p, at_angle(tow_angle() - 0.1), {0, 4}, tight(), held_still());
   REQUIRE_MESSAGE(comes.status == catena::Status::kSuccess, comes.message);
   CHECK((comes.trajectory.q.col(1) - stays.trajectory.q.col(0)).norm() < 1e-3);
-  CHECK((comes.trajectory.q.col(0) - stays.trajectory.q.col(0)).norm() > 0.3);
+  CHECK((comes.trajectory.q.col(0) - stays.trajectory.q.col(0)).norm() > 0.2);
 }
 
 TEST_CASE("towed through still water is held in a current") {
