@@ -255,7 +255,7 @@ void NaiveChain::add_link_forces(int i) {
   for (const std::string effect : {"current", "current_series"}) {
     if (!has(effect)) continue;
     const Fluid fluid = fluid_at(effect, s, d);
-    const ex us = vs - fluid.side, ud = vd, un = across(us, ud), ut = along(us, ud);
+    const ex us = vs - fluid.side, un = across(us, vd), ut = along(us, vd);
     const ex size = sqrt(un * un + fluid.across * fluid.across + kFloor * kFloor);
     add_components(-l * parameter(effect, "normal") * size * un,
                    -l * parameter(effect, "tangential") * size_of(ut) * ut);

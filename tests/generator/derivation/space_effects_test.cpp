@@ -176,9 +176,9 @@ void compare_with_plane(const std::vector<std::string>& ids, unsigned seed) {
   auto expected = powers(plane, of_plane), found = powers(space, of_space);
   expected.erase("torque");
   CHECK(expected.size() == found.size());
-  for (const auto& [item, power] : expected) {
-    CAPTURE(item);
-    CHECK(difference(power, found[item]) < kTolerance);
+  for (const auto& power : expected) {
+    CAPTURE(power.first);
+    CHECK(difference(power.second, found[power.first]) < kTolerance);
   }
 }
 
@@ -248,9 +248,9 @@ TEST_CASE("effects in space do not see a turn about the vertical, and their powe
       CHECK(difference(sine * side + cosine * across, component(chain, there, i, 2)) < kTolerance);
     }
     const auto before = powers(chain, here);
-    for (const auto& [item, power] : powers(chain, there)) {
-      CAPTURE(item);
-      CHECK(difference(before.at(item), power) < kTolerance);
+    for (const auto& power : powers(chain, there)) {
+      CAPTURE(power.first);
+      CHECK(difference(before.at(power.first), power.second) < kTolerance);
     }
   }
 }
