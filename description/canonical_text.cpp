@@ -105,10 +105,14 @@ class CanonicalText {
       line("definition", d.name + " " + word(d.at));
       line("value", d.value);
     }
+    line("flow.side", effect.flow.side);
+    line("flow.down", effect.flow.down);
+    line("flow.across", effect.flow.across);
     for (const ForceTerm& f : effect.forces) {
       line("force", std::string(word(f.at)) + (f.per_length ? " per length" : ""));
       line("side", f.side);
       line("down", f.down);
+      line("across", f.across);
       line("normal", f.normal);
       line("tangential", f.tangential);
     }

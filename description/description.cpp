@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
@@ -11,6 +13,7 @@
 #include "common/toml_quoted.hpp"
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
+#include "description/expression_syntax.hpp"
 
 namespace catena {
 namespace {
@@ -67,6 +70,44 @@ Description description_in(const TomlTable& file) {
   return description;
 }
 
+// What of an effect has a meaning in the plane only; empty: nothing.
+std::string plane_alone(const Effect& effect) {
+  const Kinematics& kinematics = effect.kinematics;
+  const std::pair<const Expression*, const char*> of_the_plane[] = {
+      {&kinematics.rest_angle, "a rest angle has no direction in space"},
+      {&kinematics.pivot_rest_angle, "a rest angle has no direction in space"},
+      {&kinematics.extension, "links in space do not stretch yet"},
+      {&effect.sensor.side, "sensors report of the plane"},
+      {&effect.sensor.down, "sensors report of the plane"},
+      {&effect.sensor.angle, "sensors report of the plane"},
+      {&effect.sensor.clock, "sensors report of the plane"}};
+  const auto at = [](const Expression& where, const std::string& why) {
+    return where.file + ":" + std::to_string(where.line) + ": " + where.key + ": " + why;
+  };
+  for (const auto& [expression, why] : of_the_plane)
+    if (expression->given()) return at(*expression, why);
+  for (const ExtraState& state : effect.states)
+    return at(state.rate, "states at a joint would be vectors in space");
+  if (!effect.coordinates.empty())
+    return "it adds coordinates, which links in space do not have yet";
+  std::vector<const Expression*> expressions;
+  for (const ScalarTerm& term : effect.scalars) {
+    if (term.kind == ScalarKind::kTorque)
+      return at(term.value, "a torque has no direction in space; a potential or a dissipation has");
+    expressions.push_back(&term.value);
+  }
+  for (const ForceTerm& force : effect.forces)
+    for (const Expression* part :
+         {&force.side, &force.down, &force.across, &force.normal, &force.tangential})
+      expressions.push_back(part);
+  for (const Definition& definition : effect.definitions) expressions.push_back(&definition.value);
+  for (const Expression* expression : expressions)
+    if (names_in(*expression).contains("angle"))
+      return at(*expression,
+                "links have no angle in space; velocities and positions have components");
+  return "";
+}
+
 }  // namespace
 
 Description plain_chain() {
@@ -101,15 +142,9 @@ std::string conflict_in(const Description& description) {
                "space = \"3d\"";
       continue;
     }
-    const auto kinematics = effect.kinematics.all();
-    const bool support_alone = effect.forces.empty() && effect.scalars.empty() &&
-                               effect.coordinates.empty() && effect.states.empty() &&
-                               !effect.sensor.given() &&
-                               std::none_of(kinematics.begin(), kinematics.end(),
-                                            [](const Expression* e) { return e->given(); });
-    if (!support_alone)
-      return in_quotes(effect.id) +
-             " acts in the plane only, and space is \"3d\"; leave one of them away";
+    if (const std::string why = plane_alone(effect); !why.empty())
+      return in_quotes(effect.id) + " acts in the plane only: " + why +
+             ". Space is \"3d\"; leave one of them away";
     if (effect.support.turns() && clamped)
       return in_quotes(effect.id) +
              " is the second effect that gives the direction of the clamp; leave "

@@ -10,8 +10,7 @@
 
 namespace catena {
 
-/// Where the chain moves: in one vertical plane, or in space, where nothing acts but the plain chain's own
-/// bending, damping and weight.
+/// Where the chain moves: in one vertical plane, or in space.
 enum class Space { kPlane, kThreeDimensional };
 
 /// The words for them in files and options, in their order.
@@ -50,8 +49,9 @@ Description parse_description(const std::string& text, const std::string& name);
 /// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
 
-/// The same for the effects of a description. In space they may move the support and turn its clamp, one
-/// of them, and nothing else yet; in the plane the clamp does not turn.
+/// The same for the effects of a description. In the plane no effect moves the support across or turns its
+/// clamp. In space one may turn the clamp, and none has what only the plane gives a meaning: torques, states,
+/// coordinates, sensors, rest angles, the angle of a link.
 std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical

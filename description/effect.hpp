@@ -68,13 +68,25 @@ struct Definition {
 };
 
 /// A force on a point of the chain, N; or N/m if `per_length`: then it acts on the whole length of
-/// the link and is evaluated at its centre. Given are side, down or both, or normal, tangential or
-/// both. Components that are not given are zero.
+/// the link and is evaluated at its centre. Given are some of side, down and across, or normal,
+/// tangential or both. Components that are not given are zero. In the plane a force across does nothing.
 struct ForceTerm {
   Place at = Place::kLinkCentre;  ///< kLinkCentre, kJoint, kLoad
   bool per_length = false;        ///< kLinkCentre only
-  Expression side, down;
-  Expression normal, tangential;  ///< kLinkCentre, kLoad: along (cos a, -sin a) and (sin a, cos a)
+  Expression side, down, across;
+  /// kLinkCentre, kLoad. Tangential: along the link, away from the support. Normal: in the plane along
+  /// (cos a, -sin a); in space along the part of the velocity, or of the relative one, that is normal to
+  /// the link: an odd function of velocity_normal, or of relative_normal, gives its size.
+  Expression normal, tangential;
+};
+
+/// Velocity of the fluid around the chain, m/s, where a force asks for it: a function of the position
+/// there, time, parameters, constants and signals. It gives the symbols relative_side, ... of forces: the
+/// velocity of the chain less that of the fluid.
+struct Flow {
+  Expression side, down, across;
+
+  bool given() const { return side.given() || down.given() || across.given(); }
 };
 
 enum class ScalarKind {
@@ -166,6 +178,7 @@ struct Effect {
   std::vector<EffectParameter> parameters;
   std::vector<Constant> constants;
   std::vector<Definition> definitions;
+  Flow flow;
   std::vector<ForceTerm> forces;
   std::vector<ScalarTerm> scalars;
   Support support;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "description/effect_checks.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "common/in_quotes.hpp"
@@ -22,6 +23,12 @@ class Checks {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
           "support, kinematics or sensor");
+    }
+    if (effect_.flow.given() && effect_.forces.empty()) {
+      fail(
+          "[flow] moves nothing by itself; give a force that uses relative_normal or another of "
+          "its "
+          "symbols");
     }
     if (!effect_.coordinates.empty() && effect_.scalars.empty() && effect_.forces.empty()) {
       fail("a new coordinate needs a potential, dissipation or force that governs it");
@@ -64,16 +71,19 @@ class Checks {
     for (const SignalChannel& signal : effect_.signals) {
       times.insert({signal.name, signal.name + "_rate", signal.name + "_acceleration"});
     }
-    for (const char* direction : {"side", "down", "normal", "tangential"}) {
+    std::set<std::string> relative;
+    for (const char* direction : {"side", "down", "across", "normal", "tangential"}) {
       rates.insert(std::string("velocity_") + direction);
+      relative.insert(std::string("relative_") + direction);
     }
     for (const Coordinate& coordinate : effect_.coordinates)
       rates.insert(coordinate.name + "_rate");
     for (const ExtraState& state : effect_.states) states.insert(state.name);
     times = with_definitions(times), rates = with_definitions(rates);
-    states = with_definitions(states);
+    states = with_definitions(states), relative = with_definitions(relative);
     const std::string instead = "; give a force or a torque instead";
     for (const ScalarTerm& term : effect_.scalars) {
+      refuse(term.value, relative, "cannot stand here: the fluid that moves does work" + instead);
       if (term.kind != ScalarKind::kPotential && term.kind != ScalarKind::kKinetic) continue;
       refuse(term.value, times, "cannot stand in an energy: it would change with time" + instead);
       refuse(term.value, states, "cannot stand in an energy: states are not coordinates" + instead);
@@ -92,18 +102,27 @@ class Checks {
     const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
     for (const Definition& definition : effect_.definitions) use(definition.value);
     for (const ForceTerm& force : effect_.forces) {
-      use(force.side), use(force.down), use(force.normal), use(force.tangential);
+      for (const Expression* expression :
+           {&force.side, &force.down, &force.across, &force.normal, &force.tangential})
+        use(*expression);
     }
     for (const ScalarTerm& term : effect_.scalars) use(term.value);
     for (const ExtraState& state : effect_.states) use(state.rate);
     for (const Expression* expression :
-         {&effect_.support.side, &effect_.support.down, &effect_.support.across,
-          &effect_.support.clamp_side, &effect_.support.clamp_down, &effect_.support.clamp_across,
-          &effect_.sensor.side, &effect_.sensor.down, &effect_.sensor.angle,
-          &effect_.sensor.clock}) {
+         {&effect_.flow.side, &effect_.flow.down, &effect_.flow.across, &effect_.support.side,
+          &effect_.support.down, &effect_.support.across, &effect_.support.clamp_side,
+          &effect_.support.clamp_down, &effect_.support.clamp_across, &effect_.sensor.side,
+          &effect_.sensor.down, &effect_.sensor.angle, &effect_.sensor.clock}) {
       use(*expression);
     }
     each_kinematic(use);
+    if (effect_.flow.given() && std::none_of(used.begin(), used.end(), [](const std::string& name) {
+          return name.starts_with("relative_");
+        })) {
+      fail(
+          "nothing uses the velocity that [flow] gives; write relative_normal or another of its "
+          "symbols in a force, or leave the table out");
+    }
     const auto check = [&](const std::string& name) {
       if (!used.contains(name)) {
         fail(in_quotes(name) + " stands in no expression; use it or take it away");

@@ -18,7 +18,8 @@
 namespace catena {
 namespace {
 
-// Names with a meaning in expressions: an effect's own names must differ from them.
+// Names with a meaning in expressions: an effect's own names must differ from them. `across` is not among
+// them: files of the plane have it as a name of their own, which then hides the position across.
 const std::set<std::string, std::less<>>& reserved_names() {
   static const std::set<std::string, std::less<>> names = {"time",
                                                            "gravity",
@@ -28,8 +29,14 @@ const std::set<std::string, std::less<>>& reserved_names() {
                                                            "depth",
                                                            "velocity_side",
                                                            "velocity_down",
+                                                           "velocity_across",
                                                            "velocity_normal",
                                                            "velocity_tangential",
+                                                           "relative_side",
+                                                           "relative_down",
+                                                           "relative_across",
+                                                           "relative_normal",
+                                                           "relative_tangential",
                                                            "angle",
                                                            "rate",
                                                            "length",
@@ -76,6 +83,7 @@ class EffectReader {
     read_coordinates();
     read_states();
     read_definitions();
+    read_flow();
     read_forces();
     read_scalars();
     read_whole_chain_terms();
@@ -282,6 +290,15 @@ class EffectReader {
     }
   }
 
+  void read_flow() {
+    const auto table = file_.optional_table("flow");
+    if (!table) return;
+    effect_.flow = {expression(*table, "side"), expression(*table, "down"),
+                    expression(*table, "across")};
+    if (!effect_.flow.given())
+      table->fail("has none of side, down and across; give one or leave the table out");
+  }
+
   void read_forces() {
     for (const TomlTable& table : file_.tables("force")) {
       ForceTerm force;
@@ -289,12 +306,13 @@ class EffectReader {
       force.per_length = per_length(table, force.at);
       force.side = expression(table, "side");
       force.down = expression(table, "down");
+      force.across = expression(table, "across");
       force.normal = expression(table, "normal");
       force.tangential = expression(table, "tangential");
-      const bool cartesian = force.side.given() || force.down.given();
+      const bool cartesian = force.side.given() || force.down.given() || force.across.given();
       const bool along_link = force.normal.given() || force.tangential.given();
       if (cartesian == along_link) {
-        table.fail("give the force as side and down, or as normal and tangential");
+        table.fail("give the force as side, down and across, or as normal and tangential");
       }
       if (along_link && force.at == Place::kJoint) {
         table.fail("a joint has no normal of its own; give side and down, or at = \"link_centre\"");

@@ -24,11 +24,18 @@ const std::map<std::string, Letter>& letters() {
       {"load_mass", {"m", "m", "c", 0}},
       {"side", {"r", "r", "s", 0}},
       {"down", {"r", "r", "d", 0}},
+      {"across", {"r", "r", "a", 0}},
       {"depth", {"r", "r", "g", 0}},
       {"velocity_side", {"v", "v", "s", 0}},
       {"velocity_down", {"v", "v", "d", 0}},
+      {"velocity_across", {"v", "v", "a", 0}},
       {"velocity_normal", {"v", "v", "n", 0}},
       {"velocity_tangential", {"v", "v", "t", 0}},
+      {"relative_side", {"u", "u", "s", 0}},
+      {"relative_down", {"u", "u", "d", 0}},
+      {"relative_across", {"u", "u", "a", 0}},
+      {"relative_normal", {"u", "u", "n", 0}},
+      {"relative_tangential", {"u", "u", "t", 0}},
       {"angle", {"\\theta", "&#952;", "", 0}},
       {"rate", {"\\theta", "&#952;", "", 1}},
       {"length", {"l", "l", "", 0}},
@@ -183,6 +190,8 @@ class Renderer {
   Renderer(const Language& language, const Effect& effect) : language_(language) {
     for (const Coordinate& coordinate : effect.coordinates) dotted_.insert(coordinate.name);
     for (const SignalChannel& signal : effect.signals) dotted_.insert(signal.name);
+    for (const EffectParameter& parameter : effect.parameters) own_.insert(parameter.name);
+    for (const Definition& definition : effect.definitions) own_.insert(definition.name);
   }
 
   std::string of(const Expression& expression) const {
@@ -191,7 +200,7 @@ class Renderer {
 
   std::string symbol(const std::string& name) const {
     const auto letter = letters().find(name);
-    if (letter != letters().end()) return language_.letter(letter->second);
+    if (letter != letters().end() && !own_.contains(name)) return language_.letter(letter->second);
     const std::pair<std::string, int> endings[] = {{"_rate", 1}, {"_acceleration", 2}};
     for (const auto& [ending, dots] : endings) {
       if (!name.ends_with(ending)) continue;
@@ -260,6 +269,7 @@ class Renderer {
   }
 
   const Language& language_;
+  std::set<std::string> own_;
   std::set<std::string> dotted_;  // names whose _rate and _acceleration are derivatives
 };
 
@@ -325,12 +335,17 @@ std::vector<Formula> formulas(const Effect& effect) {
   for (const Definition& definition : effect.definitions) {
     all.add(std::string("With") + place_words(definition.at), definition.name, definition.value);
   }
+  const std::string flow = "Velocity of the fluid, ";
+  all.add(flow + "side", subscripted("w", "s"), effect.flow.side);
+  all.add(flow + "down", subscripted("w", "d"), effect.flow.down);
+  all.add(flow + "across", subscripted("w", "a"), effect.flow.across);
   for (const ForceTerm& force : effect.forces) {
     const std::string what =
         std::string(force.per_length ? "Force per length" : "Force") + place_words(force.at);
     const std::string letter = force.per_length ? "f" : "F";
     all.add(what, subscripted(letter, "s"), force.side);
     all.add(what, subscripted(letter, "d"), force.down);
+    all.add(what, subscripted(letter, "a"), force.across);
     all.add(what, subscripted(letter, "n"), force.normal);
     all.add(what, subscripted(letter, "t"), force.tangential);
   }

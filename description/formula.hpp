@@ -2,8 +2,8 @@
 //
 // The physics of an effect as formulas for readers, in LaTeX (math mode, amsmath) and MathML.
 //
-// v_n, v_t, v_s, v_d: velocity along normal, tangent, side, down; r_s, r_d, r_g: position along
-// side, down, gravity; theta: angle of the link; phi: angle of the joint, from its rest; l, m, I:
+// v_n, v_t, v_s, v_d, v_a: velocity along normal, tangent, side, down, across; u_n, ...: the same relative
+// to the fluid, whose velocity is w_s, ...; r_s, r_d, r_a, r_g: position along side, down, across, gravity; theta: angle of the link; phi: angle of the joint, from its rest; l, m, I:
 // length, mass, inertia of the link; k, c: stiffness, damping of the joint; s, Delta: arc length
 // and spacing at the joint; m_c: load.
 #pragma once

@@ -13,6 +13,7 @@ namespace {
 const ex kHalf = numeric(1, 2);
 
 std::string rate_family(const std::string& family) {
+  if (family.ends_with("_momentum")) return family + "_rate";
   const std::string velocity = "_velocity";
   if (family.ends_with(velocity)) {
     return family.substr(0, family.size() - velocity.size()) + "_acceleration";
@@ -361,7 +362,22 @@ void Chain::add_kinetic(const std::string& item, const ex& energy) {
       add_generalised_force(theta_[symbol.index], -derivative * cosine_[symbol.index]);
     } else if (symbol.family == "cosine") {
       add_generalised_force(theta_[symbol.index], derivative * sine_[symbol.index]);
+    } else if (quasi_velocities_.count(number)) {
+      add_momentum(number, derivative);
     }
+  }
+}
+
+// d/dt(p dw/dydot) - p dw/dy
+void Chain::add_momentum(int rate, const ex& momentum) {
+  const Symbol symbol = definitions_[rate];
+  const ex p = definitions_.define(symbol.family + "_momentum", symbol.index, momentum);
+  for (const int number : definitions_.symbols_of(symbol.value)) {
+    const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(definitions_[number].symbol));
+    const auto of = variable_of_rate_.find(number);
+    if (of != variable_of_rate_.end()) add_generalised_force(of->second, time_.of(p * partial));
+    if (variables_.count(number)) add_generalised_force(number, -p * partial);
+    if (quasi_velocities_.count(number)) add_momentum(number, p * partial);
   }
 }
 
@@ -388,25 +404,13 @@ void Chain::add_dissipation(const std::string& item, const ex& function) {
   for (const int number : definitions_.symbols_of(function)) {
     const ex symbol = definitions_[number].symbol;
     const ex derivative = function.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
-    if (add_force_of_rate(number, derivative)) power += symbol * derivative;
+    const auto rate = variable_of_rate_.find(number);
+    const bool quasi_velocity = quasi_velocities_.contains(number);
+    if (rate == variable_of_rate_.end() && !quasi_velocity) continue;
+    add_generalised_force(quasi_velocity ? number : rate->second, derivative);
+    power += symbol * derivative;
   }
   add_energy(item, EnergyItem::kDissipated, power);
-}
-
-// A force that does work on a rate: one of a variable, or one of turning, which is linear in those. Returns
-// whether it is one.
-bool Chain::add_force_of_rate(int number, const ex& force) {
-  const auto rate = variable_of_rate_.find(number);
-  if (rate != variable_of_rate_.end()) add_generalised_force(rate->second, force);
-  if (!turning_.contains(number)) return rate != variable_of_rate_.end();
-  const Symbol symbol = definitions_[number];
-  const ex named = definitions_.define(symbol.family + "_force", symbol.index, force);
-  for (const int argument : definitions_.symbols_of(symbol.value)) {
-    const ex partial =
-        symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(definitions_[argument].symbol));
-    add_force_of_rate(argument, named * partial);
-  }
-  return true;
 }
 
 // Virtual work: forces times the variations of their variables. The powers of all components are
@@ -440,6 +444,9 @@ void Chain::add_chain_terms() {
     return in_plane() ? theta_dot_[k] * theta_dot_[k] : speed_squared(at(direction_, k));
   };
   hanging_depth_.resize(1);
+  joint_cosine_.resize(1);
+  link_turning_.resize(axes().size());
+  joint_turning_ = joint_cross_ = Points(axes().size(), std::vector<ex>(1));
   for (Link k = 1; k <= links_; ++k) {
     if (wanted("kinetic")) {
       add_kinetic("kinetic", kHalf * mass_[k] * speed_squared(at(centre_, k)) +
@@ -482,40 +489,43 @@ void Chain::add_joint_terms(Link k) {
   } else {
     ex cosine = 0;
     for (const Axis axis : axes()) cosine += direction_[axis][k - 1] * direction_[axis][k];
-    const ex joint_cosine = define_variable("joint_cosine", k, cosine);
-    squared = squared_angle(joint_cosine);
-    ex moment_squared = 0;
+    joint_cosine_.push_back(define_variable("joint_cosine", k, cosine));
+    squared = squared_angle(joint_cosine_[k]);
     for (const auto& axes_of_plane :
          {std::pair{kSide, kDown}, {kDown, kAcross}, {kAcross, kSide}}) {
       const Axis b = axes_of_plane.first, c = axes_of_plane.second;
-      const std::string about = ending(Axis(3 - b - c));
+      const Axis about = Axis(3 - b - c);
       const auto cross = [&](Link i, const ex& x_b, const ex& x_c) {
         return direction_[b][i] * x_c - direction_[c][i] * x_b;
       };
       const auto turning = [&](Link i) {
-        return define_turning("turning" + about, i,
-                              cross(i, time_.of(direction_[b][i]), time_.of(direction_[c][i])));
+        return define_quasi_velocity(
+            "turning" + ending(about), i,
+            cross(i, time_.of(direction_[b][i]), time_.of(direction_[c][i])));
       };
-      const ex rate = define_turning("joint_turning" + about, k, turning(k) - turning(k - 1));
+      if (k == 1) link_turning_[about].push_back(turning(0));
+      link_turning_[about].push_back(turning(k));
+      // Under a name of its own at joint 1 too: its force is the moment of the joint.
+      const ex rate =
+          definitions_.define_always("joint_turning" + ending(about), k,
+                                     link_turning_[about][k] - link_turning_[about][k - 1]);
+      quasi_velocities_.insert(definitions_.number_of(rate));
+      joint_turning_[about].push_back(rate);
+      joint_cross_[about].push_back(cross(k - 1, direction_[b][k], direction_[c][k]));
       rate_squared += rate * rate;
-      const ex moment =
-          definitions_.define("joint_moment" + about, k,
-                              stiffness_[k] * angle_over_sine(joint_cosine) *
-                                      cross(k - 1, direction_[b][k], direction_[c][k]) +
-                                  damping_[k] * rate);
-      moment_squared += moment * moment;
     }
-    moments_.push_back(definitions_.named(GiNaC::sqrt(moment_squared), "moment", k));
     curvatures_.push_back(definitions_.named(GiNaC::sqrt(squared) / spacing(k), "curvature", k));
   }
   if (wanted("elastic")) add_potential("joint_elastic", kHalf * stiffness_[k] * squared);
   if (wanted("friction")) add_dissipation("joint_damping", kHalf * damping_[k] * rate_squared);
 }
 
-// A component of an angular velocity, linear in the rates of variables.
-ex Chain::define_turning(const std::string& family, Link i, const ex& value) {
-  ex rate = definitions_.define(family, i, value);
-  if (GiNaC::is_a<GiNaC::symbol>(rate)) turning_.insert(definitions_.number_of(rate));
+// Linear in the rates of variables, with coefficients that are functions of variables.
+ex Chain::define_quasi_velocity(const std::string& family, int index, const ex& value) {
+  ex rate = definitions_.define(family, index, value);
+  if (!GiNaC::is_a<GiNaC::symbol>(rate)) return rate;
+  const int number = definitions_.number_of(rate);
+  if (!variable_of_rate_.contains(number)) quasi_velocities_.insert(number);
   return rate;
 }
 
@@ -529,8 +539,11 @@ void Chain::pull_back() {
     const auto found = generalised_force_.find(definitions_.number_of(variable));
     where[static_cast<size_t>(index)] = found == generalised_force_.end() ? ex(0) : found->second;
   };
-  // Later variables are functions of earlier ones, so the last one comes first.
-  for (auto variable = variables_.rbegin(); variable != variables_.rend(); ++variable) {
+  // Later variables are functions of earlier ones, so the last one comes first. Quasi-velocities are
+  // later than the variables whose rates they are made of.
+  std::set<int> pulled = variables_;
+  pulled.insert(quasi_velocities_.begin(), quasi_velocities_.end());
+  for (auto variable = pulled.rbegin(); variable != pulled.rend(); ++variable) {
     const int number = *variable;
     if (definitions_[number].is_input ||
         (!generalised_force_.contains(number) && !force_of_effect_.contains(number)))
@@ -542,7 +555,13 @@ void Chain::pull_back() {
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       const Symbol below = definitions_[argument];
       const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(below.symbol));
-      if (variables_.count(argument)) {
+      if (quasi_velocities_.contains(number)) {
+        const auto rate = variable_of_rate_.find(argument);
+        if (rate != variable_of_rate_.end())
+          generalised_force_[rate->second] += force * partial;
+        else if (quasi_velocities_.contains(argument))
+          generalised_force_[argument] += force * partial;
+      } else if (variables_.count(argument)) {
         generalised_force_[argument] += force * partial;
       } else if (below.family == "sine") {
         add_generalised_force(theta_[below.index], force * partial * cosine_[below.index]);
@@ -570,13 +589,34 @@ void Chain::pull_back() {
       tension += cut[axis][i] * direction_[axis][i];
     }
     tensions_.push_back(definitions_.named(-tension, "tension", i));
-    if (!in_plane()) continue;
+    if (!in_plane()) {
+      moments_.push_back(definitions_.named(moment_of_joint(i), "moment", i));
+      continue;
+    }
     keep(moment, joint_angle_[i], i);
     const ex above = i == 1 ? ex(0) : theta_[i - 1];
     curvatures_.push_back(definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
     moments_.push_back(definitions_.named(-moment[i], "moment", i));
   }
   for (const Axis axis : axes()) support_force_.push_back(cut[axis][1]);
+}
+
+// In space: the size of the moment of joint i, which bending and damping make, with the effects on them.
+ex Chain::moment_of_joint(Link i) {
+  const auto force_of = [&](const ex& variable) {
+    if (!GiNaC::is_a<GiNaC::symbol>(variable)) return ex(0);
+    const auto found = generalised_force_.find(definitions_.number_of(variable));
+    return found == generalised_force_.end() ? ex(0) : found->second;
+  };
+  const ex bending = -force_of(joint_cosine_[i]);
+  ex squared = 0;
+  for (const Axis axis : axes()) {
+    const ex moment =
+        definitions_.define("joint_moment" + ending(axis), i,
+                            bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i]));
+    squared += moment * moment;
+  }
+  return GiNaC::sqrt(squared);
 }
 
 // The force that moves the support does work, and the moment that turns the clamp.

@@ -17,6 +17,11 @@
 // generalised force of the position of a joint is the cut force: the force of the upper part of the
 // chain on the part below the joint.
 //
+// Some expressions are written in quasi-velocities w = W(y) ydot, such as an angular velocity, which are
+// the rates of no variables. With p = dT/dw and f = dD/dw they give
+//
+//     sum_w [d/dt(p dw/dydot) - p dw/dy + f dw/dydot].
+//
 // In space the coordinates are the three components of one vector q_i for each link, and the link's
 // direction, from its upper to its lower end, is e_i = q_i / |q_i|. T, V and D are written in e_i, edot_i,
 // so q_i has no constraint. Its length moves nothing; to give it equations of its own, T has
@@ -26,6 +31,10 @@
 // besides, which vanishes while |q_i| = 1. Of these equations, what is perpendicular to q_i is the chain's
 // with the constraints |q_i| = 1 and their multipliers, and what is along q_i says that |q_i|^2 has no
 // acceleration. |q_i| may drift by rounding and errors of steps; the motion does not see it.
+//
+// The velocity v of a point, normal to its link, is a vector in space. Effects are written in its size,
+// which is that of v x e, and the force along it is (a number) e x (v x e). In the plane v x e has one
+// component, across, which is the velocity along the normal (cos a, -sin a).
 #pragma once
 
 #include <ginac/ginac.h>
@@ -67,7 +76,8 @@ class Chain {
  public:
   /// Derives the equations. `only_term` is empty for all terms; otherwise it names the only one
   /// that is kept: "kinetic", "gravity", "elastic", "friction", "torque" or the id of an effect.
-  /// Throws std::invalid_argument for effects that space does not have (conflict_in).
+  /// Throws std::invalid_argument for effects that space does not have (conflict_in), and InputError for
+  /// expressions without a meaning at their place.
   Chain(const Description& description, int links, const std::string& only_term = "",
         EffectForces effect_forces = EffectForces::kMerged);
 
@@ -140,6 +150,7 @@ class Chain {
 
   bool wanted(const std::string& term) const { return only_term_.empty() || only_term_ == term; }
   void add_kinetic(const std::string& item, const ex& energy);
+  void add_momentum(int rate, const ex& momentum);
   void add_potential(const std::string& item, const ex& energy);
   void add_dissipation(const std::string& item, const ex& function);
   struct Component {
@@ -151,18 +162,43 @@ class Chain {
   void add_generalised_force(int variable, const ex& force);
   ex generalised_force_of(int variable);
   ex spacing(Link i) const;
+  ex moment_of_joint(Link i);
   ex define_variable(const std::string& family, int index, const ex& value);
-  ex define_turning(const std::string& family, Link i, const ex& value);
-  bool add_force_of_rate(int number, const ex& force);
+  ex define_quasi_velocity(const std::string& family, int index, const ex& value);
 
   /// The symbols that an expression at link or joint i may use (docs/effects.md): those of the
   /// shape, or those of the motion too.
-  enum Knowledge { kShape, kMotion };
+  enum Knowledge { kShape, kPosition, kMotion };
   /// Sum over all effects of one kinematic quantity, at link or joint i.
   ex kinematic(Expression Kinematics::*quantity, const char* unit, Place place, Link i);
   ex evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge, Place place,
-              Link i, const char* unit);
-  ExpressionContext context(const Effect& effect, Knowledge knowledge, Place place, Link i);
+              Link i, const char* unit, bool in_energy = false);
+  /// What an expression calls velocity_normal, joint_angle, ... is the size of a vector in space. While it
+  /// is read, `placeholder` stands for its square.
+  struct Size {
+    std::string name;
+    ex placeholder, square;
+    ex in_energy;               ///< the square with fewer terms, which rounding may make negative
+    std::vector<ex> direction;  ///< the vector, by axis, if forces may act along it
+  };
+  struct Surroundings {
+    ExpressionContext known;
+    std::vector<Size> sizes;
+  };
+  Surroundings surroundings(const Effect& effect, Knowledge knowledge, Place place, Link i);
+  void add_definitions(const Effect& effect, Knowledge knowledge, Place place,
+                       ExpressionContext& known);
+  void add_size(Surroundings& here, const std::string& name, const char* unit,
+                const std::vector<ex>& components, const std::vector<ex>& direction = {});
+  void add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here);
+  std::vector<ex> flow(const Effect& effect, Place place, Link i);
+  void add_force_term(const Effect& effect, const ForceTerm& force, Link i);
+  void add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i);
+  std::vector<ex> force_along_normal(const Effect& effect, const ForceTerm& force, Link i,
+                                     const ex& scale, const char* unit);
+  /// The point where effects act at a place, and the directions of its link; by axis.
+  std::vector<ex> point_at(Place place, Link i) const;
+  std::vector<ex> direction_at(Place place, Link i) const;
   ex effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i);
 
   Description description_;
@@ -184,6 +220,10 @@ class Chain {
   Points centre_;                     ///< mass centre of link i
   Points middle_;                     ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
+  std::vector<ex> joint_cosine_;  ///< in space
+  Points link_turning_, joint_turning_,
+      joint_cross_;       ///< in space, [axis]: angular velocity of a link, of
+                          ///< a joint; cross product of its links
   std::vector<ex> load_;  ///< by axis
   ex cos_tilt_, sin_tilt_;
   std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
@@ -198,8 +238,8 @@ class Chain {
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y
-  std::set<int> turning_;                ///< numbers of components of angular velocities
-  std::map<int, ex> generalised_force_;  ///< number of y -> its generalised force
+  std::set<int> quasi_velocities_;       ///< numbers of w
+  std::map<int, ex> generalised_force_;  ///< number of y or w -> its generalised force
   std::string apart_;  ///< the effect whose forces are being added apart; empty: none
   std::map<int, std::map<std::string, ex>> force_of_effect_;  ///< number of y -> effect -> force
   std::set<int> effect_forces_;                               ///< numbers of their definitions

@@ -7,7 +7,10 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "common/in_quotes.hpp"
 #include "description/expression_syntax.hpp"
 #include "generator/derivation/chain.hpp"
 
@@ -15,15 +18,131 @@ namespace catena {
 
 using GiNaC::ex;
 
+namespace {
+
+// What is at the load belongs to no link, and has a family of its own.
+int index_at(Place place, int i) { return place == Place::kLoad ? kNoIndex : i; }
+std::string at_load(Place place) { return place == Place::kLoad ? "load_" : ""; }
+
+// Whether a power of `square` that is not whole stands somewhere: the size of the vector itself.
+bool has_root_of(const ex& expression, const ex& square) {
+  if (GiNaC::is_a<GiNaC::power>(expression) && expression.op(0).is_equal(square) &&
+      !expression.op(1).info(GiNaC::info_flags::integer))
+    return true;
+  for (const ex& part : expression)
+    if (has_root_of(part, square)) return true;
+  return false;
+}
+
+}  // namespace
+
 ex Chain::effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i) {
   const bool shared = parameter.scope == Scope::kModel;
   return definitions_.input(effect.id + "_" + parameter.name, shared ? kNoIndex : i);
 }
 
-ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Place place, Link i) {
-  ExpressionContext context;
+std::vector<ex> Chain::point_at(Place place, Link i) const {
+  std::vector<ex> point;
+  for (const Axis axis : axes())
+    point.push_back(place == Place::kLoad         ? load_[axis]
+                    : place == Place::kLinkCentre ? middle_[axis][i]
+                                                  : joint_[axis][i - 1]);
+  return point;
+}
+
+std::vector<ex> Chain::direction_at(Place place, Link i) const {
+  std::vector<ex> direction;
+  for (const Axis axis : axes())
+    direction.push_back(direction_[axis][place == Place::kLoad ? links_ : i]);
+  return direction;
+}
+
+void Chain::add_size(Surroundings& here, const std::string& name, const char* unit,
+                     const std::vector<ex>& components, const std::vector<ex>& direction) {
+  ex square = 0;
+  for (const ex& component : components) square += component * component;
+  const GiNaC::realsymbol placeholder("square_of_" + name);
+  here.known.add(name, GiNaC::sqrt(placeholder), Unit::parse(unit));
+  here.sizes.push_back({name, placeholder, square, square, direction});
+}
+
+// The velocity of the fluid, by axis.
+std::vector<ex> Chain::flow(const Effect& effect, Place place, Link i) {
+  Surroundings here = surroundings(effect, kPosition, place, i);
+  add_definitions(effect, kPosition, place, here.known);
+  std::vector<ex> velocity;
+  const std::string prefix = effect.id + "_" + at_load(place) + "flow_";
+  for (const auto& [axis, part] : {std::pair{"side", &effect.flow.side},
+                                   {"down", &effect.flow.down},
+                                   {"across", &effect.flow.across}}) {
+    velocity.push_back(
+        part->given() ? definitions_.define(prefix + axis, index_at(place, i),
+                                            parse_expression(*part, here.known, Unit::parse("m/s")))
+                      : ex(0));
+  }
+  return velocity;
+}
+
+// The velocity of the point, and that relative to the fluid, along the link and normal to it.
+void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here) {
+  const Link link = place == Place::kLoad ? links_ : i;
+  const int index = index_at(place, i);
+  std::vector<ex> velocity, direction = direction_at(place, i);
+  for (const ex& component : point_at(place, i)) velocity.push_back(time_.of(component));
+  velocity.resize(3), direction.resize(3);
+  // v x e about side, down and across, and e x (v x e)
+  const auto add_normal = [&](const std::string& name, const std::string& family,
+                              const std::vector<ex>& v, const auto& define) {
+    std::vector<ex> crossing(3), normal;
+    const char* axes[] = {"side", "down", "across"};
+    const auto cross = [](const std::vector<ex>& a, const std::vector<ex>& b, std::size_t k) {
+      return a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    };
+    // side, down, across is a left-handed or a right-handed system; twice a product, it does not matter.
+    for (std::size_t k = 0; k < 3; ++k)
+      crossing[k] = define(family + axes[k] + "_velocity", cross(v, direction, k));
+    for (std::size_t k = 0; k < 3; ++k) normal.push_back(cross(direction, crossing, k));
+    add_size(here, name, "m/s", crossing, normal);
+  };
+  const auto quasi_velocity = [&](const std::string& family, const ex& value) {
+    return define_quasi_velocity(at_load(place) + family, index, value);
+  };
+  const auto dot = [](const std::vector<ex>& a, const std::vector<ex>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  if (in_plane()) {
+    here.known.add("velocity_normal", velocity[0] * cosine_[link] - velocity[1] * sine_[link],
+                   Unit::parse("m/s"));
+    here.known.add("velocity_tangential", dot(velocity, direction), Unit::parse("m/s"));
+  } else {
+    add_normal("velocity_normal", "crossing_", velocity, quasi_velocity);
+    const ex tangential = quasi_velocity("tangential_velocity", dot(velocity, direction));
+    here.sizes.back().in_energy = dot(velocity, velocity) - tangential * tangential;
+    here.known.add("velocity_tangential", tangential, Unit::parse("m/s"));
+  }
+  if (!effect.flow.given()) return;
+
+  const std::vector<ex> fluid = flow(effect, place, i);
+  std::vector<ex> relative;
+  for (std::size_t k = 0; k < 3; ++k) relative.push_back(velocity[k] - fluid[k]);
+  here.known.add("relative_tangential", dot(relative, direction), Unit::parse("m/s"));
+  // In the plane a flow across it adds to the size of the relative velocity.
+  if (in_plane() && fluid[kAcross].is_zero()) {
+    here.known.add("relative_normal", relative[0] * cosine_[link] - relative[1] * sine_[link],
+                   Unit::parse("m/s"));
+  } else {
+    add_normal("relative_normal", effect.id + "_crossing_", relative,
+               [&](const std::string& family, const ex& value) {
+                 return definitions_.define(at_load(place) + family, index, value);
+               });
+  }
+}
+
+Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledge, Place place,
+                                        Link i) {
+  Surroundings here;
   const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
-    context.add(name, value, Unit::parse(unit));
+    here.known.add(name, value, Unit::parse(unit));
   };
   add("time", time_symbol_, "s");
   add("gravity", gravity_, "m/s^2");
@@ -42,23 +161,38 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
     add(signal.name + "_acceleration", definitions_.input(name + "_acceleration"),
         signal.unit + "/s^2");
   }
-  const auto add_point = [&](const ex& side, const ex& down) {
-    add("side", side, "m");
-    add("down", down, "m");
-    add("depth", cos_tilt_ * down + sin_tilt_ * side, "m");
-    add("velocity_side", time_.of(side), "m/s");
-    add("velocity_down", time_.of(down), "m/s");
+  const bool motion = knowledge == kMotion;
+  const auto add_point = [&] {
+    std::vector<ex> point = point_at(place, i);
+    point.resize(3);
+    add("side", point[kSide], "m");
+    add("down", point[kDown], "m");
+    // An effect may have a name `across` of its own.
+    if (!here.known.symbols.contains("across")) add("across", point[kAcross], "m");
+    add("depth", cos_tilt_ * point[kDown] + sin_tilt_ * point[kSide], "m");
+    if (!motion) return;
+    std::vector<ex> fluid(3);
+    if (effect.flow.given()) fluid = flow(effect, place, i);
+    const char* axes[] = {"side", "down", "across"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ex velocity = time_.of(point[k]);
+      add(std::string("velocity_") + axes[k], velocity, "m/s");
+      if (effect.flow.given()) add(std::string("relative_") + axes[k], velocity - fluid[k], "m/s");
+    }
   };
-  const auto add_directions = [&](const ex& side, const ex& down, Link link) {
-    const ex v_side = time_.of(side), v_down = time_.of(down);
-    add("velocity_normal", v_side * cosine_[link] - v_down * sine_[link], "m/s");
-    add("velocity_tangential", v_side * sine_[link] + v_down * cosine_[link], "m/s");
+  const auto by_axis = [&](const Points& points, Link link) {
+    std::vector<ex> vector;
+    for (const Axis axis : axes()) vector.push_back(points[axis][link]);
+    return vector;
   };
   const auto add_angle = [&](Link link) {
-    add("angle", theta_[link], "rad");
-    add("rate", theta_dot_[link], "rad/s");
+    if (in_plane()) {
+      add("angle", theta_[link], "rad");
+      add("rate", theta_dot_[link], "rad/s");
+    } else {
+      add_size(here, "rate", "rad/s", by_axis(link_turning_, link));
+    }
   };
-  const bool motion = knowledge == kMotion;
   if (place == Place::kLink || place == Place::kLinkCentre) {
     add("length", length_[i], "m");
     add("mass", mass_[i], "kg");
@@ -69,44 +203,96 @@ ExpressionContext Chain::context(const Effect& effect, Knowledge knowledge, Plac
       add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
     }
     if (motion) add_angle(i);
-    if (motion && place == Place::kLinkCentre) {
-      add_point(middle_[kSide][i], middle_[kDown][i]);
-      add_directions(middle_[kSide][i], middle_[kDown][i], i);
-    }
+    if (knowledge != kShape && place == Place::kLinkCentre) add_point();
+    if (motion && place == Place::kLinkCentre) add_motion_along_link(effect, place, i, here);
   } else if (place == Place::kJoint || place == Place::kPivot) {
     add("stiffness", stiffness_[i], "N m/rad");
     add("damping", damping_[i], "N m s/rad");
     add("arc", arc_[i - 1], "m");
     add("spacing", spacing(i), "m");
+    if (knowledge != kShape) add_point();
     if (motion) {
-      add_point(joint_[kSide][i - 1], joint_[kDown][i - 1]);
-      add("joint_angle", joint_angle_[i], "rad");
-      add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
+      if (in_plane()) {
+        add("joint_angle", joint_angle_[i], "rad");
+        add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
+      } else {
+        add_size(here, "joint_angle", "rad", {});
+        here.sizes.back().square = here.sizes.back().in_energy = squared_angle(joint_cosine_[i]);
+        add_size(here, "joint_rate", "rad/s", by_axis(joint_turning_, i));
+      }
       for (const ExtraState& state : effect.states) {
         if (state.at == Place::kPivot && i != 1) continue;
         add(state.name, effect_symbols_.at(effect.id + "." + state.name)[i], state.unit);
       }
     }
-  } else if (place == Place::kLoad && motion) {
+  } else if (place == Place::kLoad && knowledge != kShape) {
     add("load_mass", load_mass_, "kg");
-    add_angle(links_);
-    add_point(load_[kSide], load_[kDown]);
-    add_directions(load_[kSide], load_[kDown], links_);
+    if (motion) add_angle(links_);
+    add_point();
+    if (motion) add_motion_along_link(effect, place, i, here);
   }
-  return context;
+  return here;
 }
 
-ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge,
-                   Place place, Link i, const char* unit) {
-  if (!expression.given()) return 0;
-  ExpressionContext symbols = context(effect, knowledge, place, i);
+void Chain::add_definitions(const Effect& effect, Knowledge knowledge, Place place,
+                            ExpressionContext& known) {
   for (const Definition& definition : effect.definitions) {
     const bool here =
         definition.at == place || (definition.at == Place::kJoint && place == Place::kPivot);
-    if (definition.at != Place::kAnywhere && (!here || knowledge == kShape)) continue;
-    add_definition(definition, symbols);
+    if (definition.at != Place::kAnywhere && (!here || knowledge != kMotion)) continue;
+    add_definition(definition, known);
   }
-  return parse_expression(expression, symbols, Unit::parse(unit));
+}
+
+ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge,
+                   Place place, Link i, const char* unit, bool in_energy) {
+  if (!expression.given()) return 0;
+  Surroundings here = surroundings(effect, knowledge, place, i);
+  add_definitions(effect, knowledge, place, here.known);
+  ex value = parse_expression(expression, here.known, Unit::parse(unit));
+  for (const Size& size : here.sizes) {
+    if (has_root_of(value, size.placeholder))
+      fail_at(expression, in_quotes(size.name) +
+                              " is the size of a vector in space, which has no derivative at zero; "
+                              "write it with even powers only, as " +
+                              in_quotes(size.name + "^2"));
+    value = value.subs(size.placeholder == (in_energy ? size.in_energy : size.square),
+                       GiNaC::subs_options::no_pattern);
+  }
+  return value;
+}
+
+// A force normal to the link, by axis: an odd function f(w) of the size w of a vector, such as
+// velocity_normal, is the vector times f(w)/w, which is even.
+std::vector<ex> Chain::force_along_normal(const Effect& effect, const ForceTerm& force, Link i,
+                                          const ex& scale, const char* unit) {
+  Surroundings here = surroundings(effect, kMotion, force.at, i);
+  add_definitions(effect, kMotion, force.at, here.known);
+  const ex value = parse_expression(force.normal, here.known, Unit::parse(unit));
+  const auto is_even = [&](const ex& factor) {
+    return std::none_of(here.sizes.begin(), here.sizes.end(),
+                        [&](const Size& size) { return has_root_of(factor, size.placeholder); });
+  };
+  for (const Size& along : here.sizes) {
+    if (along.direction.empty()) continue;
+    ex factor = value * GiNaC::pow(along.placeholder, ex(GiNaC::numeric(-1, 2)));
+    if (!is_even(factor)) factor = factor.expand();
+    if (!is_even(factor)) continue;
+    for (const Size& size : here.sizes)
+      factor = factor.subs(size.placeholder == size.square, GiNaC::subs_options::no_pattern);
+    factor =
+        definitions_.define(effect.id + "_" + at_load(force.at) + "normal_force_per_" + along.name,
+                            index_at(force.at, i), scale * factor);
+    std::vector<ex> components;
+    for (const ex& component : along.direction) components.push_back(factor * component);
+    components.resize(axes().size());
+    return components;
+  }
+  fail_at(
+      force.normal,
+      std::string("in space a force normal to a link has the direction of velocity_normal or of "
+                  "relative_normal; write an odd function of one of them, such as "
+                  "-c*velocity_normal*sqrt(velocity_normal^2 + floor^2)"));
 }
 
 ex Chain::kinematic(Expression Kinematics::*quantity, const char* unit, Place place, Link i) {
@@ -126,10 +312,6 @@ void Chain::add_effect_terms(const Effect& effect) {
       for (Link i = 1; i <= last; ++i) act(i);
     }
   };
-  const auto name_of = [&](const char* what, const ex& value, Link i) {
-    return i == 0 ? definitions_.define(effect.id + "_load_" + what, kNoIndex, value)
-                  : definitions_.define(effect.id + "_" + what, i, value);
-  };
   for (const ExtraState& state : effect.states) {
     each(state.at, [&](Link i) {
       const std::string unit = state.unit + "/s";
@@ -140,56 +322,63 @@ void Chain::add_effect_terms(const Effect& effect) {
   }
   if (!wanted(effect.id)) return;
 
-  for (const ForceTerm& force : effect.forces) {
-    each(force.at, [&](Link i) {
-      const char* unit = force.per_length ? "N/m" : "N";
-      const ex scale = force.per_length ? length_[i] : ex(1);
-      const Link link = force.at == Place::kLoad ? links_ : i;
-      const auto part = [&](const char* what, const Expression& expression) {
-        return name_of(what, scale * evaluate(effect, expression, kMotion, force.at, i, unit), i);
-      };
-      ex side = part("force_side", force.side), down = part("force_down", force.down);
-      if (force.normal.given() || force.tangential.given()) {
-        const ex normal = part("force_normal", force.normal);
-        const ex tangential = part("force_tangential", force.tangential);
-        side += normal * cosine_[link] + tangential * sine_[link];
-        down += -normal * sine_[link] + tangential * cosine_[link];
-      }
-      const bool centre = force.at == Place::kLinkCentre, load = force.at == Place::kLoad;
-      add_force(effect.id, {{centre ? middle_[kSide][i]
-                             : load ? load_[kSide]
-                                    : joint_[kSide][i - 1],
-                             side},
-                            {centre ? middle_[kDown][i]
-                             : load ? load_[kDown]
-                                    : joint_[kDown][i - 1],
-                             down}});
-    });
+  for (const ForceTerm& force : effect.forces)
+    each(force.at, [&](Link i) { add_force_term(effect, force, i); });
+  for (const ScalarTerm& term : effect.scalars)
+    each(term.at, [&](Link i) { add_scalar_term(effect, term, i); });
+}
+
+void Chain::add_force_term(const Effect& effect, const ForceTerm& force, Link i) {
+  const char* unit = force.per_length ? "N/m" : "N";
+  const ex scale = force.per_length ? length_[i] : ex(1);
+  const auto part = [&](const char* what, const Expression& expression) {
+    return definitions_.define(effect.id + "_" + at_load(force.at) + "force_" + what,
+                               index_at(force.at, i),
+                               scale * evaluate(effect, expression, kMotion, force.at, i, unit));
+  };
+  std::vector<ex> components = {part("side", force.side), part("down", force.down)};
+  if (!in_plane()) components.push_back(part("across", force.across));
+  const bool vector_normal = !in_plane() || effect.flow.across.given();
+  if (force.normal.given() && vector_normal) {
+    const std::vector<ex> normal = force_along_normal(effect, force, i, scale, unit);
+    for (std::size_t k = 0; k < components.size(); ++k) components[k] += normal[k];
+  } else if (force.normal.given()) {
+    const Link link = force.at == Place::kLoad ? links_ : i;
+    const ex normal = part("normal", force.normal);
+    components[kSide] += normal * cosine_[link];
+    components[kDown] += -normal * sine_[link];
   }
-  for (const ScalarTerm& term : effect.scalars) {
-    each(term.at, [&](Link i) {
-      const bool joint = term.at == Place::kJoint || term.at == Place::kPivot;
-      const ex scale = term.per_length ? length_[i] : ex(1);
-      const auto value = [&](const char* unit, const char* unit_per_length) {
-        return scale * evaluate(effect, term.value, kMotion, term.at, i,
-                                term.per_length ? unit_per_length : unit);
-      };
-      switch (term.kind) {
-        case ScalarKind::kTorque:
-          add_force(effect.id, {{joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
-                                 name_of("torque", value("N m", "N"), i)}});
-          break;
-        case ScalarKind::kPotential:
-          add_potential(effect.id, value("J", "J/m"));
-          break;
-        case ScalarKind::kDissipation:
-          add_dissipation(effect.id, value("W", "W/m"));
-          break;
-        case ScalarKind::kKinetic:
-          add_kinetic(effect.id, value("J", "J/m"));
-          break;
-      }
-    });
+  const std::vector<ex> point = point_at(force.at, i), direction = direction_at(force.at, i);
+  const ex tangential = part("tangential", force.tangential);
+  std::vector<Component> forces;
+  for (std::size_t k = 0; k < components.size(); ++k)
+    forces.push_back({point[k], components[k] + tangential * direction[k]});
+  add_force(effect.id, forces);
+}
+
+void Chain::add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i) {
+  const bool joint = term.at == Place::kJoint || term.at == Place::kPivot;
+  const ex scale = term.per_length ? length_[i] : ex(1);
+  const auto value = [&](const char* unit, const char* unit_per_length) {
+    return scale * evaluate(effect, term.value, kMotion, term.at, i,
+                            term.per_length ? unit_per_length : unit,
+                            term.kind == ScalarKind::kKinetic);
+  };
+  switch (term.kind) {
+    case ScalarKind::kTorque:
+      add_force(effect.id, {{joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
+                             definitions_.define(effect.id + "_" + at_load(term.at) + "torque",
+                                                 index_at(term.at, i), value("N m", "N"))}});
+      break;
+    case ScalarKind::kPotential:
+      add_potential(effect.id, value("J", "J/m"));
+      break;
+    case ScalarKind::kDissipation:
+      add_dissipation(effect.id, value("W", "W/m"));
+      break;
+    case ScalarKind::kKinetic:
+      add_kinetic(effect.id, value("J", "J/m"));
+      break;
   }
 }
 
@@ -202,7 +391,7 @@ void Chain::add_sensors() {
   for (const Effect& effect : description_.effects) {
     if (!effect.sensor.given()) continue;
     sensor_.given = true;
-    ExpressionContext symbols = context(effect, kShape, Place::kLoad, 0);
+    ExpressionContext symbols = surroundings(effect, kShape, Place::kLoad, 0).known;
     ExpressionContext clock_symbols = symbols;
     symbols.add("side", sensor_.side, Unit::parse("m"));
     symbols.add("down", sensor_.down, Unit::parse("m"));

@@ -395,7 +395,10 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       for (size_t f = 0; f < down.size(); ++f) {
         const ex F = entry(form, {Basis::kCarriedDown, down[f], i - 1});
         S[i][g][f] = definitions.define(prefix + up[g] + "_per_" + down[f], i, S[i + 1][g][f] + F);
-        if (GiNaC::is_a<GiNaC::symbol>(S[i][g][f])) sums.insert(definitions.number_of(S[i][g][f]));
+        // With one summand it is no sum, but perhaps a name that something else has, too.
+        const bool is_sum = !F.is_zero() && !S[i + 1][g][f].is_zero();
+        if (is_sum && GiNaC::is_a<GiNaC::symbol>(S[i][g][f]))
+          sums.insert(definitions.number_of(S[i][g][f]));
       }
     }
   }

@@ -90,8 +90,15 @@ TEST_CASE("every built-in effect shows its formulas, said of the right place") {
   REQUIRE(drag.size() == 1);
   CHECK(drag[0].what == "Dissipation, at the load");
   const auto wind = formulas(built_in_effect("steady_wind"));
-  REQUIRE(wind.size() == 4);
-  CHECK(wind[0].what == "With, at the middle of every link");
-  CHECK(wind[2].what == "Force per length, at the middle of every link");
-  CHECK(wind[2].latex.find("f_{n} = ") == 0);
+  REQUIRE(wind.size() == 3);
+  CHECK(wind[0].what == "Velocity of the fluid, side");
+  CHECK(wind[0].latex == "w_{s} = \\mathrm{wind}");
+  CHECK(wind[1].what == "Force per length, at the middle of every link");
+  CHECK(wind[1].latex.find("f_{n} = -\\mathrm{normal} \\, u_{n}") == 0);
+  const auto current = formulas(built_in_effect("current"));
+  REQUIRE(current.size() == 7);
+  CHECK(current[6].latex.find("F_{a} = -\\mathrm{load} \\, u_{a}") == 0);
+  // A name of its own is not the position across.
+  CHECK(formulas(built_in_effect("marker_offset"))[0].latex.find("\\mathrm{across}") !=
+        std::string::npos);
 }

@@ -17,51 +17,19 @@
 #include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
+#include "tests/runtime/space_cable.hpp"
 
 namespace {
 
 using catena::Model;
 using catena::State;
 using Eigen::VectorXd;
-
-constexpr double kGravity = 9.81;
-
-/// A cable of 1.2 m with a load of 0.3 kg; per joint: stiffness (N m/rad), damping (N m s/rad).
-VectorXd cable(const Model& model, double stiffness, double damping) {
-  const Eigen::Index n = model.links();
-  const double length = 1.2 / model.links(), mass = 0.15 * length;
-  VectorXd p = model.default_parameters();
-  p.segment(0, n).setConstant(length);
-  p.segment(n, n).setConstant(mass);
-  p.segment(2 * n, n).setConstant(mass * length * length / 12);
-  p.segment(3 * n, n).setConstant(stiffness);
-  p.segment(4 * n, n).setConstant(damping);
-  p[model.parameter_index("load_mass")] = 0.3;
-  p[model.parameter_index("gravity")] = kGravity;
-  return p;
-}
-
-catena::SimulationOptions tight() {
-  catena::SimulationOptions options;
-  options.relative_tolerance = 1e-11;
-  options.absolute_tolerance_position = 1e-12;
-  options.absolute_tolerance_velocity = 1e-11;
-  return options;
-}
-
-/// Angles and azimuths that differ from link to link, and rates: nothing stays in a plane.
-State askew(const Model& model) {
-  const int n = model.links();
-  return from_directions(model, {VectorXd::LinSpaced(n, 0.3, 1.1), VectorXd::LinSpaced(n, 0.2, 1.5),
-                                 VectorXd::LinSpaced(n, 1.0, -1.0), VectorXd::Constant(n, 0.8)});
-}
-
-catena::Simulation run(const Model& model, const VectorXd& parameters, const State& initial,
-                       const std::vector<double>& times) {
-  catena::Simulation result = simulate(model, parameters, initial, times, tight());
-  REQUIRE_MESSAGE(result.status == catena::Status::kSuccess, result.message);
-  return result;
-}
+using testing::askew;
+using testing::cable;
+using testing::hand;
+using testing::kGravity;
+using testing::run;
+using testing::tight;
 
 /// One link as a pendulum: angle'' = -strength sin(angle) in a plane.
 double strength(const Model& model, const VectorXd& p) {
@@ -306,23 +274,6 @@ TEST_CASE("motions, sensitivities and gradients in space do not depend on the so
 }
 
 namespace {
-
-/// The six signals of hand.toml over 4 s: position (m) and direction of the clamp as functions of time.
-catena::Signals hand(auto position, auto direction) {
-  catena::Signals signals;
-  std::vector<double> times(4001);
-  for (std::size_t k = 0; k < times.size(); ++k) times[k] = 1e-3 * static_cast<double>(k);
-  const char* axes[] = {"side", "down", "across"};
-  const auto add = [&](const std::string& what, int axis, auto vector) {
-    std::vector<double> values;
-    values.reserve(times.size());
-    for (const double t : times) values.push_back(vector(t)[axis]);
-    signals.add(what + axes[axis], times, values);
-  };
-  for (int axis = 0; axis < 3; ++axis) add("hand.hand_", axis, position);
-  for (int axis = 0; axis < 3; ++axis) add("hand.grip_", axis, direction);
-  return signals;
-}
 
 /// The vectors along the links, turned.
 VectorXd turned(const VectorXd& q, const Eigen::Matrix3d& rotation) {

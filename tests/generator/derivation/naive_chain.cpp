@@ -27,15 +27,32 @@ ex derivative(const ex& expression, const ex& symbol) {
 }  // namespace
 
 bool NaiveChain::knows(const std::string& effect) {
-  static const std::set<std::string> known = {
-      "added_mass",         "air_drag_isotropic", "air_drag_linear",
-      "air_drag_quadratic", "axial_stretch",      "buoyancy",
-      "centre_offset",      "gravity_tilt",       "joint_damping_quadratic",
-      "joint_dry_friction", "joint_hysteresis",   "joint_stiffness_cubic",
-      "link_damping",       "load_drag",          "load_inertia",
-      "load_mass",          "pivot_damping",      "pivot_dry_friction",
-      "pivot_rest_angle",   "pivot_stiffness",    "rest_curvature",
-      "steady_wind",        "support_motion",     "support_series"};
+  static const std::set<std::string> known = {"added_mass",
+                                              "air_drag_isotropic",
+                                              "air_drag_linear",
+                                              "air_drag_quadratic",
+                                              "axial_stretch",
+                                              "buoyancy",
+                                              "centre_offset",
+                                              "current",
+                                              "current_series",
+                                              "gravity_tilt",
+                                              "joint_damping_quadratic",
+                                              "joint_dry_friction",
+                                              "joint_hysteresis",
+                                              "joint_stiffness_cubic",
+                                              "link_damping",
+                                              "load_drag",
+                                              "load_inertia",
+                                              "load_mass",
+                                              "pivot_damping",
+                                              "pivot_dry_friction",
+                                              "pivot_rest_angle",
+                                              "pivot_stiffness",
+                                              "rest_curvature",
+                                              "steady_wind",
+                                              "support_motion",
+                                              "support_series"};
   return known.contains(effect);
 }
 
@@ -235,6 +252,14 @@ void NaiveChain::add_link_forces(int i) {
   };
   if (has("air_drag_quadratic")) add_quadratic("air_drag_quadratic", vs, vd);
   if (has("steady_wind")) add_quadratic("steady_wind", vs - parameter("steady_wind", "wind"), vd);
+  for (const std::string effect : {"current", "current_series"}) {
+    if (!has(effect)) continue;
+    const Fluid fluid = fluid_at(effect, s, d);
+    const ex us = vs - fluid.side, un = across(us, vd), ut = along(us, vd);
+    const ex size = sqrt(un * un + fluid.across * fluid.across + kFloor * kFloor);
+    add_components(-l * parameter(effect, "normal") * size * un,
+                   -l * parameter(effect, "tangential") * size_of(ut) * ut);
+  }
   if (has("air_drag_isotropic")) {
     const ex speed = sqrt(vs * vs + vd * vd + kFloor * kFloor);
     const ex c = l * parameter("air_drag_isotropic", "coefficient");
@@ -280,9 +305,32 @@ void NaiveChain::add_joint_moments(int i) {
   }
 }
 
+// Parallel to side and across, as these effects have it at a depth
+NaiveChain::Fluid NaiveChain::fluid_at(const std::string& effect, const ex& s, const ex& d) {
+  const ex depth = d * cos(tilt_) + s * sin(tilt_);
+  if (effect == "current_series") {
+    const auto speed = [&](const std::string& axis) -> ex {
+      return symbol("current_series_current_" + axis) +
+             depth * symbol("current_series_current_" + axis + "_shear");
+    };
+    return {speed("side"), speed("across")};
+  }
+  const ex height = 1 - depth / parameter(effect, "bed");
+  const ex profile =
+      GiNaC::exp(parameter(effect, "exponent") / 2 * GiNaC::log(height * height + kFloor));
+  return {parameter(effect, "side_speed") * profile, parameter(effect, "across_speed") * profile};
+}
+
 void NaiveChain::add_load_forces() {
-  if (!has("load_drag")) return;
   const ex s = side.back(), d = down.back(), vs = rate(s), vd = rate(d);
+  for (const std::string effect : {"current", "current_series"}) {
+    if (!has(effect)) continue;
+    const Fluid fluid = fluid_at(effect, s, d);
+    const ex us = vs - fluid.side;
+    const ex size = sqrt(us * us + vd * vd + fluid.across * fluid.across + kFloor * kFloor);
+    add_force(s, d, -parameter(effect, "load") * size * us, -parameter(effect, "load") * size * vd);
+  }
+  if (!has("load_drag")) return;
   const ex c = parameter("load_drag", "coefficient") * sqrt(vs * vs + vd * vd + kFloor * kFloor);
   add_force(s, d, -c * vs, -c * vd);
 }

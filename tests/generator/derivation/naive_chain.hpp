@@ -59,6 +59,10 @@ class NaiveChain {
   void add_link_forces(int i);
   void add_joint_moments(int i);
   void add_load_forces();
+  struct Fluid {
+    ex side, across;  // velocity
+  };
+  Fluid fluid_at(const std::string& effect, const ex& s, const ex& d);
 
   int n_;
   std::set<std::string> effects_;

@@ -112,11 +112,12 @@ TEST_CASE("the blocks of the matrices in space are the derivatives of the equati
   for (const char* term : {"kinetic", "elastic", "friction"}) compare(3, term, false);
 }
 
-TEST_CASE("effects in space move the support and nothing else") {
+TEST_CASE("what has a meaning in the plane only is refused in space") {
   catena::Description description = in_space();
-  description.effects.push_back(catena::built_in_effect("load_drag"));
-  CHECK_THROWS_WITH_AS(
-      Chain(description, 2),
-      "\"load_drag\" acts in the plane only, and space is \"3d\"; leave one of them away",
-      std::invalid_argument);
+  description.effects.push_back(catena::built_in_effect("rest_curvature"));
+  CHECK_THROWS_WITH_AS(Chain(description, 2),
+                       "\"rest_curvature\" acts in the plane only: built in: rest_curvature:21: "
+                       "kinematics.rest_angle: a rest angle has no direction in space. Space is "
+                       "\"3d\"; leave one of them away",
+                       std::invalid_argument);
 }

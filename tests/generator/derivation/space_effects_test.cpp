@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Effects in space, derived from their files, at seeded random points in 50-digit arithmetic: against the
+// same files in the plane, against themselves turned about the vertical, and against forces written down
+// as vectors.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "generator/certificate/exact_evaluation.hpp"
+#include "generator/derivation/chain.hpp"
+#include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr int kLinks = 3;
+constexpr int kDigits = 50;
+// Evaluation in 50 digits loses a few to cancellation; a wrong term would be of order one.
+constexpr double kTolerance = 1e-40;
+
+const char* const kAxes[] = {"side", "down", "across"};
+using Vector = std::array<ex, 3>;
+
+// Those that hold in the plane and in space.
+const std::vector<std::string> kEffects = {"added_mass",
+                                           "air_drag_isotropic",
+                                           "air_drag_linear",
+                                           "air_drag_quadratic",
+                                           "buoyancy",
+                                           "centre_offset",
+                                           "current",
+                                           "current_series",
+                                           "gravity_tilt",
+                                           "joint_damping_quadratic",
+                                           "joint_dry_friction",
+                                           "joint_stiffness_cubic",
+                                           "link_damping",
+                                           "load_drag",
+                                           "load_inertia",
+                                           "load_mass",
+                                           "pivot_damping",
+                                           "pivot_dry_friction",
+                                           "pivot_stiffness",
+                                           "steady_wind",
+                                           "support_motion",
+                                           "support_series"};
+
+ex draw(const std::string& name, unsigned seed) {
+  std::seed_seq sequence(name.begin(), name.end());
+  std::mt19937 generator(sequence);
+  generator.discard(seed);
+  return numeric(2 * (static_cast<int>(generator() % 1801) - 900) + 1, 1000);
+}
+
+// A number for every name of a parameter or signal, the same each time. What flows, moves or tilts has both
+// signs, all else is positive. Nothing flows across unless a test says so.
+ex value_of(const std::string& name, unsigned seed) {
+  for (const char* signed_name : {"speed", "wind", "current_side", "support_", "tilt", "fraction"})
+    if (name.find(signed_name) != std::string::npos) return draw(name, seed);
+  return GiNaC::abs(draw(name, seed)) + numeric(1, 5);
+}
+
+ex numeric_of(const ex& e) { return e.evalf(); }
+
+double size(const ex& e) { return std::abs(GiNaC::ex_to<numeric>(e.evalf()).to_double()); }
+
+double difference(const ex& a, const ex& b) { return size(a - b) / (1 + size(a)); }
+
+Description with(const std::vector<std::string>& effects, Space space) {
+  Description description = plain_chain();
+  description.space = space;
+  for (const std::string& id : effects) description.effects.push_back(built_in_effect(id));
+  return description;
+}
+
+// Values of inputs, those that are set first.
+struct Inputs {
+  unsigned seed;
+  std::map<std::string, ex> set = {};
+
+  ex operator()(const std::string& name) const {
+    const auto found = set.find(name);
+    return found != set.end() ? found->second : value_of(name, seed);
+  }
+};
+
+std::string name(const std::string& family, int i) {
+  return family + "[" + std::to_string(i) + "]";
+}
+
+void set_vector(Inputs& inputs, int i, const char* dots, const Vector& vector) {
+  for (std::size_t k = 0; k < 3; ++k)
+    inputs.set[name("direction_" + std::string(kAxes[k]) + dots, i)] = vector[k].evalf();
+}
+
+// Powers and rates of energies, by item.
+std::map<std::string, ex> powers(Chain& chain, ExactEvaluation& evaluation) {
+  std::map<std::string, ex> sums;
+  for (const EnergyItem& item : chain.energies()) {
+    for (const ex& part : item.parts) {
+      const bool stored = item.kind == EnergyItem::kStored;
+      sums[item.name + (stored ? " stored" : "")] +=
+          evaluation.of(stored ? chain.rate(part) : part);
+    }
+  }
+  return sums;
+}
+
+// d(stored)/dt = supplied - dissipated + v.r, whatever the accelerations.
+double imbalance(Chain& chain, ExactEvaluation& evaluation) {
+  ex balance = 0;
+  for (const EnergyItem& item : chain.energies()) {
+    for (const ex& part : item.parts) {
+      if (item.kind == EnergyItem::kStored) balance += evaluation.of(chain.rate(part));
+      if (item.kind == EnergyItem::kSupplied) balance -= evaluation.of(part);
+      if (item.kind == EnergyItem::kDissipated) balance += evaluation.of(part);
+    }
+  }
+  for (std::size_t k = 0; k < chain.residual().size(); ++k)
+    balance -= evaluation.of(chain.rates()[k]) * evaluation.of(chain.residual()[k]);
+  return size(balance);
+}
+
+ex component(Chain& chain, ExactEvaluation& evaluation, int i, std::size_t axis) {
+  return evaluation.of(chain.residual()[axis * kLinks + static_cast<std::size_t>(i) - 1]);
+}
+
+// The state of the plane in the plane of side and down; what acts is along side too.
+void compare_with_plane(const std::vector<std::string>& ids, unsigned seed) {
+  Chain plane(with(ids, Space::kPlane), kLinks), space(with(ids, Space::kThreeDimensional), kLinks);
+  Inputs inputs{seed};
+  for (const char* none : {"current_across_speed", "current_series_current_across",
+                           "current_series_current_across_shear"})
+    inputs.set[none] = 0;
+  std::vector<Vector> tangent(kLinks + 1);
+  for (int i = 1; i <= kLinks; ++i) {
+    const ex theta = draw(name("theta", i), seed), rate = draw(name("theta_dot", i), seed),
+             acceleration = draw(name("theta_ddot", i), seed);
+    const ex s = GiNaC::sin(theta), c = GiNaC::cos(theta);
+    inputs.set[name("theta", i)] = theta;
+    inputs.set[name("theta_dot", i)] = rate;
+    inputs.set[name("theta_ddot", i)] = acceleration;
+    inputs.set[name("torque", i)] = 0;
+    set_vector(inputs, i, "", {s, c, 0});
+    set_vector(inputs, i, "_dot", {c * rate, -s * rate, 0});
+    set_vector(inputs, i, "_ddot",
+               {c * acceleration - s * rate * rate, -s * acceleration - c * rate * rate, 0});
+    tangent[static_cast<std::size_t>(i)] = {c.evalf(), numeric_of(-s), 0};
+  }
+  ExactEvaluation of_plane(plane.definitions(), inputs), of_space(space.definitions(), inputs);
+  for (int i = 1; i <= kLinks; ++i) {
+    CAPTURE(i);
+    ex projected = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      projected += tangent[static_cast<std::size_t>(i)][k] * component(space, of_space, i, k);
+    CHECK(difference(of_plane.of(plane.residual()[static_cast<std::size_t>(i) - 1]), projected) <
+          kTolerance);
+    CHECK(size(component(space, of_space, i, 2)) < kTolerance);
+    const auto at = static_cast<std::size_t>(i) - 1;
+    CHECK(difference(of_plane.of(plane.tensions()[at]), of_space.of(space.tensions()[at])) <
+          kTolerance);
+    CHECK(difference(GiNaC::abs(of_plane.of(plane.moments()[at])),
+                     of_space.of(space.moments()[at])) < kTolerance);
+  }
+  auto expected = powers(plane, of_plane), found = powers(space, of_space);
+  expected.erase("torque");
+  CHECK(expected.size() == found.size());
+  for (const auto& power : expected) {
+    CAPTURE(power.first);
+    CHECK(difference(power.second, found[power.first]) < kTolerance);
+  }
+}
+
+// A state that is nowhere in a plane; vectors that are no unit vectors and change their lengths.
+void set_askew(Inputs& inputs, int i, const char* dots, const numeric& cosine,
+               const numeric& sine) {
+  const auto of = [&](int k) { return draw(name(kAxes[k] + std::string(dots), i), inputs.seed); };
+  const ex down = std::string(dots).empty() ? 1 + of(1) / 4 : of(1);
+  set_vector(inputs, i, dots, {cosine * of(0) - sine * of(2), down, sine * of(0) + cosine * of(2)});
+}
+
+Inputs turned(unsigned seed, const numeric& cosine, const numeric& sine) {
+  Inputs inputs{seed};
+  for (int i = 1; i <= kLinks; ++i)
+    for (const char* dots : {"", "_dot", "_ddot"}) set_askew(inputs, i, dots, cosine, sine);
+  // what flows
+  for (const auto& [side, across] :
+       {std::pair{"current_side_speed", "current_across_speed"},
+        {"current_series_current_side", "current_series_current_across"},
+        {"current_series_current_side_shear", "current_series_current_across_shear"}}) {
+    const ex s = draw(side, seed), a = draw(across, seed);
+    inputs.set[side] = cosine * s - sine * a;
+    inputs.set[across] = sine * s + cosine * a;
+  }
+  return inputs;
+}
+
+}  // namespace
+
+TEST_CASE("in a vertical plane an effect in space is the effect of the plane") {
+  GiNaC::Digits = kDigits;
+  for (const std::string& id : kEffects) {
+    CAPTURE(id);
+    for (const unsigned seed : {1u, 2u}) compare_with_plane({id}, seed);
+  }
+  compare_with_plane({"added_mass", "air_drag_quadratic", "buoyancy", "current", "centre_offset",
+                      "joint_dry_friction", "link_damping", "load_inertia", "load_drag"},
+                     3);
+}
+
+TEST_CASE("every built-in effect that space does not refuse is compared with the plane") {
+  for (const std::string& id : built_in_effect_ids()) {
+    CAPTURE(id);
+    const bool taken = conflict_in(with({id}, Space::kThreeDimensional)).empty();
+    CHECK(taken == (std::find(kEffects.begin(), kEffects.end(), id) != kEffects.end()));
+  }
+}
+
+TEST_CASE("effects in space do not see a turn about the vertical, and their powers balance") {
+  GiNaC::Digits = kDigits;
+  const numeric cosine(-33, 65), sine(56, 65);
+  for (const std::string& id : kEffects) {
+    CAPTURE(id);
+    Chain chain(with({id}, Space::kThreeDimensional), kLinks);
+    const bool has_direction = id == "steady_wind" || id == "gravity_tilt" ||
+                               id == "support_motion" || id == "support_series";
+    ExactEvaluation here(chain.definitions(), turned(4, 1, 0)),
+        there(chain.definitions(), turned(4, cosine, sine));
+    CHECK(imbalance(chain, here) < kTolerance);
+    CHECK(imbalance(chain, there) < kTolerance);
+    if (has_direction) continue;
+    for (int i = 1; i <= kLinks; ++i) {
+      CAPTURE(i);
+      const ex side = component(chain, here, i, 0), across = component(chain, here, i, 2);
+      CHECK(difference(cosine * side - sine * across, component(chain, there, i, 0)) < kTolerance);
+      CHECK(difference(component(chain, here, i, 1), component(chain, there, i, 1)) < kTolerance);
+      CHECK(difference(sine * side + cosine * across, component(chain, there, i, 2)) < kTolerance);
+    }
+    const auto before = powers(chain, here);
+    for (const auto& power : powers(chain, there)) {
+      CAPTURE(power.first);
+      CHECK(difference(before.at(power.first), power.second) < kTolerance);
+    }
+  }
+}
+
+// Forces F_k on the middles of links and on the load do on link i, whose unit vector is e_i, the virtual work
+// l_i (F_i / 2 + F_{i+1} + ... + F_n + F_load) . delta e_i.
+TEST_CASE("drag in space is the vector that Morison's law says") {
+  GiNaC::Digits = kDigits;
+  const auto dot = [](const Vector& a, const Vector& b) {
+    return ex(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).evalf();
+  };
+  const auto scaled = [](const ex& factor, const Vector& a) {
+    return Vector{ex(factor * a[0]).evalf(), ex(factor * a[1]).evalf(), ex(factor * a[2]).evalf()};
+  };
+  const auto plus = [](const Vector& a, const Vector& b) {
+    return Vector{ex(a[0] + b[0]).evalf(), ex(a[1] + b[1]).evalf(), ex(a[2] + b[2]).evalf()};
+  };
+  const numeric floor(1, 1000000);
+  const auto root = [&](const ex& square) { return GiNaC::sqrt(square + floor * floor).evalf(); };
+  Inputs inputs{5};
+  std::vector<Vector> e(kLinks + 1), rate(kLinks + 1);
+  for (int i = 1; i <= kLinks; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    Vector q, v;
+    for (std::size_t a = 0; a < 3; ++a) {
+      q[a] = draw(name(kAxes[a], i), 5);
+      v[a] = draw(name(std::string(kAxes[a]) + "_dot", i), 5);
+    }
+    e[k] = scaled(1 / GiNaC::sqrt(dot(q, q)), q);
+    rate[k] = plus(v, scaled(-dot(v, e[k]), e[k]));  // at a right angle to the link
+    set_vector(inputs, i, "", e[k]);
+    set_vector(inputs, i, "_dot", rate[k]);
+    set_vector(inputs, i, "_ddot", {0, 0, 0});
+  }
+  const auto p = [&](const std::string& parameter) { return inputs("current_" + parameter); };
+  const auto length = [&](int i) { return inputs(name("length", i)); };
+  const auto relative = [&](const Vector& velocity, const ex& depth) {
+    const ex height = 1 - depth / p("bed");
+    const ex profile =
+        GiNaC::exp(p("exponent") / 2 * GiNaC::log(height * height + numeric(1, 1000000)));
+    return plus(velocity, scaled(-profile, {p("side_speed"), 0, p("across_speed")}));
+  };
+  Vector velocity{0, 0, 0};
+  ex depth = 0;
+  std::vector<Vector> force(kLinks + 2);
+  for (int i = 1; i <= kLinks; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vector u =
+        relative(plus(velocity, scaled(length(i) / 2, rate[k])), depth + length(i) / 2 * e[k][1]);
+    const Vector along = scaled(dot(u, e[k]), e[k]), normal = plus(u, scaled(-1, along));
+    force[k] = plus(scaled(-length(i) * p("normal") * root(dot(normal, normal)), normal),
+                    scaled(-length(i) * p("tangential") * root(dot(along, along)), along));
+    velocity = plus(velocity, scaled(length(i), rate[k]));
+    depth += length(i) * e[k][1];
+  }
+  const Vector u = relative(velocity, depth);
+  Vector below = scaled(-p("load") * root(dot(u, u)), u);
+  Chain chain(with({"current"}, Space::kThreeDimensional), kLinks, "current");
+  ExactEvaluation evaluation(chain.definitions(), inputs);
+  for (int i = kLinks; i >= 1; --i) {
+    CAPTURE(i);
+    const auto k = static_cast<std::size_t>(i);
+    const Vector on_link = scaled(length(i), plus(below, scaled(numeric(1, 2), force[k])));
+    const Vector normal = plus(on_link, scaled(-dot(on_link, e[k]), e[k]));
+    for (std::size_t a = 0; a < 3; ++a)
+      CHECK(difference(-normal[a], component(chain, evaluation, i, a)) < kTolerance);
+    below = plus(below, force[k]);
+  }
+}
+
+TEST_CASE("laws that only the plane has are refused in space with their line") {
+  const testing::TemporaryFolder folder;
+  const std::string head =
+      "format = 1\nkind = \"effect\"\nid = \"own\"\ntitle = \"Own\"\ndescription = \"One\"\n"
+      "[parameters.c]\nunit = \"UNIT\"\nneutral = 0.0\ndescription = \"c\"\n";
+  struct Row {
+    std::string unit, body, said;
+  };
+  const Row rows[] = {
+      {"N", "[[dissipation]]\nat = \"link_centre\"\nvalue = \"c*velocity_normal\"\n",
+       ":12: dissipation.value: in \"c*velocity_normal\": \"velocity_normal\" is the size of a "
+       "vector"},
+      {"N m/rad", "[[potential]]\nat = \"joint\"\nvalue = \"c*(joint_angle - 1)^2/2\"\n",
+       ":12: potential.value: in \"c*(joint_angle - 1)^2/2\": \"joint_angle\" is the size of a "
+       "vector"},
+      {"N m s^2/rad^2", "[[dissipation]]\nat = \"joint\"\nvalue = \"c*sqrt(joint_rate^2)^3/3\"\n",
+       ":12: dissipation.value: in \"c*sqrt(joint_rate^2)^3/3\": \"joint_rate\" is the size of a"},
+      {"N", "[[force]]\nat = \"link_centre\"\nnormal = \"c\"\n",
+       ":12: force.normal: in \"c\": in space a force normal to a link has the direction of"},
+      {"N s^2/m^2", "[[force]]\nat = \"load\"\nnormal = \"-c*velocity_normal^2\"\n",
+       ":12: force.normal: in \"-c*velocity_normal^2\": in space a force normal to a link"},
+  };
+  for (const Row& row : rows) {
+    std::string text = head + row.body;
+    text.replace(text.find("UNIT"), 4, row.unit);
+    const auto path = folder.write("own.toml", text);
+    Description description = with({}, Space::kThreeDimensional);
+    description.effects.push_back(read_effect(path));
+    const std::string said = failure([&] { Chain(description, 2); });
+    CAPTURE(said);
+    CHECK(said.find(path.string() + row.said) == 0);
+    description.space = Space::kPlane;
+    Chain(description, 2);
+  }
+}
