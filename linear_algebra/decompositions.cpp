@@ -2,6 +2,7 @@
 #include "linear_algebra/decompositions.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 namespace catena {
 
@@ -53,12 +54,16 @@ MatrixXd orthonormal_basis(const MatrixXd& matrix, double threshold) {
   return qr.householderQ() * MatrixXd::Identity(matrix.rows(), qr.rank());
 }
 
+MatrixXd triangle_of(const MatrixXd& matrix) {
+  return Eigen::HouseholderQR<MatrixXd>(matrix)
+      .matrixQR()
+      .topRows(std::min(matrix.rows(), matrix.cols()))
+      .triangularView<Eigen::Upper>();
+}
+
 SingularDirections singular_directions(const MatrixXd& matrix) {
-  const MatrixXd triangle = Eigen::HouseholderQR<MatrixXd>(matrix)
-                                .matrixQR()
-                                .topRows(matrix.cols())
-                                .triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(triangle, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(triangle_of(matrix),
+                                                                  Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
 }
 

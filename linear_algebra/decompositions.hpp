@@ -57,6 +57,9 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::Matrix
 /// share beyond the others is less than `threshold` of the largest give none.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix, double threshold);
 
+/// R of A = QR, min(m, n) x n and zero below its diagonal: R'R = A'A, without the squares.
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& matrix);
+
 /// Singular values, descending, and the right singular vectors that belong to them, in columns.
 struct SingularDirections {
   Eigen::VectorXd values;

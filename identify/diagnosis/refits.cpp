@@ -6,6 +6,7 @@
 #include "common/parallel.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
+#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 
@@ -34,12 +35,39 @@ VectorXd scaled(const Candidate& candidate, const Problem& problem, VectorXd x, 
   return x;
 }
 
+/// Of the integrator, for the fitted part at the values found.
+long steps_of(const FittedModel& model) {
+  long steps = 0;
+  evaluate(*model.problem, model.x, false, false, [&steps] { return ++steps > 0; });
+  return steps;
+}
+
+/// What one search and its refits share.
+struct Refits {
+  const CandidateSearch& search;
+  /// Fits in which a simulation that takes far more steps than the base's has failed.
+  LeastSquares least_squares;
+
+  explicit Refits(const CandidateSearch& of) : search(of) {
+    const long most = kThresholds.steps_of_refits * steps_of(search.base);
+    least_squares = [&solver = search.context.least_squares, most](const Problem& problem,
+                                                                   FitOptions options) {
+      options.most_steps = most;
+      return solver(problem, options);
+    };
+  }
+};
+
 /// Fits from a start; the explanation keeps the result if it is the best so far.
-void fit_from(const CandidateSearch& search, Explanation& explanation,
+void fit_from(const Refits& refits, Explanation& explanation,
               const std::shared_ptr<const Problem>& problem, const VectorXd& start) {
+  const CandidateSearch& search = refits.search;
   DiagnosisContext& context = search.context;
   if (context.stopped()) return;
-  FittedModel model = fit_model(problem, start, search.noise, context.least_squares, context.stop);
+  const bool own_model = explanation.is_effect() && candidate_of(search, explanation).own_model;
+  FittedModel model =
+      fit_model(problem, start, search.noise,
+                own_model ? context.least_squares : refits.least_squares, context.stop);
   if (!model.ok || (explanation.refitted && sum_of_squares(model, search.noise) >=
                                                 sum_of_squares(explanation.model, search.noise)))
     return;
@@ -50,14 +78,16 @@ void fit_from(const CandidateSearch& search, Explanation& explanation,
   explanation.model = std::move(model);
 }
 
-void refit_start(const CandidateSearch& search, Explanation& explanation) {
+void refit_start(const Refits& refits, Explanation& explanation) {
+  const CandidateSearch& search = refits.search;
   const auto freer = search.with_free_start();
   if (!freer) return;
   const auto problem = std::make_shared<const Problem>(*freer, search.base.problem->model());
-  fit_from(search, explanation, problem, transfer(*search.base.problem, search.base.x, *problem));
+  fit_from(refits, explanation, problem, transfer(*search.base.problem, search.base.x, *problem));
 }
 
-void refit_effect(const CandidateSearch& search, Explanation& explanation, bool far) {
+void refit_effect(const Refits& refits, Explanation& explanation, bool far) {
+  const CandidateSearch& search = refits.search;
   const Candidate& candidate = candidate_of(search, explanation);
   const auto problem = search.problem_with(candidate);
   const auto start = [&](const std::vector<std::pair<std::string, double>>& values) {
@@ -67,7 +97,7 @@ void refit_effect(const CandidateSearch& search, Explanation& explanation, bool 
     return x;
   };
   const auto fit = [&](const VectorXd& x, double factor) {
-    fit_from(search, explanation, problem, scaled(candidate, *problem, x, factor));
+    fit_from(refits, explanation, problem, scaled(candidate, *problem, x, factor));
   };
   const VectorXd x = start(explanation.start);
   fit(x, 1);
@@ -76,28 +106,30 @@ void refit_effect(const CandidateSearch& search, Explanation& explanation, bool 
   if (!explanation.other_start.empty()) fit(start(explanation.other_start), 1);
 }
 
-void refit(const CandidateSearch& search, Explanation& explanation, bool far) {
+void refit(const Refits& refits, Explanation& explanation, bool far) {
   if (explanation.is_effect())
-    refit_effect(search, explanation, far);
+    refit_effect(refits, explanation, far);
   else
-    refit_start(search, explanation);
+    refit_start(refits, explanation);
   if (!explanation.refitted) explanation.note = "the refit failed";
 }
 
-void refit_from_elsewhere(const CandidateSearch& search, Explanation& explanation) {
-  const Candidate& candidate = candidate_of(search, explanation);
+void refit_from_elsewhere(const Refits& refits, Explanation& explanation) {
+  const Candidate& candidate = candidate_of(refits.search, explanation);
   const std::shared_ptr<const Problem> problem = explanation.model.problem;
   const VectorXd x = explanation.model.x;
   for (const double factor : kOtherAmplitudes)
-    fit_from(search, explanation, problem, scaled(candidate, *problem, x, factor));
+    fit_from(refits, explanation, problem, scaled(candidate, *problem, x, factor));
 }
 
 void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, bool far) {
   DiagnosisContext& context = search.context;
+  if (chosen.empty()) return;
+  const Refits refits(search);
   context.begin("refitting", chosen.size());
   in_parallel(chosen.size(), context.threads, [&](std::size_t i) {
     context.begin_task("refitting with " + chosen[i]->id);
-    refit(search, *chosen[i], far);
+    refit(refits, *chosen[i], far);
     context.end_task();
   });
   // What holds and slips, or is large, has more than one minimum: the best of those that still
@@ -113,7 +145,7 @@ void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, 
   if (chosen.empty()) return;
   context.begin("refitting the best from elsewhere", chosen.size());
   in_parallel(chosen.size(), context.threads, [&](std::size_t i) {
-    refit_from_elsewhere(search, *chosen[i]);
+    refit_from_elsewhere(refits, *chosen[i]);
     context.end_task();
   });
 }

@@ -62,15 +62,18 @@ Residuals residuals_of(const Problem& problem, const Evaluation& evaluation, Par
   if (!evaluation.with_jacobian) return residuals;
   const auto unknowns = static_cast<Index>(problem.unknowns().size());
   residuals.jacobian.setZero(residuals.value.size(), unknowns);
-  for (Index j = 0; j < unknowns; ++j)
-    for (Index i = 0; i < residuals.value.size(); ++i) {
-      const ResidualIndex& index = residuals.index[static_cast<std::size_t>(i)];
-      const auto& sensitivity =
-          evaluation.predictions[static_cast<std::size_t>(index.experiment)].sensitivity;
-      if (j >= static_cast<Index>(sensitivity.size())) continue;
-      const Eigen::MatrixXd& along = sensitivity[static_cast<std::size_t>(j)];
-      if (along.size()) residuals.jacobian(i, j) = along(index.channel, index.frame);
+  for (std::size_t first = 0, last = 0; first < residuals.index.size(); first = last) {
+    const int e = residuals.index[first].experiment;
+    while (last < residuals.index.size() && residuals.index[last].experiment == e) ++last;
+    const auto& sensitivity = evaluation.predictions[static_cast<std::size_t>(e)].sensitivity;
+    for (std::size_t j = 0; j < sensitivity.size(); ++j) {
+      if (sensitivity[j].size() == 0) continue;  // of the start of another window
+      auto along = residuals.jacobian.col(static_cast<Index>(j));
+      for (std::size_t i = first; i < last; ++i)
+        along[static_cast<Index>(i)] =
+            sensitivity[j](residuals.index[i].channel, residuals.index[i].frame);
     }
+  }
   return residuals;
 }
 

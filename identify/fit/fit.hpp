@@ -69,6 +69,8 @@ struct Progress {
 struct FitOptions {
   Eigen::VectorXd start;  ///< empty: the case's
   double time_limit = 0;  ///< s; 0: none
+  /// Of the integrator, in one evaluation: one that takes more has failed. 0: as the case says.
+  long most_steps = 0;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
   /// What an interrupted run found for exactly these unknowns; null if it did not come that far.

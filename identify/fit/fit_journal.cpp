@@ -83,8 +83,10 @@ double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient)
 
 Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
                              std::string& message) {
-  const auto keep_going = [this] {
-    return !(options_.stop && options_.stop->load()) &&
+  long steps = 0;
+  const auto keep_going = [this, &steps] {
+    return (options_.most_steps == 0 || ++steps <= options_.most_steps) &&
+           !(options_.stop && options_.stop->load()) &&
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };
   const Evaluation evaluation = catena::evaluate(problem, x, false, jacobian, keep_going);

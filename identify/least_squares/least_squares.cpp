@@ -5,7 +5,6 @@
 
 #include <Eigen/QR>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit_journal.hpp"
 #include "identify/fit/loss.hpp"
+#include "identify/least_squares/condensed_rows.hpp"
 #include "identify/least_squares/distance_cost.hpp"
 #include "identify/least_squares/simulated_residuals.hpp"
 
@@ -26,35 +26,73 @@ using Eigen::VectorXd;
 // A constant added to every distance, in units of the error at the start (see DistanceCost).
 constexpr double kOffset = 20;
 
-/// One of the numbers a simulation gives, with a weight.
-class Block : public ceres::CostFunction {
+/// All squares of a problem as one block: the cost by the case's loss, and one row more than unknowns,
+/// with which every step has the cost that the residuals and constraints have, linearised and each
+/// with the weight that its loss gives it here. Of Triggs' correction, losses that flatten need no
+/// more than this weight.
+class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
  public:
-  Block(const SimulatedResiduals& simulated, const Eigen::VectorXd& values,
-        const Eigen::MatrixXd& jacobian, Index place, double weight)
-      : simulated_(simulated),
-        values_(values),
-        jacobian_(jacobian),
-        place_(place),
-        weight_(weight) {
-    set_num_residuals(1);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(jacobian.cols()));
+  /// `noise`: of each residual. `simulated` must be ok.
+  SquaresCost(const SimulatedResiduals& simulated, VectorXd noise, const ErrorSpec& error)
+      : simulated_(simulated), noise_(std::move(noise)), error_(error) {
+    const auto unknowns = static_cast<int>(simulated_.residuals().jacobian.cols());
+    set_num_residuals(unknowns + 1);
+    mutable_parameter_block_sizes()->push_back(unknowns);
   }
 
+  /// To be called where Ceres is about to ask for derivatives. Returns the share of the cost that the
+  /// best step of Gauss and Newton promises.
+  double linearise() {
+    const Residuals& residuals = simulated_.residuals();
+    const SoftConstraints& constraints = simulated_.constraints();
+    VectorXd weights = noise_.cwiseInverse();
+    if (error_.loss != Loss::kNone)
+      for (Index i = 0; i < noise_.size(); ++i)
+        weights[i] *= std::sqrt(loss_of(error_, std::pow(residuals.value[i] / noise_[i], 2)).slope);
+    rows_ = condensed(residuals, weights, constraints);
+    return promised() / cost();
+  }
+
+  /// Rows only; the cost is the loss's.
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
     if (!simulated_.ok()) return false;
-    residuals[0] = weight_ * values_[place_];
+    Eigen::Map<VectorXd>(residuals, num_residuals()) = rows_.value;
     if (jacobians && jacobians[0])
-      Eigen::Map<Eigen::RowVectorXd>(jacobians[0], jacobian_.cols()) =
-          weight_ * jacobian_.row(place_);
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          jacobians[0], num_residuals(), rows_.jacobian.cols()) = rows_.jacobian;
     return true;
   }
 
+  /// As the loss of the block: its rows stay as they are.
+  void Evaluate(double, double out[3]) const override {
+    out[0] = cost();
+    out[1] = 1;
+    out[2] = 0;
+  }
+
  private:
+  /// Twice what Ceres calls so, here.
+  double cost() const {
+    const SoftConstraints& constraints = simulated_.constraints();
+    double sum = constraints.value.cwiseProduct(constraints.weight).squaredNorm();
+    for (Index i = 0; i < noise_.size(); ++i)
+      sum += loss_of(error_, std::pow(simulated_.residuals().value[i] / noise_[i], 2)).value;
+    return sum;
+  }
+
+  double promised() const {
+    const MatrixXd curvature = rows_.jacobian.transpose() * rows_.jacobian;
+    const VectorXd scale = curvature.diagonal().unaryExpr(
+        [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
+    const VectorXd scaled = scale.cwiseProduct(rows_.jacobian.transpose() * rows_.value);
+    const MatrixXd alike = scale.asDiagonal() * curvature * scale.asDiagonal();
+    return scaled.dot(alike.completeOrthogonalDecomposition().solve(scaled));
+  }
+
   const SimulatedResiduals& simulated_;
-  const Eigen::VectorXd& values_;  // of simulated_
-  const Eigen::MatrixXd& jacobian_;
-  Index place_;
-  double weight_;
+  VectorXd noise_;
+  const ErrorSpec& error_;
+  LinearRows rows_;
 };
 
 // A first step that promises this share of the cost, of which less than the second share is ever
@@ -120,21 +158,6 @@ class Watch : public ceres::IterationCallback {
   const double &promise_, &enough_;
 };
 
-/// The loss of a case, as Ceres wants it.
-class CaseLoss : public ceres::LossFunction {
- public:
-  explicit CaseLoss(const ErrorSpec& error) : error_(error) {}
-  void Evaluate(double square, double out[3]) const override {
-    const LossValue loss = loss_of(error_, square);
-    out[0] = loss.value;
-    out[1] = loss.slope;
-    out[2] = loss.curvature;
-  }
-
- private:
-  const ErrorSpec& error_;
-};
-
 // A step that promises no more than this share of the cost is likely to be the last.
 constexpr double kLastStep = 1e-4;
 
@@ -155,35 +178,6 @@ DistanceCost::Box box_of(const Problem& problem) {
   return box;
 }
 
-/// The share of the cost, residuals over their noise by the case's loss and constraints by their
-/// weight, that the best step of Gauss and Newton promises.
-double promise_of(const Residuals& residuals, const VectorXd& noise,
-                  const SoftConstraints& constraints, const ErrorSpec& error) {
-  VectorXd root_weight(noise.size());
-  double cost = constraints.value.cwiseProduct(constraints.weight).squaredNorm();
-  for (Index i = 0; i < noise.size(); ++i) {
-    const LossValue loss = loss_of(error, std::pow(residuals.value[i] / noise[i], 2));
-    root_weight[i] = std::sqrt(loss.slope) / noise[i];
-    cost += loss.value;
-  }
-  VectorXd gradient = VectorXd::Zero(residuals.jacobian.cols());
-  MatrixXd lower = MatrixXd::Zero(gradient.size(), gradient.size());
-  const auto add = [&](const MatrixXd& jacobian, const VectorXd& root, const VectorXd& value) {
-    const MatrixXd rows = root.asDiagonal() * jacobian;
-    gradient += rows.transpose() * root.cwiseProduct(value);
-    lower.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
-  };
-  add(residuals.jacobian, root_weight, residuals.value);
-  if (constraints.value.size() > 0)
-    add(constraints.jacobian, constraints.weight, constraints.value);
-  const MatrixXd curvature = lower.selfadjointView<Eigen::Lower>();
-  const VectorXd scale = curvature.diagonal().unaryExpr(
-      [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
-  const VectorXd scaled = scale.cwiseProduct(gradient);
-  const MatrixXd alike = scale.asDiagonal() * curvature * scale.asDiagonal();
-  return scaled.dot(alike.completeOrthogonalDecomposition().solve(scaled)) / cost;
-}
-
 bool of_squares(const Problem& problem) {
   const Measure measure = problem.the_case().error.measure;
   return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
@@ -197,9 +191,8 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   const ErrorSpec& error = problem.the_case().error;
   const int unknowns = static_cast<int>(y.size());
   // All that Ceres is given stays ours: it would not give back what it could not take.
-  std::deque<Block> blocks;
+  std::optional<SquaresCost> sum;
   std::optional<DistanceCost> distances;
-  CaseLoss loss(error);
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &simulated;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -207,7 +200,6 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   ceres::Problem solver(problem_options);
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
-  const SoftConstraints& constraints = simulated.constraints();
   const bool squares = of_squares(problem);
   const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
   const DistanceCost::Box box = box_of(problem);
@@ -222,17 +214,10 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
     enough = std::max(enough, (squares ? 2 : 1) * noise / simulated.error());
   };
   if (squares) {
-    const VectorXd noise = noise_of(problem, first);
-    for (Index i = 0; i < noise.size(); ++i)
-      solver.AddResidualBlock(
-          &blocks.emplace_back(simulated, first.value, first.jacobian, i, 1 / noise[i]),
-          error.loss == Loss::kNone ? nullptr : &loss, y.data());
-    for (Index i = 0; i < constraints.value.size(); ++i)
-      solver.AddResidualBlock(&blocks.emplace_back(simulated, constraints.value,
-                                                   constraints.jacobian, i, constraints.weight[i]),
-                              nullptr, y.data());
-    simulated.tell([&, noise] {
-      arrive(promise_of(first, noise, constraints, error));
+    sum.emplace(simulated, noise_of(problem, first), error);
+    solver.AddResidualBlock(&*sum, &*sum, y.data());
+    simulated.tell([&] {
+      arrive(sum->linearise());
       return true;
     });
   } else {

@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -108,6 +110,21 @@ fs::path source_in(const fs::path& folder) {
   throw ModelError(folder.string() + ": catena-derive wrote no source file");
 }
 
+/// Of the generator, which one diagnosis asks for dozens of times: hashed again when the file changes.
+std::string hash_of_program(const fs::path& program) {
+  using Version = std::pair<fs::file_time_type, std::uintmax_t>;
+  static std::mutex mutex;
+  static std::map<fs::path, std::pair<Version, std::string>> known;
+  const std::lock_guard lock(mutex);
+  auto& [version, hash] = known[program];
+  if (const Version now{fs::last_write_time(program), fs::file_size(program)};
+      hash.empty() || version != now) {
+    hash = sha256_of_file(program);
+    version = now;
+  }
+  return hash;
+}
+
 Description description_in(const fs::path& file) {
   return file.empty() ? plain_chain() : read_description(file);
 }
@@ -164,7 +181,7 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
                                "-fno-trapping-math"});
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         // models of another generator are not taken from the cache
-                        sha256_of_file(derive) + "\n" + "interface " +
+                        hash_of_program(derive) + "\n" + "interface " +
                         std::to_string(CATENA_MODEL_ABI) + ", " +
                         std::to_string(sizeof(catena_model)) + " bytes\n" + compiler;
   for (const std::string& flag : flags) decides += " " + flag;

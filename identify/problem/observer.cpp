@@ -100,7 +100,8 @@ void Observer::move_to(const Trajectory& path, Index column, double t) {
 void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, bool held) {
   const VectorXd& by_parameter = directions_[direction].parameters;
   const catena_point at = point(*path_, signals_, parameters_);
-  const catena_point along = point(sensitivity, no_signals_, by_parameter);
+  catena_point along = point(sensitivity, no_signals_, by_parameter);
+  along.t = 0;  // the moment is the same along every direction
   model_.positions_tangent(at, along, change_.side.data(), change_.down.data());
   if (model_.in_space()) model_.positions_across_tangent(at, along, change_.across.data());
   double clock_shift = 0;
@@ -129,7 +130,7 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
 
 catena_point Observer::point(const Trajectory& path, const VectorXd& signals,
                              const VectorXd& p) const {
-  return {path.time.empty() ? 0.0 : path_->time[static_cast<std::size_t>(column_)],
+  return {path_->time[static_cast<std::size_t>(column_)],
           path.q.col(column_).data(),
           path.v.col(column_).data(),
           accelerations_.data(),

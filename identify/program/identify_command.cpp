@@ -196,12 +196,11 @@ std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluati
                      defects.value.size() / (2 * n), angle, rate);
 }
 
-/// What the end of the fit says, a line for an experiment.
+/// What the end of the fit says, a line for a recording.
 std::string remark_lines(const Problem& problem, const Evaluation& evaluation) {
   std::string out;
-  const std::vector<std::string> remarks = remarks_on_fit(problem, evaluation);
-  for (std::size_t e = 0; e < remarks.size(); ++e)
-    if (!remarks[e].empty()) out += problem.experiments()[e].spec.name + ": " + remarks[e] + "\n";
+  for (const FitRemark& remark : remarks_on_fit(problem, evaluation))
+    out += fmt::format("{}: {}\n", remark.recording, remark.words);
   return out;
 }
 

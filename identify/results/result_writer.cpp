@@ -345,9 +345,8 @@ std::string identification_result_text(const Problem& problem, const Identificat
   result.message = found.fit.message;
   result.experiments =
       experiments_of(problem, found.fit.x, &found.before, found.after, found.motions);
-  const std::vector<std::string> remarks = remarks_on_fit(problem, found.after);
-  for (std::size_t e = 0; e < remarks.size(); ++e)
-    if (!remarks[e].empty()) result.experiments[e].warnings.push_back(remarks[e]);
+  for (const FitRemark& remark : remarks_on_fit(problem, found.after))
+    result.experiments[remark.experiment].warnings.push_back(remark.words);
   result.measure = measure_of(problem, found.after);
   result.parameters = parameters_of(problem, found.fit.x);
   result.optimiser = optimiser_of(problem, found.fit);

@@ -56,6 +56,23 @@ TEST_CASE("every method finds the truth behind perfect data, in every measure") 
     }
 }
 
+TEST_CASE("a simulation that takes more steps than it may has failed") {
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005);
+  long steps = 0;
+  REQUIRE(evaluate(problem, problem.start(), false, false, [&] { return ++steps > 0; }).ok);
+  REQUIRE(steps > 100);
+  FitOptions options;
+  options.most_steps = 4 * steps;
+  const FitResult free = fit(problem, {}, fit_least_squares);
+  const FitResult enough = fit(problem, options, fit_least_squares);
+  CHECK(enough.x == free.x);
+  CHECK(enough.failures == 0);
+  options.most_steps = steps / 2;
+  const FitResult less = fit(problem, options, fit_least_squares);
+  CHECK(less.status == FitStatus::kFailed);
+  CHECK(less.evaluations == 1);
+}
+
 TEST_CASE("the noise of every channel is found with the physics and kept apart from it") {
   // marker 1 is seen ten times worse than the others
   Recording recording = twin(FitMethod::kLeastSquares, Measure::kLikelihood, 0.1, 0.005, 1e-3, 2)

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "identify/models/model_provider.hpp"
+#include "identify/problem/evaluation.hpp"
 #include "identify/problem/prediction.hpp"
 #include "runtime/positions.hpp"
+#include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -101,4 +103,40 @@ TEST_CASE("the chain that is laid over a measurement runs through what the senso
       CHECK(std::atan2(seen.side(link + 1, k) - seen.side(link, k),
                        seen.down(link + 1, k) - seen.down(link, k)) ==
             doctest::Approx(predicted(link, k)).epsilon(1e-9));
+}
+
+TEST_CASE("derivatives of what is seen of a chain whose support moves") {
+  const testing::TemporaryFolder folder;
+  ProviderOptions options;
+  options.derive_program = tests::build_folder() / "bin" / "catena-derive";
+  options.cache_directory = folder.path() / "cache";
+  const Model model = provide_model(
+      folder.write(
+          "moving.toml",
+          "format = 1\nkind = \"model\"\nid = \"moving\"\neffects = [\"support_motion\"]\n"),
+      kLinks, options);
+  const Problem moving = seen_with(model,
+                                   {{"support_motion.side_amplitude", 0.02},
+                                    {"support_motion.down_amplitude", 0.01},
+                                    {"support_motion.frequency", 1.3},
+                                    {"support_motion.side_phase", 0.4},
+                                    {"support_motion.down_phase", -0.2}},
+                                   DataKind::kMarkers);
+  Case the_case = moving.the_case();
+  for (ParameterSpec& parameter : the_case.parameters) parameter.free = true;
+  const Problem problem(the_case, model, moving.experiments());
+  const Eigen::VectorXd x = problem.start();
+  REQUIRE(x.size() == 7);
+  const Evaluation at = evaluate(problem, x, true, true);
+  REQUIRE(at.ok);
+  const auto seen = [&](const Eigen::VectorXd& there) {
+    return Eigen::VectorXd(problem.predict(there, 0, true).simulated.reshaped());
+  };
+  for (Index j = 0; j < x.size(); ++j) {
+    CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+    const Eigen::MatrixXd& along = at.predictions[0].sensitivity[static_cast<std::size_t>(j)];
+    const Eigen::VectorXd difference =
+        testing::central_difference(seen, x, j, 1e-3 * std::abs(x[j]));
+    CHECK((difference - along.reshaped()).norm() < 1e-3 * along.norm());
+  }
 }
