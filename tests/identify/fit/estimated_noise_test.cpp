@@ -116,6 +116,7 @@ TEST_CASE("a prior and a loss need no stated noise where it is estimated") {
   the_case.error.loss = Loss::kHuber;
   const auto held =
       std::make_shared<const Problem>(the_case, problem->model(), problem->experiments());
+  CHECK(before_noise_is_known(held)->the_case().error.loss == Loss::kNone);
   const FitResult plain = fitted_plainly(held);
   CHECK(std::abs(plain.x[0] - 0.11) > 1e-3);  // neither counts in the first fit
   const WeighedFit found = fit_with_noise(held, plain, {}, fit_least_squares);
