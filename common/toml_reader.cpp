@@ -233,10 +233,6 @@ bool TomlTable::is_text(std::string_view key) const {
   return has(key) && find(table_, key)->is_string();
 }
 
-bool TomlTable::is_table(std::string_view key) const {
-  return has(key) && find(table_, key)->is_table();
-}
-
 std::optional<std::string> TomlTable::optional_text(std::string_view key) const {
   if (!has(key)) return std::nullopt;
   const toml::node* node = find(table_, key);

@@ -42,7 +42,6 @@ class TomlTable {
   std::optional<long> optional_integer(std::string_view key) const;
   std::optional<bool> optional_flag(std::string_view key) const;
   bool is_text(std::string_view key) const;  ///< false also if the key is missing
-  bool is_table(std::string_view key) const;
 
   /// Lists; empty if the key is missing.
   std::vector<double> numbers(std::string_view key) const;

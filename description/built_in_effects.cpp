@@ -14,17 +14,12 @@ std::vector<std::string> built_in_effect_ids() {
   return ids;
 }
 
-std::string_view built_in_effect_text(std::string_view id) {
-  for (const BuiltInEffect& effect : built_in_effects()) {
-    if (effect.id == id) return effect.text;
-  }
+Effect built_in_effect(std::string_view id) {
+  for (const BuiltInEffect& effect : built_in_effects())
+    if (effect.id == id)
+      return read_effect(TomlTable::parse(effect.text, "built in: " + std::string(id), "effect"));
   throw InputError(in_quotes(id) + " is not a built-in effect" +
                    suggestion(id, built_in_effect_ids()));
-}
-
-Effect built_in_effect(std::string_view id) {
-  const std::string_view text = built_in_effect_text(id);
-  return read_effect(TomlTable::parse(text, "built in: " + std::string(id), "effect"));
 }
 
 }  // namespace catena

@@ -197,7 +197,4 @@ Effect read_effect(const std::filesystem::path& path);
 Effect built_in_effect(std::string_view id);
 std::vector<std::string> built_in_effect_ids();
 
-/// The text of the file of a built-in effect, as a template for others. Throws as built_in_effect.
-std::string_view built_in_effect_text(std::string_view id);
-
 }  // namespace catena

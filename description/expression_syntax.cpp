@@ -174,7 +174,8 @@ class Parser {
       fail(name + " has no derivative everywhere; write " + smooth->second +
            " with a small constant");
     }
-    const auto& known = function_names();
+    static const std::vector<std::string> known = {"sin",  "cos",  "tan",  "exp",  "log",  "sqrt",
+                                                   "tanh", "sinh", "cosh", "atan", "asinh"};
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       fail(in_quotes(name) + " is no known function" + suggestion(name, known) +
            " A product is written " + name + "*(...)");
@@ -213,12 +214,6 @@ SyntaxNode parse_syntax(const Expression& expression) { return Parser(expression
 std::set<std::string> names_in(const Expression& expression) {
   std::set<std::string> names;
   if (expression.given()) collect_names(parse_syntax(expression), names);
-  return names;
-}
-
-const std::vector<std::string>& function_names() {
-  static const std::vector<std::string> names = {"sin",  "cos",  "tan",  "exp",  "log",  "sqrt",
-                                                 "tanh", "sinh", "cosh", "atan", "asinh"};
   return names;
 }
 

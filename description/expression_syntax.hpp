@@ -36,9 +36,6 @@ SyntaxNode parse_syntax(const Expression& expression);
 /// The names in an expression, without those of functions. Empty if the expression is not given.
 std::set<std::string> names_in(const Expression& expression);
 
-/// The functions of the grammar.
-const std::vector<std::string>& function_names();
-
 /// Throws InputError "file:line: key: in "text": problem".
 [[noreturn]] void fail_at(const Expression& expression, const std::string& problem);
 

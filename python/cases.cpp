@@ -29,7 +29,7 @@
 #include "identify/results/result_writer.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 #include "python/core.hpp"
-#include "python/tables.hpp"
+#include "python/data_frames.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;

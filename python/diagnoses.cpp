@@ -22,7 +22,7 @@
 #include "identify/report/report.hpp"
 #include "identify/results/output_folder.hpp"
 #include "python/core.hpp"
-#include "python/tables.hpp"
+#include "python/data_frames.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;

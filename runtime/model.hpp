@@ -106,9 +106,6 @@ class Model {
                                 double* dacross) const {
     table_->positions_across_tangent(table_->context, &at, &along, dacross);
   }
-  void velocities_across(const catena_point& at, double* across_rate) const {
-    table_->velocities_across(table_->context, &at, across_rate);
-  }
   void internal_forces(const catena_point& at, double* moment, double* tension,
                        double* curvature) const {
     table_->internal_forces(table_->context, &at, moment, tension, curvature);

@@ -12,7 +12,7 @@
 namespace catena {
 namespace {
 
-/// A point of the table for functions that read q, perhaps v, u and p; zeros for the rest.
+/// A point of the table for functions that read q, u and p; zeros for the rest.
 struct Reading {
   Reading(const Model& model, const Signals& signals, double t)
       : u(static_cast<std::size_t>(3 * signals.count())),
@@ -21,9 +21,8 @@ struct Reading {
     signals.evaluate(t, u.data());
   }
 
-  catena_point at(double t, const Eigen::VectorXd& q, const double* v,
-                  const Eigen::VectorXd& parameters) const {
-    return {t, q.data(), v, zero.data(), zero.data(), u.data(), parameters.data()};
+  catena_point at(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& parameters) const {
+    return {t, q.data(), zero.data(), zero.data(), zero.data(), u.data(), parameters.data()};
   }
 
   std::vector<double> u, zero;
@@ -40,7 +39,7 @@ Positions empty_positions(const Model& model) {
 Positions positions(const Model& model, const Eigen::VectorXd& parameters, double t,
                     const Eigen::VectorXd& q, const Signals& signals) {
   const Reading reading(model, signals, t);
-  const catena_point at = reading.at(t, q, reading.zero.data(), parameters);
+  const catena_point at = reading.at(t, q, parameters);
   Positions result = empty_positions(model);
   model.positions(at, result.side.data(), result.down.data());
   if (model.in_space()) model.positions_across(at, result.across.data());
@@ -51,23 +50,13 @@ Positions positions_tangent(const Model& model, const Eigen::VectorXd& parameter
                             const Eigen::VectorXd& q, const Eigen::VectorXd& parameters_direction,
                             const Eigen::VectorXd& q_direction, const Signals& signals) {
   const Reading reading(model, signals, t);
-  const catena_point at = reading.at(t, q, reading.zero.data(), parameters);
+  const catena_point at = reading.at(t, q, parameters);
   const double* zero = reading.zero.data();
   const catena_point along{0.0,  q_direction.data(),         zero, zero, zero,
                            zero, parameters_direction.data()};
   Positions result = empty_positions(model);
   model.positions_tangent(at, along, result.side.data(), result.down.data());
   if (model.in_space()) model.positions_across_tangent(at, along, result.across.data());
-  return result;
-}
-
-Positions velocities(const Model& model, const Eigen::VectorXd& parameters, double t,
-                     const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Signals& signals) {
-  const Reading reading(model, signals, t);
-  const catena_point at = reading.at(t, q, v.data(), parameters);
-  Positions result = empty_positions(model);
-  model.velocities(at, result.side.data(), result.down.data());
-  if (model.in_space()) model.velocities_across(at, result.across.data());
   return result;
 }
 

@@ -33,7 +33,7 @@ struct CablePoint {
 /// Positions by (2.24), (2.25), with the changes that effects make.
 ///
 /// Here and below: `parameters` and `parameters_direction` have one entry per parameter of the
-/// model; `q`, `q_direction` and `v` one per coordinate (rad, rad/s for angles); t is in s;
+/// model; `q` and `q_direction` one per coordinate (rad for angles); t is in s;
 /// `signals` has the channels that the model asks for. Sizes are not checked.
 Positions positions(const Model& model, const Eigen::VectorXd& parameters, double t,
                     const Eigen::VectorXd& q, const Signals& signals = {});
@@ -42,11 +42,6 @@ Positions positions(const Model& model, const Eigen::VectorXd& parameters, doubl
 Positions positions_tangent(const Model& model, const Eigen::VectorXd& parameters, double t,
                             const Eigen::VectorXd& q, const Eigen::VectorXd& parameters_direction,
                             const Eigen::VectorXd& q_direction, const Signals& signals = {});
-
-/// Velocities of the same points (m/s).
-Positions velocities(const Model& model, const Eigen::VectorXd& parameters, double t,
-                     const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                     const Signals& signals = {});
 
 /// A point that moves with the cable: on link `link` (counted from 0), at `fraction` of its length
 /// from its upper end (0 to 1).

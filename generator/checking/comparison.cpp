@@ -11,11 +11,11 @@
 
 #include "generator/checking/attribution.hpp"
 #include "generator/checking/budget.hpp"
+#include "generator/checking/chain_motion.hpp"
 #include "generator/checking/combination.hpp"
 #include "generator/checking/exact_form.hpp"
 #include "generator/checking/expression_text.hpp"
 #include "generator/checking/flat_derivation.hpp"
-#include "generator/checking/motion.hpp"
 #include "generator/checking/motion_comparison.hpp"
 #include "generator/checking/normal_form.hpp"
 #include "generator/checking/numeric_state.hpp"
@@ -308,7 +308,7 @@ class Comparison {
   /// or none other.
   int solved_for(const ex& hand) const {
     if (derivation_.chain->links == 1) return 0;
-    const std::optional<Motion::Vector> factors =
+    const std::optional<ChainMotion::Vector> factors =
         acceleration_factors(hand, *derivation_.chain, common_state().values);
     int result = 0;
     for (std::size_t j = 0; factors && j < factors->size(); ++j) {
@@ -415,7 +415,8 @@ class Comparison {
       return finding;
     }
     const NumericState state = common_state();
-    const std::optional<Motion::Vector> slope = acceleration_factors(hand, chain, state.values);
+    const std::optional<ChainMotion::Vector> slope =
+        acceleration_factors(hand, chain, state.values);
     const std::optional<bool> obeyed = slope ? motion().is_obeyed(hand) : std::nullopt;
     if (obeyed && *obeyed) {
       finding.verdict = Verdict::kEqual;
@@ -440,14 +441,14 @@ class Comparison {
     return finding;
   }
 
-  Motion& motion() {
+  ChainMotion& motion() {
     if (!motion_) {
       std::vector<ex> equations;
       for (const Entry& entry : derivation_.entries)
         if (entry.quantity == Quantity::kEquation)
           equations.push_back(given(entry.value - entry.right));
-      motion_ = std::make_unique<Motion>(*derivation_.chain, *model_, derivation_.given, equations,
-                                         seed_);
+      motion_ = std::make_unique<ChainMotion>(*derivation_.chain, *model_, derivation_.given,
+                                              equations, seed_);
     }
     return *motion_;
   }
@@ -525,7 +526,7 @@ class Comparison {
   const Derivation& derivation_;
   std::uint64_t seed_;
   std::unique_ptr<FlatDerivation> model_;
-  std::unique_ptr<Motion> motion_;  // for the equations that need it
+  std::unique_ptr<ChainMotion> motion_;  // for the equations that need it
 };
 
 }  // namespace

@@ -50,11 +50,11 @@ std::vector<std::string> sources_without_which(
 
 }  // namespace
 
-void compare_with_motion(const ex& expression, int k, Motion& motion, const ChainSymbols& chain,
-                         std::uint64_t seed, Finding& finding) {
+void compare_with_motion(const ex& expression, int k, ChainMotion& motion,
+                         const ChainSymbols& chain, std::uint64_t seed, Finding& finding) {
   using Values = std::pair<numeric, numeric>;  // by hand, the chain's
   const auto values_at = [&](const NumericState& state) -> std::optional<Values> {
-    const std::optional<Motion::Vector>& there = motion.accelerations(state);
+    const std::optional<ChainMotion::Vector>& there = motion.accelerations(state);
     if (!there) return std::nullopt;
     GiNaC::exmap moving = state.values;
     for (std::size_t j = 0; j < there->size(); ++j) moving[chain.acceleration[j + 1]] = (*there)[j];

@@ -100,10 +100,6 @@ EmittedFiles support_for(const Description& description) {
 
 }  // namespace
 
-Layout layout_for(int links) {
-  return links <= kLongestStraight ? Layout::kStraight : Layout::kLoops;
-}
-
 std::string summary_name(const std::string& model, Language language) {
   return model + (language == Language::kC ? ".c99" : "") + ".json";
 }
@@ -126,7 +122,8 @@ EmittedFiles emit_files(const Description& description, const std::vector<int>& 
   std::vector<std::string> names;
   for (const int n : links) {
     const auto start = std::chrono::steady_clock::now();
-    const Layout chosen = layout.value_or(layout_for(n));
+    const Layout chosen =
+        layout.value_or(n <= kLongestStraight ? Layout::kStraight : Layout::kLoops);
     EmittedModel model =
         c ? emit_c_model(description, n, chosen) : emit_model(description, n, chosen, set);
     const std::string name = model.summary.name;

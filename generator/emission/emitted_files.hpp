@@ -23,7 +23,7 @@ using EmittedFiles = std::map<std::string, std::string>;
 /// a summary of what was found (summary_name).
 /// `library`: also the look-up of all of them (models.hpp, models.cpp) and the list for CMake; in
 /// C++, for a description without effects, with the model for any number of links.
-/// `progress` is told of each model. `layout`: for all of them; else layout_for each. `set`: in C++.
+/// `progress` is told of each model. `layout`: for all of them; else straight lines for short chains and loops for long ones. `set`: in C++.
 /// Throws InputError for an effect that the chain cannot have.
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
@@ -36,8 +36,5 @@ EmittedFiles emit_any_links_files(const Description& description);
 
 /// "chain_12.json", of C99 "chain_12.c99.json": both forms may lie in one folder.
 std::string summary_name(const std::string& model, Language language);
-
-/// Straight lines for short chains, loops for long ones: docs/scale.md has the measurements.
-Layout layout_for(int links);
 
 }  // namespace catena

@@ -10,6 +10,27 @@ namespace catena {
 
 namespace {
 
+/// "20 additions, 12 multiplications, ..."
+std::string operations_text(const OperationCount& count) {
+  std::ostringstream out;
+  out << affine_text(count.additions) << " additions, " << affine_text(count.multiplications)
+      << " multiplications, " << affine_text(count.divisions) << " divisions, "
+      << affine_text(count.functions) << " functions";
+  return out.str();
+}
+
+/// Lines further in by two spaces; those of the preprocessor stay at the margin.
+std::string indented(const std::string& text) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
+    out += (line.empty() || line.front() == '#' ? "" : "  ") + line + "\n";
+    begin = end + 1;
+  }
+  return out;
+}
+
 using Words = std::vector<std::string>;
 
 // The heads of templates leave room for the indentation and the "const" of a member.
@@ -358,14 +379,6 @@ class TableFunctions {
 
 }  // namespace
 
-std::string operations_text(const OperationCount& count) {
-  std::ostringstream out;
-  out << affine_text(count.additions) << " additions, " << affine_text(count.multiplications)
-      << " multiplications, " << affine_text(count.divisions) << " divisions, "
-      << affine_text(count.functions) << " functions";
-  return out.str();
-}
-
 std::string structure_text(const ModelFunctions& functions) {
   const ModelSummary& s = functions.summary;
   std::ostringstream out;
@@ -403,17 +416,6 @@ std::string in_lines(std::string head, const std::vector<std::string>& arguments
     head += argument + (last ? "\n" : " ");
   }
   return text + head;
-}
-
-std::string indented(const std::string& text) {
-  std::string out;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string line = text.substr(begin, end - begin);
-    out += (line.empty() || line.front() == '#' ? "" : "  ") + line + "\n";
-    begin = end + 1;
-  }
-  return out;
 }
 
 std::string space_include(const ModelFunctions& functions) {

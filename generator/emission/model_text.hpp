@@ -18,18 +18,12 @@ inline const char* const kBanner =
 /// kAny: known at run time, the functions are members of the Chain that is the table's context.
 enum class NumberOfLinks { kOne, kAny };
 
-/// "20 additions, 12 multiplications, ..."
-std::string operations_text(const OperationCount& count);
-
 /// What was found of the matrices, as lines of a comment.
 std::string structure_text(const ModelFunctions& functions);
 
 /// `head`, arguments and `end` in lines of at most `width` characters where the arguments allow it.
 std::string in_lines(std::string head, const std::vector<std::string>& arguments,
                      const std::string& end, std::size_t width = 100);
-
-/// Lines further in by two spaces; those of the preprocessor stay at the margin.
-std::string indented(const std::string& text);
 
 /// The #include that models in space have besides.
 std::string space_include(const ModelFunctions& functions);

@@ -5,11 +5,6 @@
 
 namespace catena {
 
-Affine affine_through(long here, long there, long links) {
-  const long slope = there - here;
-  return {here - slope * links, slope};
-}
-
 Statements for_any_links(Statements here, Statements there, long links) {
   std::vector<Affine*> integers;
   for_each_affine(there, [&](Affine& integer) { integers.push_back(&integer); });
@@ -17,7 +12,8 @@ Statements for_any_links(Statements here, Statements there, long links) {
   for_each_affine(here, [&](const Affine& integer) {
     if (any.size() == integers.size()) return;  // a difference found below
     Affine& other = *integers[any.size()];
-    any.push_back(affine_through(integer.constant, other.constant, links));
+    const long slope = other.constant - integer.constant;
+    any.push_back({integer.constant - slope * links, slope});
     other = integer;
   });
   if (here != there)

@@ -7,9 +7,6 @@
 
 namespace catena {
 
-/// The affine integer that is `here` for `links` links and `there` for one more.
-Affine affine_through(long here, long there, long links);
-
 /// The statements that are `here` for `links` links and `there` for one more. Whether they hold for
 /// other numbers is for the caller to compare (at_links, written_out).
 /// Throws std::logic_error if the two differ in more than integers for_each_affine visits.

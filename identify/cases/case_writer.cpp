@@ -6,7 +6,6 @@
 #include "common/number_text.hpp"
 #include "common/toml_quoted.hpp"
 #include "common/toml_reader.hpp"
-#include "common/whole_file.hpp"
 #include "identify/cases/case_words.hpp"
 
 namespace catena {
@@ -255,10 +254,6 @@ std::string case_text(const Case& the_case, const std::filesystem::path& directo
   out.count("max_steps", wanted.max_steps, simulation.max_steps);
   write_diagnosis(out, the_case.diagnosis);
   return out.take();
-}
-
-void write_case(const Case& the_case, const std::filesystem::path& path) {
-  write_whole_file(path, case_text(the_case, path.parent_path()));
 }
 
 }  // namespace catena

@@ -12,7 +12,4 @@ namespace catena {
 /// `directory`; numbers read back to the same doubles.
 std::string case_text(const Case& the_case, const std::filesystem::path& directory);
 
-/// Writes case_text to a file, whole or not at all. Throws InputError if it cannot be written.
-void write_case(const Case& the_case, const std::filesystem::path& path);
-
 }  // namespace catena

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/residual_frequencies.hpp"
-#include "identify/diagnosis/state.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 
 namespace catena {
 

@@ -5,12 +5,12 @@
 
 #include "common/input_error.hpp"
 #include "identify/diagnosis/baseline.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/discovery.hpp"
 #include "identify/diagnosis/look_back.hpp"
 #include "identify/diagnosis/pairs.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/search.hpp"
-#include "identify/diagnosis/state.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/verdict.hpp"
 

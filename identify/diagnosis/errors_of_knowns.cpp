@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/shares.hpp"
-#include "identify/diagnosis/state.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/problem/evaluation.hpp"

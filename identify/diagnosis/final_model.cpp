@@ -17,32 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd standard_errors(const FittedModel& model, const std::vector<NoiseModel>& noise) {
-  MatrixXd jacobian = fitted_jacobian(model, noise);
-  VectorXd scale = jacobian.colwise().norm();
-  for (Index j = 0; j < scale.size(); ++j) {
-    if (scale[j] == 0) scale[j] = 1;
-    jacobian.col(j) /= scale[j];
-  }
-  const EigenPairs eigen = symmetric_eigenpairs(jacobian.transpose() * jacobian);
-  const double variance = std::max(
-      1.0, sum_of_squares(model, noise) / static_cast<double>(std::max<Index>(1, jacobian.rows())));
-  const double factor = std::sqrt(variance * autocorrelation_factor(white_residuals(model, noise)));
-  VectorXd errors(scale.size());
-  for (Index j = 0; j < errors.size(); ++j) {
-    double sum = 0;
-    for (Index k = 0; k < scale.size(); ++k) {
-      const double share = eigen.vectors(j, k), value = eigen.values[k];
-      if (value > 1e-13 * eigen.values[scale.size() - 1])
-        sum += share * share / value;
-      else if (std::abs(share) > 1e-6)
-        sum = std::numeric_limits<double>::infinity();
-    }
-    errors[j] = factor * std::sqrt(sum) / scale[j];
-  }
-  return errors;
-}
+namespace {
 
+/// Largest difference between the residuals r of two models at seeded random states and parameters,
+/// relative to the largest |r|, `larger` having parameters more than `smaller`, held at their
+/// neutral values. Further coordinates of `larger` rest at zero.
 double largest_difference(const Model& smaller, const Model& larger, unsigned seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) {
@@ -87,6 +66,34 @@ double largest_difference(const Model& smaller, const Model& larger, unsigned se
     size = std::max(size, r.lpNorm<Eigen::Infinity>());
   }
   return size > 0 ? worst / size : worst;
+}
+
+}  // namespace
+
+VectorXd standard_errors(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  MatrixXd jacobian = fitted_jacobian(model, noise);
+  VectorXd scale = jacobian.colwise().norm();
+  for (Index j = 0; j < scale.size(); ++j) {
+    if (scale[j] == 0) scale[j] = 1;
+    jacobian.col(j) /= scale[j];
+  }
+  const EigenPairs eigen = symmetric_eigenpairs(jacobian.transpose() * jacobian);
+  const double variance = std::max(
+      1.0, sum_of_squares(model, noise) / static_cast<double>(std::max<Index>(1, jacobian.rows())));
+  const double factor = std::sqrt(variance * autocorrelation_factor(white_residuals(model, noise)));
+  VectorXd errors(scale.size());
+  for (Index j = 0; j < errors.size(); ++j) {
+    double sum = 0;
+    for (Index k = 0; k < scale.size(); ++k) {
+      const double share = eigen.vectors(j, k), value = eigen.values[k];
+      if (value > 1e-13 * eigen.values[scale.size() - 1])
+        sum += share * share / value;
+      else if (std::abs(share) > 1e-6)
+        sum = std::numeric_limits<double>::infinity();
+    }
+    errors[j] = factor * std::sqrt(sum) / scale[j];
+  }
+  return errors;
 }
 
 void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext& context) {

@@ -24,9 +24,4 @@ void make_final_model(Diagnosis& diagnosis, const Case& asked, DiagnosisContext&
 /// The fitted parameters, physics first, with standard errors.
 std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis);
 
-/// Largest difference between the residuals r of two models at seeded random states and parameters,
-/// relative to the largest |r|, `larger` having parameters more than `smaller`, held at their
-/// neutral values. Further coordinates of `larger` rest at zero.
-double largest_difference(const Model& smaller, const Model& larger, unsigned seed);
-
 }  // namespace catena

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 
 namespace catena {
 

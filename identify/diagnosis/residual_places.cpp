@@ -20,6 +20,14 @@ constexpr double kClearlyLargest = 1.3;  // over the rms of all points
 constexpr double kBySpeed = 1.25;        // ratio of the rms at high and at low speed
 constexpr double kByTime = 1.5;          // ratio of the rms after and before a moment
 
+/// Mean of the squares of the values that are not NaN; 0 if there are none.
+double mean_square(const MatrixXd& values) {
+  double sum = 0, count = 0;
+  for (const double value : values.reshaped())
+    if (!std::isnan(value)) sum += value * value, count += 1;
+  return count > 0 ? sum / count : 0;
+}
+
 std::string point_name(const Experiment& experiment, std::size_t point) {
   const PointSpec& spec = experiment.recording.points[point];
   const bool last = point + 1 == experiment.recording.points.size();
@@ -114,13 +122,6 @@ void by_frequency(const FittedModel& model, const std::vector<double>& sigmas,
 }
 
 }  // namespace
-
-double mean_square(const MatrixXd& values) {
-  double sum = 0, count = 0;
-  for (const double value : values.reshaped())
-    if (!std::isnan(value)) sum += value * value, count += 1;
-  return count > 0 ? sum / count : 0;
-}
 
 ResidualPlaces residual_places(const FittedModel& model, const std::vector<double>& sigmas) {
   ResidualPlaces places;

@@ -24,7 +24,4 @@ struct ResidualPlaces {
 /// m or rad. Empty where there are fewer than eight frames.
 ResidualPlaces residual_places(const FittedModel& model, const std::vector<double>& sigmas);
 
-/// Mean of the squares of the values that are not NaN; 0 if there are none.
-double mean_square(const Eigen::MatrixXd& values);
-
 }  // namespace catena

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 
 namespace catena {
 

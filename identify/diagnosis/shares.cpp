@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/parallel.hpp"
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {

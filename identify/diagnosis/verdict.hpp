@@ -5,7 +5,7 @@
 
 #include "identify/cases/case.hpp"
 #include "identify/diagnosis/context.hpp"
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 
 namespace catena {
 

@@ -167,8 +167,7 @@ LinkDirections directions_at_start(const Model& model, const State& in_plane,
   return links;
 }
 
-}  // namespace
-
+/// How many coefficients a shape of the angles has.
 int coefficient_count(Shape shape, int links, int terms) {
   switch (shape) {
     case Shape::kStraight:
@@ -183,6 +182,8 @@ int coefficient_count(Shape shape, int links, int terms) {
   }
   return 0;
 }
+
+}  // namespace
 
 Eigen::MatrixXd shape_basis(Shape shape, int links, int terms, const Eigen::VectorXd& lengths) {
   const int count = coefficient_count(shape, links, terms);

@@ -12,10 +12,6 @@
 
 namespace catena {
 
-/// How many coefficients a shape of the angles has: 1, `links` or `terms`; 0 for catenary and
-/// hanging.
-int coefficient_count(Shape shape, int links, int terms);
-
 /// The linear map from coefficients to the angle (or rate) of each link: links x coefficients.
 /// `lengths`: of the links, m.
 Eigen::MatrixXd shape_basis(Shape shape, int links, int terms, const Eigen::VectorXd& lengths);

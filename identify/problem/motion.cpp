@@ -20,17 +20,18 @@ std::vector<double> output_times(const SimulationSpec& settings) {
   return times;
 }
 
-}  // namespace
-
-Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
-                       const std::vector<double>& times, const SimulationSpec& settings,
-                       const Signals& signals, const std::function<bool(double)>& keep_going) {
-  SimulationOptions options = simulation_options(settings);
+Motion motion_at(const std::vector<double>& times, const Problem& problem, const Eigen::VectorXd& x,
+                 int experiment, const Signals& signals,
+                 const std::function<bool(double)>& keep_going) {
+  const Model& model = problem.model();
+  const Eigen::VectorXd parameters = problem.model_parameters(x, experiment);
+  SimulationOptions options = simulation_options(problem.the_case().simulation);
   // A model for fits has neither energies nor internal forces.
   options.energy = options.energy && model.energies() > 0;
   if (keep_going) options.keep_going = keep_going;
   Motion motion;
-  motion.simulation = simulate(model, parameters, initial, times, options, signals);
+  motion.simulation =
+      simulate(model, parameters, problem.initial_state(x, experiment), times, options, signals);
   Trajectory& path = motion.simulation.trajectory;
   if (model.in_space()) normalise_directions(path);
   const auto count = static_cast<Eigen::Index>(path.time.size());
@@ -49,6 +50,8 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
   return motion;
 }
 
+}  // namespace
+
 Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
                     const std::function<bool(double)>& keep_going) {
   const Case& the_case = problem.the_case();
@@ -56,10 +59,9 @@ Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
     throw InputError(
         the_case.file.string() +
         ": simulation.duration: missing; without an [[experiment]] it says how long to simulate");
-  return simulate_motion(
-      problem.model(), problem.model_parameters(x, -1), problem.initial_state(x, -1),
-      output_times(the_case.simulation), the_case.simulation,
-      read_signals(the_case.signals, problem.model(), the_case.file.string()), keep_going);
+  return motion_at(output_times(the_case.simulation), problem, x, -1,
+                   read_signals(the_case.signals, problem.model(), the_case.file.string()),
+                   keep_going);
 }
 
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
@@ -68,9 +70,7 @@ Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experimen
   std::vector<double> times = {chosen.spec.start};
   for (const double t : chosen.recording.time)
     if (t > times.back()) times.push_back(t);
-  return simulate_motion(problem.model(), problem.model_parameters(x, experiment),
-                         problem.initial_state(x, experiment), times, problem.the_case().simulation,
-                         chosen.signals, keep_going);
+  return motion_at(times, problem, x, experiment, chosen.signals, keep_going);
 }
 
 SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int experiment) {

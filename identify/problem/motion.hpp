@@ -25,24 +25,15 @@ struct SeenChain {
   Eigen::MatrixXd side, down;  ///< m, points x frames
 };
 
-/// Simulates a model, energies included.
-///
-/// `parameters`: the model's array. `initial`: the state at times[0]. `times`: s, increasing.
-/// `keep_going`: asked at every step with its time (s); false ends the simulation. Throws std::invalid_argument for
-/// sizes that do not fit the model and for values outside its bounds. A simulation that fails says
-/// so in its status and has the times before the failure.
-Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
-                       const std::vector<double>& times, const SimulationSpec& settings,
-                       const Signals& signals, const std::function<bool(double)>& keep_going = {});
-
-/// The motion of a case without a recording, as its file says; x: its unknowns. Throws InputError where
-/// the case does not say for how long, and what simulate_motion throws.
+/// The motion of a case without a recording, as its file says, energies included; x: its unknowns.
+/// `keep_going`: asked at every step with its time (s); false ends the simulation. One that fails says so
+/// in its status and has the times before the failure. Throws InputError where the case does not say for
+/// how long, and ImpossibleValue for values of x outside of the model's bounds or without a start.
 Motion motion_alone(const Problem& problem, const Eigen::VectorXd& x,
                     const std::function<bool(double)>& keep_going = {});
 
 /// The motion of one experiment (an index into problem.experiments()) with the unknowns x, from its
-/// start on, at its frames. Throws what simulate_motion throws, and ImpossibleValue where x gives
-/// the experiment no start.
+/// start on, at its frames. Throws ImpossibleValue as motion_alone.
 Motion motion_of(const Problem& problem, const Eigen::VectorXd& x, int experiment,
                  const std::function<bool(double)>& keep_going = {});
 

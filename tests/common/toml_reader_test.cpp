@@ -109,7 +109,7 @@ TEST_CASE("every error names file, line, key, value and what to do") {
   }
 }
 
-TEST_CASE("a file that is not what it should be is refused at its head") {
+TEST_CASE("a file of another kind or format is refused") {
   struct Row {
     const char *text, *said;
   };

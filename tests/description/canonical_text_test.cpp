@@ -30,7 +30,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("what does not decide the equations leaves the canonical text alone") {
+TEST_CASE("changes that leave the equations alone leave the canonical text alone") {
   const std::string text = canonical(kEffect);
   CHECK(canonical(kEffect, "other.toml") == text);
   CHECK(canonical("# a comment\n\n" + kEffect) == text);
@@ -43,7 +43,7 @@ TEST_CASE("what does not decide the equations leaves the canonical text alone") 
                            "down = \"f\"\nside = \"f*cos(w*time)\"\n")) == text);
 }
 
-TEST_CASE("what decides the equations changes the canonical text") {
+TEST_CASE("changes of the equations change the canonical text") {
   const std::string text = canonical(kEffect);
   struct Change {
     const char *from, *to;

@@ -63,7 +63,7 @@ TEST_CASE("the plane is the default; space is another model, and is written") {
   CHECK(canonical_text(read_description(folder.path() / "again.toml")) == canonical_text(space));
 }
 
-TEST_CASE("what is wrong with a description is said where it stands") {
+TEST_CASE("errors in a description name their line") {
   const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
   struct Row {

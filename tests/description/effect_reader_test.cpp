@@ -81,7 +81,7 @@ TEST_CASE("a value at which the effect vanishes only in the limit gives no defau
   CHECK(std::isinf(effect.parameters[0].neutral));
 }
 
-TEST_CASE("what is wrong with an effect is said where it stands") {
+TEST_CASE("errors in an effect name their line") {
   struct Row {
     std::string body, said;
   };

@@ -53,7 +53,7 @@ TEST_CASE("a unit's text reads back to the unit") {
   CHECK(Unit::parse("kg/(s^2)/m").text() == "kg/(m s^2)");
 }
 
-TEST_CASE("what is no SI unit is refused with the unit to use") {
+TEST_CASE("units outside of the SI are refused with the unit to use") {
   struct Row {
     const char *text, *said;
   };

@@ -97,7 +97,7 @@ TEST_CASE("sines and cosines are right to 0.9 units in the last place") {
   std::printf("worst error: %.3f units in the last place\n", all);
 }
 
-TEST_CASE("zero, and what has no sine") {
+TEST_CASE("zero, and values without a sine") {
   double sine, cosine;
   catena::sine_cosine(0.0, sine, cosine);
   CHECK(sine == 0.0);

@@ -164,7 +164,7 @@ TEST_CASE("every function gives the bits of the model for that number of links")
   }
 }
 
-TEST_CASE("so do the table's counts and names") {
+TEST_CASE("the table's counts and names are those of the model for that number of links") {
   for (const Model& single : single_models()) {
     const Model any = any_links_model(single.links());
     CAPTURE(single.links());
@@ -198,7 +198,9 @@ TEST_CASE("so do the table's counts and names") {
   }
 }
 
-TEST_CASE("and whole simulations, sensitivities and gradients") {
+TEST_CASE(
+    "simulations, sensitivities and gradients have the bits of the model for that number of "
+    "links") {
   for (const Model& single : single_models()) {
     const Model any = any_links_model(single.links());
     CAPTURE(single.links());
@@ -235,7 +237,7 @@ TEST_CASE("and whole simulations, sensitivities and gradients") {
   }
 }
 
-TEST_CASE("eight sets at once, where they fit") {
+TEST_CASE("a batch of eight points is evaluated where its arrays fit on the stack") {
   for (const int n : {7, 1000, 1001}) {
     CAPTURE(n);
     const Model model = any_links_model(n);

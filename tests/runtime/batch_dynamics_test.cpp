@@ -20,7 +20,7 @@ using catena::BatchDynamics;
 using catena::Model;
 using catena::State;
 
-TEST_CASE("eight sets have the bits of eight calls") {
+TEST_CASE("a batch of eight points has the bits of eight calls") {
   std::mt19937 random(7);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -93,7 +93,7 @@ int32_t sums(const void*, const catena_point* at, double* a) {
   return 0;
 }
 
-TEST_CASE("eight sets are handed on in groups of as many as the processor takes") {
+TEST_CASE("a batch of eight points is passed on in groups of as many as the processor takes") {
   using Sums = int32_t (*)(const void*, const catena_point*, double*);
   for (const auto& row :
        {std::pair<int, Sums>{1, sums<1>}, {2, sums<2>}, {4, sums<4>}, {8, sums<8>}}) {

@@ -92,7 +92,7 @@ void check_bits(const Sets& sets, Together together, Alone alone) {
         [](const auto& at, double* r) { catena::chain_##n::residual(at, r); });                 \
   } while (false)
 
-TEST_CASE("eight sets at once are eight sets one at a time, bit for bit") {
+TEST_CASE("a batch of eight numbers has the bits of one number at a time") {
   SUBCASE("2 links") { CHECK_MODEL(2); }
   SUBCASE("12 links") { CHECK_MODEL(12); }
   SUBCASE("60 links") { CHECK_MODEL(60); }
@@ -136,7 +136,7 @@ void check_that_one_pivot_fails_all() {
   }
 }
 
-TEST_CASE("a pivot that fails in one set fails") {
+TEST_CASE("a pivot that fails for one point of a batch fails for the batch") {
   check_that_one_pivot_fails_all<2>();
   check_that_one_pivot_fails_all<4>();
   check_that_one_pivot_fails_all<8>();

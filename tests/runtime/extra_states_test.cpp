@@ -103,7 +103,7 @@ TEST_CASE("a simulation with extra states takes the O(n) path and ends where the
   CHECK((ends[0] - ends[1]).cwiseAbs().maxCoeff() < 1e-6);
 }
 
-TEST_CASE("eight sets with extra states have the bits of eight calls") {
+TEST_CASE("a batch of eight points with extra states has the bits of eight calls") {
   const Model model = Model::load(WITH_STATES_12);
   const int n = model.coordinates();
   Random random;

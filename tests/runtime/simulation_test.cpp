@@ -53,7 +53,7 @@ TEST_CASE("one rigid link swings with the period of the physical pendulum") {
   CHECK(run.trajectory.q(0, 3) == doctest::Approx(amplitude).epsilon(2e-6));
 }
 
-TEST_CASE("many sets on several threads give the bits of one at a time") {
+TEST_CASE("many simulations on several threads have the bits of one at a time") {
   const Model model = Model::built_in(12);
   std::vector<Eigen::VectorXd> parameters;
   std::vector<State> initial;

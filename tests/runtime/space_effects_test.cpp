@@ -77,7 +77,9 @@ double tow_angle() {
 
 // Drag c v per length at the middle of a rod of length l has the moment -c l (l/2)^2 times its angular
 // velocity; J is its moment of inertia.
-TEST_CASE("linear drag takes a spherical pendulum's energy and turning as it must") {
+TEST_CASE(
+    "linear drag takes energy and angular momentum from a spherical pendulum at the rates of the "
+    "closed form") {
   const Model model = Model::load(LINEAR_DRAG_1);
   VectorXd p = cable(model, 0, 0);
   const double drag = 0.35, length = p[0];
@@ -162,7 +164,7 @@ TEST_CASE("a towed cable hangs at the angle at which drag and weight balance") {
   CHECK((comes.trajectory.q.col(0) - stays.trajectory.q.col(0)).norm() > 0.2);
 }
 
-TEST_CASE("towed through still water is held in a current") {
+TEST_CASE("a cable towed through still water moves as one held in a current") {
   const Model model = Model::load(IN_CURRENT_8);
   const State initial = askew(model);
   const auto held = simulate(model, towed(model, kSpeed), initial, {0, 1}, tight(), held_still());
@@ -178,7 +180,7 @@ TEST_CASE("towed through still water is held in a current") {
   CHECK((held.trajectory.q.col(1) - held.trajectory.q.col(0)).norm() > 0.5);
 }
 
-TEST_CASE("of a cable in water, too, all solvers say the same") {
+TEST_CASE("all solvers agree on a cable in water") {
   const Model model = Model::load(IN_WATER_5);
   const VectorXd p = in_water(model);
   const State initial = askew(model);

@@ -378,14 +378,14 @@ TEST_CASE("emitted models agree with the closed forms of chapter 4") {
   SUBCASE("60 links") { check_twins<60>(catena::Model::built_in(60)); }
 }
 
-TEST_CASE("so does the one model for any number of links") {
+TEST_CASE("the model for any number of links agrees with the closed forms of chapter 4") {
   SUBCASE("5 links") { check_twins<5>(catena::any_links_model(5)); }
   SUBCASE("6 links") { check_twins<6>(catena::any_links_model(6)); }
   SUBCASE("11 links") { check_twins<11>(catena::any_links_model(11)); }
   SUBCASE("29 links") { check_twins<29>(catena::any_links_model(29)); }
 }
 
-TEST_CASE("every model that is built in has met its twin above") {
+TEST_CASE("every built-in model was compared above") {
   CHECK(catena::Model::built_in_links() == std::vector<int>{2, 3, 4, 12, 60});
 }
 

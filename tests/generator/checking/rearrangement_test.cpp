@@ -156,7 +156,7 @@ TEST_CASE("without torques an equation solved for an acceleration is proved by t
   CHECK(result.of("thetaddot[2]").verdict == Verdict::kEqual);
 }
 
-TEST_CASE("solved equations of four links in other clothes are not refused") {
+TEST_CASE("rearranged solved equations of four links are not refused") {
   const std::string accelerations = example("accelerations_by_elimination.txt");
   const auto with = [&](const std::string& before, const std::string& after) {
     std::string text = accelerations;

@@ -49,7 +49,7 @@ TEST_CASE("every built-in effect vanishes at its neutral values, all together to
   CHECK(prove_neutral(plain_chain(), kLinks).proofs.empty());
 }
 
-TEST_CASE("a neutral value that is none is found") {
+TEST_CASE("a wrong neutral value is found") {
   struct Row {
     std::string effect, parameter;
     double wrong;

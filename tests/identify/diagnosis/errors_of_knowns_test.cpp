@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "identify/diagnosis/state.hpp"
+#include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"

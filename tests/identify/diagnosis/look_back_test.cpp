@@ -163,7 +163,7 @@ TEST_CASE("what chance explains as well is no explanation") {
   CHECK_FALSE(acceptable(effects.state, base, explanation));
 }
 
-TEST_CASE("what was the best once is known in any order") {
+TEST_CASE("effects of an earlier best model are recognised in any order") {
   const TwoEffects effects(0, 0);
   CHECK(effects.state.had({"clock_offset", "air_drag_quadratic"}));
   CHECK_FALSE(effects.state.had({"clock_offset"}));

@@ -106,7 +106,7 @@ TEST_CASE("an effect predicts as well as the model without it up to a twentieth"
   CHECK(catena::predicts_as_well(without, with));
 }
 
-TEST_CASE("the colour factor is one for white noise and grows with correlation") {
+TEST_CASE("the autocorrelation factor is one for white noise and grows with correlation") {
   CHECK(catena::autocorrelation_factor({white(24, 400, 1, 1)}) < 1.3);
   CHECK(catena::autocorrelation_factor({smooth(24, 400, 1, 1, 60)}) > 5);
 }

@@ -7,13 +7,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "identify/diagnosis/gap_test.hpp"
 #include "identify/noise/estimate_noise.hpp"
+#include "linear_algebra/decompositions.hpp"
 
 namespace {
 
@@ -134,7 +135,7 @@ bool gap_found(const Kind& kind, std::uint64_t seed, double misfit) {
     if (!std::isnan(residual.reshaped()[i])) seen.push_back(i);
   const MatrixXd columns = derivatives(seen, Eigen::all);
   const VectorXd values = residual.reshaped()(seen);
-  const VectorXd rest = values - columns * columns.householderQr().solve(values);
+  const VectorXd rest = values - columns * catena::least_squares(columns, values);
   for (std::size_t i = 0; i < seen.size(); ++i)
     residual.data()[seen[i]] = rest[static_cast<Index>(i)];
 

@@ -119,7 +119,7 @@ TEST_CASE("a simulation that fails says which state and when, exits with 1 and w
   CHECK(!std::filesystem::exists(output));
 }
 
-TEST_CASE("a balance of energies that is lost is said") {
+TEST_CASE("an energy balance that is lost gives a warning") {
   const testing::TemporaryFolder folder;
   const auto loose = folder.write(
       "loose.toml",

@@ -288,7 +288,7 @@ TEST_CASE("the HTML stands alone: nothing from elsewhere, nothing that ends the 
   CHECK(to_html(document, report_figures(document)) == html);
 }
 
-TEST_CASE("whatever a file says is text on the page: nothing in it becomes markup") {
+TEST_CASE("texts of a file are escaped on the page: none becomes markup") {
   const std::string attack = "\"><script>alert(1)</script><img src=x onerror=alert(1)>";
   const auto spoil = [&](json& value, const auto& again) -> void {
     if (value.is_string()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "generator/checking/motion.hpp"
+#include "generator/checking/chain_motion.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -13,7 +13,7 @@ namespace {
 
 using GiNaC::ex;
 using GiNaC::numeric;
-using Vector = Motion::Vector;
+using Vector = ChainMotion::Vector;
 
 /// x of A x = b by elimination, exactly if the numbers are exact; nothing if A is singular.
 std::optional<Vector> solution(std::vector<Vector> a, Vector b) {
@@ -77,8 +77,9 @@ GiNaC::exmap moving(GiNaC::exmap values, const ChainSymbols& chain, const Vector
 
 }  // namespace
 
-Motion::Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiNaC::exmap& given,
-               const std::vector<ex>& equations, std::uint64_t seed)
+ChainMotion::ChainMotion(const ChainSymbols& chain, const FlatDerivation& model,
+                         const GiNaC::exmap& given, const std::vector<ex>& equations,
+                         std::uint64_t seed)
     : chain_(chain), seed_(seed) {
   Replacement replaced(given);
   GiNaC::exmap no_accelerations;
@@ -125,7 +126,7 @@ Motion::Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiN
   solution_.numerator = solution_.denominator = determinant.numerator + determinant.denominator;
 }
 
-std::optional<bool> Motion::is_obeyed(const ex& h) {
+std::optional<bool> ChainMotion::is_obeyed(const ex& h) {
   const std::optional<ex> rational = exact_ ? (*exact_)(h) : std::nullopt;
   if (!rational) return std::nullopt;
   ExactForm::Degrees known;
@@ -139,7 +140,7 @@ std::optional<bool> Motion::is_obeyed(const ex& h) {
   return value->is_zero();
 }
 
-std::optional<Evaluation>& Motion::point(int bits) {
+std::optional<Evaluation>& ChainMotion::point(int bits) {
   const auto [found, is_new] = points_.try_emplace(bits);
   if (!is_new) return found->second;
   const GiNaC::exmap values = exact_->point(variable_, bits, seed_);
@@ -148,13 +149,13 @@ std::optional<Evaluation>& Motion::point(int bits) {
   return found->second;
 }
 
-const std::optional<Vector>& Motion::accelerations(const NumericState& state) {
+const std::optional<Vector>& ChainMotion::accelerations(const NumericState& state) {
   const auto [found, is_new] = motions_.try_emplace(state.assignments);
   if (is_new) found->second = solved(system_.mass, system_.rest, state.values);
   return found->second;
 }
 
-std::map<int, numeric> Motion::factors(const Vector& slope, const GiNaC::exmap& values) const {
+std::map<int, numeric> ChainMotion::factors(const Vector& slope, const GiNaC::exmap& values) const {
   Evaluation evaluate(values);
   std::map<int, numeric> result;
   const std::optional<std::vector<Vector>> mass = values_of(system_.mass, evaluate);

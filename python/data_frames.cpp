@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // catena._core: recordings as numpy arrays and DataFrames.
-#include "python/tables.hpp"
+#include "python/data_frames.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

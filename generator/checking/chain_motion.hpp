@@ -20,13 +20,13 @@ namespace catena::checking {
 /// Elimination in symbols would have too many terms from four links on. M is regular, since the
 /// kinetic energy is positive for all rates other than zero if masses and lengths are positive.
 /// Values of `given` may make it singular; then there are no accelerations.
-class Motion {
+class ChainMotion {
  public:
   using Vector = std::vector<GiNaC::numeric>;
 
   /// `equations`: all h that is_obeyed will be called with, after replacement of what is `given`.
-  Motion(const ChainSymbols& chain, const FlatDerivation& model, const GiNaC::exmap& given,
-         const std::vector<GiNaC::ex>& equations, std::uint64_t seed);
+  ChainMotion(const ChainSymbols& chain, const FlatDerivation& model, const GiNaC::exmap& given,
+              const std::vector<GiNaC::ex>& equations, std::uint64_t seed);
 
   /// Whether h = 0 for every motion of the chain, by its exact value at a random point
   /// (exact_form.hpp). "No" is proved; "yes" is wrong with a probability below 2^-kCertainty.
@@ -64,7 +64,8 @@ class Motion {
 };
 
 /// dh/dthetaddot_1..n at a state; nothing if h is not linear in the accelerations, or not real.
-std::optional<Motion::Vector> acceleration_factors(const GiNaC::ex& h, const ChainSymbols& chain,
-                                                   const GiNaC::exmap& values);
+std::optional<ChainMotion::Vector> acceleration_factors(const GiNaC::ex& h,
+                                                        const ChainSymbols& chain,
+                                                        const GiNaC::exmap& values);
 
 }  // namespace catena::checking
