@@ -123,6 +123,38 @@ TEST_CASE("a finished result that cannot be moved is kept, and moved by the next
   CHECK(entries(folder.path()) == 3);
 }
 
+TEST_CASE("a folder that others made puts nothing outside of it") {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", elsewhere = folder.path() / "elsewhere";
+  const std::string hash(64, '0');
+  // As a run leaves it that was killed while it moved its files.
+  const auto unfinished = [&](const std::string& name, const fs::path& into) {
+    fs::remove_all(out);
+    write(into / "manifest.sha256", hash + "  " + name + "\n");
+    write(into / fs::path(name).filename(), "evil");
+    fs::create_directories(out);
+    fs::create_directories(elsewhere);
+  };
+  for (const std::string& name : {std::string("../elsewhere/a"), (elsewhere / "a").string(),
+                                  std::string("model/../../elsewhere/a")}) {
+    CAPTURE(name);
+    unfinished(name, out / "unfinished-x");
+    write(out / "unfinished-x/model/a", "evil");
+    CHECK(refusal(out).find("is outside of the folder") != std::string::npos);
+    CHECK(fs::is_empty(elsewhere));
+  }
+  unfinished("model/a", out / "unfinished-x");
+  write(out / "unfinished-x/model/a", "evil");
+  fs::create_directory_symlink(elsewhere, out / "model");
+  CHECK(refusal(out).find("is a link, through which no result is written") != std::string::npos);
+  CHECK(fs::is_empty(elsewhere));
+
+  unfinished("mine", folder.path() / "another");  // a result of the user's
+  fs::create_directory_symlink(folder.path() / "another", out / "unfinished-x");
+  CHECK(refusal(out).empty());
+  CHECK(text_of(folder.path() / "another" / "mine") == "evil");
+}
+
 TEST_CASE("a result that cannot be written into the folder is written elsewhere") {
   const testing::TemporaryFolder folder;
   std::string said;
