@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.sha256";
 constexpr const char* kRoom = "room";  // a try: a run that is killed leaves no manifest by it
-constexpr const char* kUnfinished = "unfinished-";
+constexpr const char* kUnfinished =
+    "catena-unfinished-";  // no user names a folder so: it is removed
 /// The smallest results take as much: a disk that is full now is found before work begins.
 constexpr std::size_t kFewestBytes = 64 << 10;
 
