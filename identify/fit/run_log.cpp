@@ -89,6 +89,10 @@ RunLog::RunLog(const std::filesystem::path& file, const std::string& key, Eigen:
                bool resume, std::function<void(const std::string&)> notice)
     : name_(file.string()), key_(key), unknowns_(unknowns), notice_(std::move(notice)) {
   std::error_code ignored;
+  if (std::filesystem::is_symlink(file, ignored))
+    throw InputError(name_ +
+                     ": is a link, through which no log is written; move it away or choose another "
+                     "folder");
   std::filesystem::create_directories(file.parent_path(), ignored);
   const std::string before = std::filesystem::exists(file) ? bytes_of_file(file) : "";
   if (!before.starts_with(kOurs) && !std::string_view(kOurs).starts_with(before))

@@ -53,6 +53,11 @@ TEST_CASE("a log of something else, and a file that is no log, are refused") {
   folder.write("run.log", "my own notes\n");
   CHECK(failure([&] { RunLog(file, "key", 2, false); }).find("is no log") != std::string::npos);
   CHECK(text_of(file) == "my own notes\n");
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink(folder.path() / "elsewhere",
+                                  file);  // of a folder that others made
+  CHECK(refusal(file).find("run.log: is a link") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder.path() / "elsewhere"));
 }
 
 TEST_CASE("any line that was damaged, edited or removed is noticed") {
