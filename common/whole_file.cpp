@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -149,31 +149,55 @@ std::string read_whole_file(const std::filesystem::path& path) {
 
 namespace {
 
-/// A file that goes again, unless it was renamed. It needs no memory for that.
-struct TemporaryFile {
-  std::filesystem::path path;
-  explicit TemporaryFile(std::filesystem::path file) : path(std::move(file)) {}
+/// A new file that goes again, unless it was renamed. It needs no memory for that.
+class TemporaryFile {
+ public:
+  /// Of a name that nothing has: whoever made a link of that name would choose what is written over.
+  explicit TemporaryFile(const std::filesystem::path& beside) {
+    for (int number = 0; file_ < 0; ++number) {
+      path_ = beside;
+      path_ += ".part" + std::to_string(getpid()) + (number ? "_" + std::to_string(number) : "");
+      file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file_ < 0 && errno != EEXIST) return;
+    }
+    there_ = true;
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { unlink(path.c_str()); }
+  ~TemporaryFile() {
+    if (there_) unlink(path_.c_str());
+    if (file_ >= 0) close(file_);
+  }
+
+  /// False where that fails, with errno.
+  bool write(std::string_view text) {
+    while (file_ >= 0 && !text.empty()) {
+      const ssize_t written = ::write(file_, text.data(), text.size());
+      if (written < 0 && errno != EINTR) return false;
+      if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return file_ >= 0 && close(std::exchange(file_, -1)) == 0;
+  }
+  bool rename_to(const std::filesystem::path& path) {
+    there_ = std::rename(path_.c_str(), path.c_str()) != 0;
+    return !there_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  int file_ = -1;
+  bool there_ = false;
 };
 
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  std::filesystem::path part = path;
-  part += ".part" + std::to_string(getpid());
-  const TemporaryFile temporary(std::move(part));
-  errno = 0;
-  std::ofstream stream(temporary.path, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  std::error_code error(errno, std::generic_category());
-  if (stream) std::filesystem::rename(temporary.path, path, error);
-  if (!stream || error)
-    throw InputError(path.string() + ": cannot be written" +
-                     (error ? " (" + error.message() + ")" : "") +
-                     "; check that the folder exists, is writable and has room");
+  TemporaryFile temporary(path);
+  if (!temporary.write(text) || !temporary.rename_to(path)) {
+    const std::error_code error(errno, std::generic_category());
+    throw InputError(path.string() + ": cannot be written (" + error.message() +
+                     "); check that the folder exists, is writable and has room");
+  }
   const std::scoped_lock lock(texts().mutex);
   texts().by_path.erase(key_of(path));
 }

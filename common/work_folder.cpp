@@ -13,8 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPattern = "XXXXXX";  // of mkdtemp
+
+/// Whether mkdtemp may have made it: whatever else a user has under such a name stays.
+bool is_work_folder(const fs::directory_entry& entry, const std::string& prefix) {
+  const std::string name = entry.path().filename().string();
+  std::error_code error;
+  const fs::file_status status = entry.symlink_status(error);
+  return name.starts_with(prefix) && name.size() == (prefix + kPattern).size() &&
+         fs::is_directory(status) && status.permissions() == fs::perms::owner_all;
+}
+
 fs::path make_folder(const fs::path& parent, const std::string& prefix) {
-  std::string pattern = (parent / (prefix + "XXXXXX")).string();
+  std::string pattern = (parent / (prefix + kPattern)).string();
   if (!mkdtemp(pattern.data()))
     throw fs::filesystem_error("no folder can be made in it", parent,
                                std::error_code(errno, std::generic_category()));
@@ -50,7 +61,7 @@ WorkFolder::~WorkFolder() {
 void remove_abandoned(const fs::path& parent, const std::string& prefix) {
   std::error_code error;
   for (const auto& left : fs::directory_iterator(parent, error)) {
-    if (!left.path().filename().string().starts_with(prefix)) continue;
+    if (!is_work_folder(left, prefix)) continue;
     if (const FolderLock lock(left.path()); lock.held()) fs::remove_all(left.path(), error);
   }
 }

@@ -43,7 +43,8 @@ class WorkFolder {
   std::optional<FolderLock> lock_;
 };
 
-/// Removes the work folders of that prefix in `parent` whose processes have ended.
+/// Removes the work folders of that prefix in `parent` whose processes have ended: what is called so, has
+/// a name as long and is for its owner alone.
 void remove_abandoned(const std::filesystem::path& parent, const std::string& prefix);
 
 }  // namespace catena

@@ -134,6 +134,21 @@ SensitiveSimulation run_with_sensitivities(const Model& model, const Eigen::Vect
   return simulation;
 }
 
+/// Throws std::invalid_argument unless parameters and motion are of this model.
+void check_motion(const Model& model, const Eigen::VectorXd& parameters, const Trajectory& motion) {
+  model.check_parameters(parameters);
+  const auto times = static_cast<Eigen::Index>(motion.time.size());
+  const auto fits = [&](const Eigen::MatrixXd& of, int rows) {
+    return of.rows() == rows && (of.cols() == times || rows == 0);
+  };
+  if (!fits(motion.q, model.coordinates()) || !fits(motion.v, model.coordinates()) ||
+      !fits(motion.z, model.states()))
+    throw std::invalid_argument("trajectory: " + std::to_string(motion.q.rows()) +
+                                " coordinates and " + std::to_string(motion.z.rows()) +
+                                " states; the model has " + std::to_string(model.coordinates()) +
+                                " and " + std::to_string(model.states()));
+}
+
 /// (times x points) side and down of the support, the far end of each link, and the load.
 py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& parameters,
                               const Trajectory& trajectory) {
@@ -141,6 +156,7 @@ py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& paramet
     throw std::invalid_argument(
         "positions: the model moves in space, and these are side and down only; "
         "trajectory.q has the directions of the links, and catena simulate writes positions.csv");
+  check_motion(model, parameters, trajectory);
   const auto points = static_cast<Eigen::Index>(model.links() + 2);
   const auto times = static_cast<Eigen::Index>(trajectory.time.size());
   py::array_t<double> side({times, points}), down({times, points});
@@ -229,6 +245,7 @@ py::array_t<double> rows_of(const Eigen::MatrixXd& matrix) {
 /// (times x links) moments, tensions, curvatures.
 py::tuple internal_forces_over_time(const Model& model, const Eigen::VectorXd& parameters,
                                     const Trajectory& trajectory) {
+  check_motion(model, parameters, trajectory);
   const InternalForces forces = internal_forces(model, parameters, trajectory);
   return py::make_tuple(rows_of(forces.moment), rows_of(forces.tension), rows_of(forces.curvature));
 }

@@ -386,7 +386,11 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
       what = "an angle is beyond 2^30 rad";
       break;
     case Status::kNotFinite:
-      what = "the equations give no finite number";
+      what =
+          dynamics_.table().positions_across == nullptr
+              ? "the equations give no finite number"
+              : "the equations give no finite number (a joint folded by half a turn, straight up "
+                "at the support, bends in no direction of space; start beside that)";
       break;
     case Status::kSingular:
       what = "the mass or Newton matrix loses its pivot";

@@ -91,6 +91,9 @@ SensitivityDirection SensitivityDirection::zero(const Model& model) {
 }
 
 SensitivityDirection SensitivityDirection::parameter(const Model& model, int index) {
+  if (index < 0 || index >= model.parameters())
+    refuse("parameter " + std::to_string(index) + ": the model has " +
+           std::to_string(model.parameters()) + ", counted from 0");
   SensitivityDirection direction = zero(model);
   direction.parameters[index] = 1.0;
   return direction;

@@ -33,6 +33,30 @@ struct DeriveOptions {
   std::string layout;  // empty: by the number of links
 };
 
+/// Throws InputError where a file would replace one that no derivation wrote. A folder with the
+/// header of all models is one of derivations.
+void require_own(const std::filesystem::path& folder, const EmittedFiles& files) {
+  const auto text_of = [&](const std::string& name) {
+    return std::filesystem::is_regular_file(folder / name) ? bytes_of_file(folder / name) : "";
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  if (has(text_of("catena_model.h"), "CATENA_MODEL_ABI")) return;
+  for (const auto& [name, text] : files)
+    if (const std::string old = text_of(name); std::filesystem::exists(folder / name) &&
+                                               old != text && !has(old, "Written by catena-derive"))
+      throw InputError((folder / name).string() +
+                       " was not written by catena derive and would be replaced; move it away or "
+                       "choose another folder (--output)");
+}
+
+void write_files(const std::filesystem::path& folder, const EmittedFiles& files) {
+  require_own(folder, files);
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, text] : files) write_whole_file(folder / name, text);
+}
+
 void write_latex(const DeriveOptions& options, const Description& description) {
   for (const int n : description.links) {
     if (n > kMostLatexLinks) {
@@ -40,11 +64,9 @@ void write_latex(const DeriveOptions& options, const Description& description) {
                        std::to_string(kMostLatexLinks) + " are written out; give fewer (--links)");
     }
   }
-  const auto path = std::filesystem::path(options.output) / (description.id + ".tex");
-  const std::string text = latex_document(description, description.links);
-  std::filesystem::create_directories(options.output);
-  write_whole_file(path, text);
-  std::printf("written to %s\n", path.c_str());
+  const std::string name = description.id + ".tex";
+  write_files(options.output, {{name, latex_document(description, description.links)}});
+  std::printf("written to %s\n", (std::filesystem::path(options.output) / name).c_str());
 }
 
 /// Refuses effects that change the chain at their neutral values; certify proves it for the whole
@@ -136,10 +158,7 @@ void derive(const DeriveOptions& options) {
     files = emit_files(description, description.links, options.library, progress, layout, language,
                        options.for_fits ? FunctionSet::kFits : FunctionSet::kAll);
   if (options.any_links) files.merge(emit_any_links_files(description));
-  std::filesystem::create_directories(options.output);
-  for (const auto& [name, text] : files) {
-    write_whole_file(std::filesystem::path(options.output) / name, text);
-  }
+  write_files(options.output, files);
   std::printf("written to %s\n", options.output.c_str());
 }
 

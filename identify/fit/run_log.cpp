@@ -16,6 +16,7 @@
 #include <limits>
 #include <sstream>
 
+#include "common/in_a_line.hpp"
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "common/sha256.hpp"
@@ -54,17 +55,17 @@ Eigen::VectorXd numbers(const std::string& text) {
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\t' || c == '\n' || c == '\r') c = ' ';
-  return text;
-}
-
 /// Of all lines so far, too: none can be changed, removed or put elsewhere without notice.
 std::string check_after(const std::string& check, const std::string& content) {
   std::string next = sha256_hex(check + content);
   next.resize(kCheckLength);
   return next;
+}
+
+/// A start that did not come to one is begun again.
+bool is_an_end(FitStatus status) {
+  return status == FitStatus::kConverged || status == FitStatus::kEvaluationLimit ||
+         status == FitStatus::kFailed;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -84,10 +85,14 @@ std::string name_of(const FitResult& fit) {
   return name;
 }
 
-RunLog::RunLog(const std::filesystem::path& file, const std::string& key, bool resume,
-               std::function<void(const std::string&)> notice)
-    : name_(file.string()), key_(key), notice_(std::move(notice)) {
+RunLog::RunLog(const std::filesystem::path& file, const std::string& key, Eigen::Index unknowns,
+               bool resume, std::function<void(const std::string&)> notice)
+    : name_(file.string()), key_(key), unknowns_(unknowns), notice_(std::move(notice)) {
   std::error_code ignored;
+  if (std::filesystem::is_symlink(file, ignored))
+    throw InputError(name_ +
+                     ": is a link, through which no log is written; move it away or choose another "
+                     "folder");
   std::filesystem::create_directories(file.parent_path(), ignored);
   const std::string before = std::filesystem::exists(file) ? bytes_of_file(file) : "";
   if (!before.starts_with(kOurs) && !std::string_view(kOurs).starts_with(before))
@@ -126,6 +131,15 @@ void RunLog::take_over(const std::filesystem::path& file, const Shard& shard) {
   refits_.merge(record.refits);
 }
 
+/// Whether a run of so many unknowns writes that. Whoever edits a line can give it the right check.
+bool RunLog::can_be(const Refit& refit, const Eigen::VectorXd& values) const {
+  if (refit.kind == kBootstrapRefit) return values.size() == unknowns_;
+  if (refit.kind == kEndOfRefits) return values.size() == 2;
+  const auto is_verdict = [](double number) { return number == 0 || number == 1 || number == 2; };
+  return refit.kind == kProfileRefit && values.size() >= 3 && values.size() % 2 == 1 &&
+         is_verdict(values[0]);
+}
+
 RunLog::Record RunLog::read(const std::string& name, const std::string& text) const {
   Record record;
   std::size_t begin = 0;
@@ -141,16 +155,20 @@ RunLog::Record RunLog::read(const std::string& name, const std::string& text) co
     }
     const std::string content = line.substr(0, line.rfind('\t'));
     record.check = check_after(record.check, content);
-    if (line != content + "\t" + record.check)
-      throw InputError(name + ":" + std::to_string(line_number) +
-                       ": this line was damaged or edited, or one before it was removed; remove it "
-                       "and all that follow to go on from there, or run without --resume to begin "
-                       "anew");
+    const auto require = [&](bool right) {
+      if (!right)
+        throw InputError(
+            name + ":" + std::to_string(line_number) +
+            ": this line was damaged or edited, or one before it was removed; remove it and all "
+            "that follow to go on from there, or run without --resume to begin anew");
+    };
+    require(line == content + "\t" + record.check);
     const std::vector<std::string> cells = cells_of(content);
     if (cells[0] == "e" && cells.size() == 5) {
       Start& start = record.starts[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());
       start.entries.push_back({number(cells[2]), numbers(cells[3]), cells[4]});
+      require(start.entries.back().x.size() == unknowns_);
     } else if (cells[0] == "s" && cells.size() == 12) {
       FitResult result;
       result.status = static_cast<FitStatus>(std::atoi(cells[2].c_str()));
@@ -163,13 +181,18 @@ RunLog::Record RunLog::read(const std::string& name, const std::string& text) co
       result.failures = std::atoi(cells[9].c_str());
       result.error_noise = number(cells[10]);
       result.message = cells[11];
+      require(result.x.size() == unknowns_ && is_an_end(result.status));
       Start& start = record.starts[std::atoi(cells[1].c_str())];
       result.history = start.entries;
       for (const HistoryEntry& entry : start.entries)
         if (!std::isfinite(entry.error)) result.failed.push_back({entry.x, entry.message});
       start.result = std::move(result);
     } else if (cells[0] == "r" && cells.size() == 5) {
-      record.refits[{cells[1], std::atoi(cells[2].c_str()), cells[3]}] = numbers(cells[4]);
+      const Refit refit{cells[1], std::atoi(cells[2].c_str()), cells[3]};
+      const Eigen::VectorXd& values = record.refits[refit] = numbers(cells[4]);
+      require(can_be(refit, values));
+    } else {
+      require(false);
     }
   }
   record.whole = begin;
@@ -207,7 +230,7 @@ void RunLog::record(int start, const HistoryEntry& entry) {
     return;
   }
   append("e\t" + std::to_string(start) + "\t" + exact(entry.error) + "\t" + x + "\t" +
-         one_line(entry.message));
+         in_a_line(entry.message));
 }
 
 std::optional<FitResult> RunLog::finished(int start) const {
@@ -217,13 +240,13 @@ std::optional<FitResult> RunLog::finished(int start) const {
 }
 
 void RunLog::finish(int start, const FitResult& result) {
-  if (result.status == FitStatus::kInterrupted || result.status == FitStatus::kTimeLimit) return;
+  if (!is_an_end(result.status)) return;
   const std::scoped_lock lock(mutex_);
   append("s\t" + std::to_string(start) + "\t" + std::to_string(static_cast<int>(result.status)) +
          "\t" + exact(result.error) + "\t" + exact(result.start_error) + "\t" + exact(result.x) +
          "\t" + std::to_string(result.evaluations) + "\t" + exact_number_text(result.work) + "\t" +
          std::to_string(result.iterations) + "\t" + std::to_string(result.failures) + "\t" +
-         exact_number_text(result.error_noise) + "\t" + one_line(result.message));
+         exact_number_text(result.error_noise) + "\t" + in_a_line(result.message));
 }
 
 std::optional<Eigen::VectorXd> RunLog::refitted(const Refit& refit) const {

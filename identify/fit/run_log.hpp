@@ -17,9 +17,15 @@
 
 namespace catena {
 
+// The kinds of refits, with the values that are kept of each.
+inline constexpr const char* kBootstrapRefit = "bootstrap";  ///< the unknowns
+inline constexpr const char* kProfileRefit = "profile";      ///< verdict, values, as many costs
+inline constexpr const char* kEndOfRefits =
+    "end";  ///< of a shard: the bootstrap's number, profiles
+
 /// One of the refits that follow a fit.
 struct Refit {
-  std::string kind;  ///< a word: "bootstrap"
+  std::string kind;  ///< one of those above
   int index = 0;
   std::string fit;  ///< the fit that it starts from: name_of(FitResult)
   bool operator<(const Refit& other) const {
@@ -40,13 +46,14 @@ std::string name_of(const FitResult& fit);
 /// recalled. So a resumed run ends where it would have ended undisturbed.
 class RunLog {
  public:
-  /// `key` identifies case, data and model. With `resume` an existing log is read and continued;
-  /// throws InputError if it belongs to another key, or names the line that was damaged or edited.
+  /// `key` identifies case, data and model; `unknowns` is their number. With `resume` an existing log
+  /// is read and continued; throws InputError if it belongs to another key, or names the line that was
+  /// damaged or edited, or that no run writes.
   /// Otherwise the log begins anew. Throws InputError if it cannot be written, or the file is no
   /// log. Where it cannot be written later (a full disk), `notice` is told once, and the run goes on
   /// without.
-  RunLog(const std::filesystem::path& file, const std::string& key, bool resume,
-         std::function<void(const std::string&)> notice = {});
+  RunLog(const std::filesystem::path& file, const std::string& key, Eigen::Index unknowns,
+         bool resume, std::function<void(const std::string&)> notice = {});
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
@@ -86,10 +93,12 @@ class RunLog {
   };
 
   Record read(const std::string& name, const std::string& text) const;
+  bool can_be(const Refit& refit, const Eigen::VectorXd& values) const;
   void append(const std::string& content);
   void write(const std::string& line);
 
   std::string name_, key_;
+  Eigen::Index unknowns_;
   std::function<void(const std::string&)> notice_;
   std::FILE* file_ = nullptr;
   std::atomic<bool> failed_ = false;

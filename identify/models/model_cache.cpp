@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLibrary = "model.so";
 constexpr const char* kChecksum = "model.so.sha256";
-constexpr const char* kWork = "work-";
+constexpr const char* kWork = "catena-work-";  // no user names a folder so: it is removed
 
 /// Whether an entry holds what was written when it was made.
 bool is_whole(const fs::path& entry) {
@@ -43,7 +43,10 @@ void synchronise(const fs::path& path) {
   close(file);
 }
 
-bool is_work_folder(const fs::path& path) { return path.filename().string().starts_with(kWork); }
+/// An entry is called by a hash. Whatever else a user keeps in the folder is left alone.
+bool is_key(const std::string& name) {
+  return name.size() == 64 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 std::uintmax_t bytes_in(const fs::path& folder) {
   std::uintmax_t bytes = 0;
@@ -70,7 +73,7 @@ std::vector<fs::path> entries_of(const fs::path& cache) {
   std::vector<std::pair<fs::file_time_type, fs::path>> entries;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(cache, error))
-    if (entry.is_directory(error) && !is_work_folder(entry.path()))
+    if (entry.is_directory(error) && is_key(entry.path().filename().string()))
       entries.emplace_back(fs::last_write_time(entry.path(), error), entry.path());
   std::sort(entries.begin(), entries.end());
   std::vector<fs::path> paths;

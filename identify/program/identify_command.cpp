@@ -250,7 +250,8 @@ int identify_case(const IdentifyOptions& options) {
   if (part.is_merge()) scratch.emplace(std::filesystem::temp_directory_path(), "catena-merge-");
   ProgressLine line(!options.quiet);
   RunLog log((scratch ? scratch->path() : output.path()) / "run.log", run_key(*asked),
-             options.resume || part.is_shard(), [&line](const std::string& text) {
+             static_cast<Eigen::Index>(asked->unknowns().size()), options.resume || part.is_shard(),
+             [&line](const std::string& text) {
                line.clear();
                std::cerr << "catena: " << text << "\n";
              });

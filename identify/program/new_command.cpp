@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <sstream>
 
 #include "common/command_line.hpp"
+#include "common/in_a_line.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/cases/case_reader.hpp"
@@ -74,10 +76,14 @@ void complete(NewOptions& options) {
                       measure.value == &options.load_mass ? "not negative" : "positive"));
 }
 
+double with_digits(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+}
+
 /// Two significant digits.
 double about(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", std::round(value / unit) * unit));
+  return with_digits(std::round(value / unit) * unit, 2);
 }
 
 Case case_of(const NewOptions& options, const RecognisedRecording& found) {
@@ -90,7 +96,15 @@ Case case_of(const NewOptions& options, const RecognisedRecording& found) {
   // A first guess: bending over a two-hundredth of the cable. It lasts a tenth of a second.
   const double pull =
       the_case.cable.gravity * (options.load_mass + 0.5 * options.density * options.known.length);
-  const double stiffness = about(5e-4 * pull * options.known.length * options.known.length);
+  const double guess = 5e-4 * pull * options.known.length * options.known.length;
+  constexpr double kLeast = 1e-100,
+                   kMost = 1e100;  // N m^2: numbers that go on from it stay numbers
+  if (!(guess > kLeast && guess < kMost))
+    throw InputError(fmt::format(
+        "--length {}, --density {} and --load-mass {} make a cable that bends with {:.3g} N m^2 or "
+        "so, which cannot be meant; give m, kg/m and kg",
+        options.known.length, options.density, options.load_mass, guess));
+  const double stiffness = about(guess);
   const auto add = [&](const char* name, const char* sets, const char* unit, double value) {
     ParameterSpec parameter;
     parameter.name = name;
@@ -167,12 +181,12 @@ int make_case(NewOptions options) {
   const Recording recording = read_recording(found.spec, kLinks, options.known.length);
   found.spec.keep_outliers = false;
   const double begin = recording.time.front(), end = recording.time.back();
-  found.spec.fit_until = std::stod(fmt::format("{:.3g}", begin + 0.7 * (end - begin)));
+  found.spec.fit_until = with_digits(begin + 0.7 * (end - begin), 3);
   const std::string text =
       fmt::format(
           "# Made by catena new from {}.\n# catena identify {} --check tells what the data "
           "can determine; without --check it fits.\n",
-          options.recording.filename().string(), output.string()) +
+          in_a_line(options.recording.filename().string()), in_a_line(output.string())) +
       commented(case_text(case_of(options, found), output.parent_path()), found);
   if (!is_utf8(text))
     throw InputError(options.recording.string() + " and " + output.string() +

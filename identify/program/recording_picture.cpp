@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/in_a_line.hpp"
+#include "identify/report/html.hpp"
+
 namespace catena {
 namespace {
 
@@ -23,13 +26,6 @@ double tick_step(double range) {
          : rough > 2 * unit ? 5 * unit
          : rough > unit     ? 2 * unit
                             : unit;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
 }
 
 /// Where the recording is in the picture.
@@ -62,12 +58,13 @@ std::string axes_of(const Frame& frame) {
   const auto number = [&](double value) {
     return fmt::format("{:.6g}", std::round(value / step) * step + 0.0);
   };
-  for (double side = std::ceil(frame.left / step) * step; side <= frame.right + 1e-9; side += step)
+  const double some = 1e-9 * step;  // which rounding takes from a tick at the end
+  for (double side = std::ceil(frame.left / step) * step; side <= frame.right + some; side += step)
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/><text x=\"{0:.1f}\" y=\"{3:.1f}\" "
         "text-anchor=\"middle\">{4}</text>\n",
         frame.x(side), near, low, low + 16, number(side));
-  for (double down = std::ceil(frame.top / step) * step; down <= frame.bottom + 1e-9; down += step)
+  for (double down = std::ceil(frame.top / step) * step; down <= frame.bottom + some; down += step)
     out += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f}H{2:.1f}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
         "text-anchor=\"end\">{5}</text>\n",
@@ -98,7 +95,7 @@ std::string recording_picture(const Recording& recording, const std::vector<Outl
       "<text x=\"16\" y=\"24\" font-size=\"15\">{2}</text>\n"
       "<text x=\"16\" y=\"42\" font-size=\"12\">Black: the first sight of each marker, from the "
       "support, with its place along the cable of {3:.3g} m. Coloured: the tracks. {4}</text>\n",
-      width, frame.height(), escaped(title), length,
+      width, frame.height(), report::Html(in_a_line(title)).str(), length,
       outliers.empty() ? "No outliers." : fmt::format("Rings: {} outliers.", outliers.size()));
   out += axes_of(frame);
   const auto at = [&](Index p, Index k) {

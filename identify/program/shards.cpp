@@ -37,7 +37,7 @@ std::string run_again(std::size_t shard, const WorkPart& all) {
 
 /// Where a log says that a shard has finished its refits.
 Refit end_of(std::size_t shard, const FitResult& fit) {
-  return {"end", static_cast<int>(shard), name_of(fit)};
+  return {kEndOfRefits, static_cast<int>(shard), name_of(fit)};
 }
 
 Eigen::VectorXd values_of(const RefitsAsked& asked) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "common/in_quotes.hpp"
@@ -122,10 +123,16 @@ std::vector<PointSpec> markers_in(const Table& table, std::vector<std::string>& 
 struct Tracks {
   const Table& table;
   const std::vector<PointSpec>& points;
+  std::vector<const std::vector<double>*> sides, downs;  // of each point
 
+  Tracks(const Table& of, const std::vector<PointSpec>& markers) : table(of), points(markers) {
+    for (const PointSpec& point : points) {
+      sides.push_back(&table.column(point.side_column));
+      downs.push_back(&table.column(point.down_column));
+    }
+  }
   Vector2d at(std::size_t point, std::size_t row) const {
-    return {table.column(points[point].side_column)[row],
-            table.column(points[point].down_column)[row]};
+    return {(*sides[point])[row], (*downs[point])[row]};
   }
   /// The median over the rows of a function of the row, NaN left out.
   template <class Value>
@@ -230,7 +237,7 @@ void recognise_lengths(const Tracks& tracks, const KnownOfRecording& known,
   if (unit == "px") {
     spec.metres_per_pixel = known.metres_per_pixel;
     if (std::isnan(spec.metres_per_pixel)) {
-      spec.metres_per_pixel = std::stod(number_text(measured));
+      spec.metres_per_pixel = std::strtod(number_text(measured).c_str(), nullptr);
       found.estimated.emplace_back("metres_per_pixel");
     }
   }
@@ -269,7 +276,7 @@ void recognise_axes(const Tracks& tracks, const KnownOfRecording& known,
     const double there = tracks.typical([&](std::size_t row) {
       return ((1 + share) * tracks.at(0, row) - share * tracks.at(1, row))[axis];
     });
-    spec.origin[static_cast<std::size_t>(axis)] = std::stod(number_text(there));
+    spec.origin[static_cast<std::size_t>(axis)] = std::strtod(number_text(there).c_str(), nullptr);
   }
   // A file whose numbers begin at the support: the estimate is no better than that.
   constexpr double kAtZero = 0.05;  // of the length of the cable

@@ -9,6 +9,7 @@
 #include "identify/report/page.hpp"
 #include "identify/report/payload.hpp"
 #include "identify/report/report_figures.hpp"
+#include "identify/results/output_folder.hpp"
 
 namespace catena::report {
 namespace {
@@ -38,21 +39,39 @@ std::string parameters_csv(const Result& result) {
   return text;
 }
 
+constexpr const char* kParameters = "parameters.csv";
+
+/// Refuses the folder of a result: both have an energy.csv.
+void require_no_result(const std::filesystem::path& folder) {
+  for (const char* name : {"result.json", "diagnosis.json", "links_study.json"})
+    if (std::filesystem::exists(folder / name))
+      throw InputError(fmt::format(
+          "--csv: {} holds {}, beside which files of the same names are; give another folder",
+          folder.string(), name));
+}
+
+/// The numbers of every figure, whole or not at all; files of others are not replaced.
+void write_csv(const Document& document, const std::vector<ReportFigure>& figures,
+               const std::filesystem::path& folder) {
+  require_no_result(folder);
+  const bool parameters = !document.result.parameters.empty();
+  std::vector<std::string> names;
+  for (const ReportFigure& entry : figures) names.push_back(entry.figure.id + ".csv");
+  if (parameters) names.emplace_back(kParameters);
+  OutputFolder(folder, names).publish([&](const std::filesystem::path& unfinished) {
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      write_whole_file(unfinished / names[i], to_csv(figures[i].figure));
+    if (parameters) write_whole_file(unfinished / kParameters, parameters_csv(document.result));
+  });
+}
+
 }  // namespace
 
 Written write_report(const Document& document, const ReportFiles& files) {
   const std::vector<ReportFigure> figures = report_figures(document);
   Written written;
   written.figures = figures.size();
-  if (!files.csv.empty()) {
-    make_folder(files.csv);
-    for (const ReportFigure& entry : figures) {
-      write_whole_file(files.csv / (entry.figure.id + ".csv"), to_csv(entry.figure));
-    }
-    if (!document.result.parameters.empty()) {
-      write_whole_file(files.csv / "parameters.csv", parameters_csv(document.result));
-    }
-  }
+  if (!files.csv.empty()) write_csv(document, figures, files.csv);
   if (!files.html.empty()) {
     const std::string html = to_html(document, figures);
     written.html_bytes = html.size();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "common/input_error.hpp"
@@ -27,12 +28,14 @@ std::string slug(const std::string& name) {
 
 void name_files(std::vector<ReportFigure>& figures, bool several_experiments) {
   std::set<std::string> taken;
+  std::map<std::string, int> last;  // of the numbers that a name was given: many may have it
   for (ReportFigure& entry : figures) {
     std::string id = entry.family;
     if (several_experiments && !entry.experiment.empty()) id += "-" + slug(entry.experiment);
     if (!entry.variant.empty()) id += "-" + slug(entry.variant);
     std::string distinct = id;
-    for (int k = 2; !taken.insert(distinct).second; ++k) distinct = fmt::format("{}-{}", id, k);
+    while (!taken.insert(distinct).second)
+      distinct = fmt::format("{}-{}", id, ++last.try_emplace(id, 1).first->second);
     entry.figure.id = distinct;
   }
 }

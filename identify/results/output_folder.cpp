@@ -2,14 +2,15 @@
 #include "identify/results/output_folder.hpp"
 
 #include <fnmatch.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/is_within.hpp"
 #include "common/sha256.hpp"
 #include "common/whole_file.hpp"
 
@@ -20,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.sha256";
 constexpr const char* kRoom = "room";  // a try: a run that is killed leaves no manifest by it
-constexpr const char* kUnfinished = "unfinished-";
+constexpr const char* kUnfinished =
+    "catena-unfinished-";  // no user names a folder so: it is removed
 /// The smallest results take as much: a disk that is full now is found before work begins.
 constexpr std::size_t kFewestBytes = 64 << 10;
 
@@ -43,10 +45,7 @@ void move_file(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::rename(from, to, error);
   if (error == std::errc::cross_device_link) {  // a folder within may be another disk
-    fs::path part = to;
-    part += ".part" + std::to_string(getpid());
-    fs::copy_file(from, part, fs::copy_options::overwrite_existing);
-    fs::rename(part, to);
+    write_whole_file(to, bytes_of_file(from, SIZE_MAX));
     fs::remove(from);
   } else if (error) {
     throw fs::filesystem_error("cannot be moved", from, to, error);
@@ -104,7 +103,7 @@ void OutputFolder::make() {
 void OutputFolder::recover() {
   std::vector<fs::path> finished;
   for (const auto& entry : fs::directory_iterator(path_))
-    if (entry.path().filename().string().starts_with(kUnfinished) &&
+    if (entry.path().filename().string().starts_with(kUnfinished) && !entry.is_symlink() &&
         fs::exists(entry.path() / kManifest))
       finished.push_back(entry.path());
   for (const fs::path& folder : finished) {
@@ -127,13 +126,24 @@ OutputFolder::Manifest OutputFolder::manifest_in(const fs::path& folder) {
         line.find_first_not_of("0123456789abcdef") != 64)
       throw InputError((folder / kManifest).string() + ":" + std::to_string(number) +
                        ": is not the list of files that catena wrote; move the file away");
-    manifest.emplace(line.substr(66), line.substr(0, 64));
+    const std::string file = line.substr(66);
+    if (!is_within(file))
+      throw InputError((folder / kManifest).string() + ":" + std::to_string(number) + ": " +
+                       in_quotes(file) +
+                       " is outside of the folder, and catena wrote no such list; move it away");
+    manifest.emplace(file, line.substr(0, 64));
   }
   return manifest;
 }
 
 /// Why a file may not be replaced; empty if it may, or is not there.
 std::string OutputFolder::why_in_the_way(const fs::path& file, const Manifest& manifest) const {
+  fs::path above = path_;
+  for (const fs::path& name : file.lexically_relative(path_).parent_path())
+    if (fs::is_symlink(above /= name))
+      return above.string() +
+             " is a link, through which no result is written; move it away or choose another "
+             "folder";
   const fs::file_status status = fs::symlink_status(file);
   if (!fs::exists(status)) return {};
   const auto [begin, end] = manifest.equal_range(file.lexically_relative(path_).generic_string());

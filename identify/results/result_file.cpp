@@ -9,6 +9,7 @@
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/is_within.hpp"
 #include "common/nesting.hpp"
 #include "common/whole_file.hpp"
 #include "identify/results/result_fields.hpp"
@@ -127,6 +128,8 @@ class Reader {
     } else {
       result.read(round.result_file);
       const std::filesystem::path file = folder_ / round.result_file;
+      if (!is_within(round.result_file) || !std::filesystem::is_regular_file(file))
+        result.fail("it must be the result of the round, a file within the folder");
       const Json json = parsed(file);
       const Reader root(json, file.string() + ": result", folder_);
       root.kind();

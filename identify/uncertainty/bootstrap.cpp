@@ -40,7 +40,7 @@ MatrixXd bootstrap(const Problem& problem, const FitResult& fit, const Uncertain
   const std::string name = name_of(fit);
   in_parallel(static_cast<std::size_t>(count), threads, [&](std::size_t row) {
     if (stop && *stop) return;
-    const Refit refit{"bootstrap", static_cast<int>(row), name};
+    const Refit refit{kBootstrapRefit, static_cast<int>(row), name};
     if (log)
       if (const auto known = log->refitted(refit)) {
         rows.row(static_cast<Index>(row)) = known->transpose();

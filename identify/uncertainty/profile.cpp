@@ -113,7 +113,7 @@ std::vector<Profile> profiles_of(const Problem& problem, const FitResult& fit,
   in_parallel(chosen.size(), threads, [&](std::size_t p) {
     Profile& profile = profiles[p];
     profile.unknown = chosen[p];
-    const Refit refit{"profile", static_cast<int>(p), name};
+    const Refit refit{kProfileRefit, static_cast<int>(p), name};
     if (log)
       if (const auto known = log->refitted(refit)) {
         put_values(*known, profile);

@@ -2,6 +2,7 @@
 #include "common/whole_file.hpp"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include "common/sha256.hpp"
 #include "tests/support/failure.hpp"
@@ -44,6 +45,18 @@ TEST_CASE("a file is read whole") {
   CHECK(failure([&] { read_whole_file(folder.path()); }).find("is a folder") != std::string::npos);
   const auto latin = folder.write("latin.csv", "time_s,m\xE4rker\n");
   CHECK(failure([&] { read_whole_file(latin); }).find("latin.csv:1: ") != std::string::npos);
+}
+
+TEST_CASE("a file is not written through links that others made") {
+  const testing::TemporaryFolder folder;
+  const auto mine = folder.write("mine", "mine");
+  const auto page = folder.path() / "page.html";
+  std::filesystem::create_symlink(mine, page);
+  // A folder may come with a link for each number that a process may have.
+  std::filesystem::create_symlink(mine, page.string() + ".part" + std::to_string(getpid()));
+  write_whole_file(page, "page");
+  CHECK(read_whole_file(page) == "page");
+  CHECK(read_whole_file(mine) == "mine");
 }
 
 TEST_CASE("an endless file is refused") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "identify/cases/case_reader.hpp"
+#include "identify/recordings/recognise.hpp"
 #include "identify/recordings/recording.hpp"
 #include "tests/fuzz/readers.hpp"
 
@@ -32,10 +33,18 @@ void read_deeplabcut(const std::string& text) {
   read_source(DataSource::kDeepLabCut, DataKind::kMarkers, text);
 }
 
+/// What `catena new` makes of it.
+void recognise(const std::string& text) {
+  KnownOfRecording known;
+  known.length = 1.0;
+  (void)recognise_recording(written("recording.csv", text), known);
+}
+
 constexpr Reader kRecordingReaders[] = {
     {"case", refused_or_read<read_a_case>},     {"markers", refused_or_read<read_markers>},
     {"angles", refused_or_read<read_angles>},   {"tracker", refused_or_read<read_tracker>},
     {"kinovea", refused_or_read<read_kinovea>}, {"deeplabcut", refused_or_read<read_deeplabcut>},
+    {"new", refused_or_read<recognise>},
 };
 
 }  // namespace

@@ -240,6 +240,19 @@ class Motion(unittest.TestCase):
             with self.assertRaises(ValueError):
                 catena.simulate(model, *arguments)
 
+    def test_parameters_and_motions_are_of_the_model(self):
+        model, parameters = cable()
+        motion = catena.simulate(model, parameters, catena.straight(model, 0.5), [0, 0.1]).trajectory
+        other = catena.Model(2)
+        for call in (catena.positions, catena.internal_forces):
+            with self.assertRaisesRegex(ValueError, "parameters: 1 values given"):
+                call(model, np.zeros(1), motion)
+            with self.assertRaisesRegex(ValueError, "coordinates and 0 states; the model has 2"):
+                call(other, other.parameters(length=1, mass=1, inertia=1, stiffness=1, damping=1), motion)
+        for index in (-1, len(model.parameter_names)):
+            with self.assertRaisesRegex(ValueError, "counted from 0"):
+                catena.SensitivityDirection.parameter(model, index)
+
     def test_a_failure_names_state_and_time(self):
         model, parameters = cable()
         with self.assertRaisesRegex(catena.ComputationError, "t = "):

@@ -88,7 +88,7 @@ TEST_CASE("any number of threads gives the same, and so does a run resumed after
     const std::filesystem::path file = folder.path() / "run.log";
     std::vector<FitResult> undisturbed;
     {
-      RunLog log(file, "key", false);
+      RunLog log(file, "key", 2, false);
       undisturbed = fit_from_many(problem, {}, fit_least_squares, 1, &log);
     }
     const std::vector<FitResult> threaded =
@@ -104,7 +104,7 @@ TEST_CASE("any number of threads gives the same, and so does a run resumed after
       CAPTURE(share);
       const auto length = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
       std::ofstream(file, std::ios::binary) << whole.substr(0, length);
-      RunLog log(file, "key", true);
+      RunLog log(file, "key", 2, true);
       const std::vector<FitResult> resumed = fit_from_many(problem, {}, fit_least_squares, 2, &log);
       for (std::size_t i = 0; i < 4; ++i) CHECK(same(undisturbed[i], resumed[i]));
     }

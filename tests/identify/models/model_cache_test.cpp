@@ -127,8 +127,17 @@ TEST_CASE("what an interrupted process left is removed, what is in use is not") 
   Filled filled;
   const ModelCache cache(filled.options.cache_directory);
   const WorkFolder busy = cache.work_folder();
-  const fs::path left = cache.folder() / "work-000000";
+  const fs::path left = cache.folder() / "catena-work-000000";
   fs::create_directories(left / "model");
+  fs::permissions(left, fs::perms::owner_all);
+  // The user may have chosen a folder with others in it.
+  const std::vector<fs::path> own = {cache.folder() / "work-report" / "thesis",
+                                     cache.folder() / "catena-work-report" / "thesis",
+                                     cache.folder() / "thesis" / "text"};
+  for (const fs::path& file : own) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "mine";
+  }
   const ModelCache again(cache.folder());
   CHECK(!fs::exists(left));
   CHECK(fs::exists(busy.path()));
@@ -137,4 +146,5 @@ TEST_CASE("what an interrupted process left is removed, what is in use is not") 
   again.clear();
   CHECK(again.usage().models == 0);
   CHECK(fs::exists(busy.path()));
+  for (const fs::path& file : own) CHECK(fs::exists(file));
 }

@@ -76,6 +76,39 @@ TEST_CASE("new names the measures that no recording tells") {
             .output.find("--length: -1; must be positive") != std::string::npos);
 }
 
+TEST_CASE("new draws markers that hardly differ, and refuses measures that cannot be meant") {
+  const testing::TemporaryFolder folder;
+  const auto made = [&](const char* name, const std::string& value, const char* length) {
+    const auto data = folder.write(
+        name, "time_s,side_1_m,down_1_m\n0,0," + value + "\n0.1," + value + "," + value + "\n");
+    return run_catena({"new", data, "--length", length, "--density", "0.1", "--load-mass", "0"});
+  };
+  // The ticks of so small a picture were counted with a margin of 1e-9 m.
+  CHECK(made("small.csv", "1e-18", "1").exit_status == 0);
+  CHECK(std::filesystem::file_size(folder.path() / "small.svg") < 10'000);
+  const auto moment = folder.write("moment.csv", "time_s,x1,y1\n0,0,1\n1e-320,0,1\n2e-320,0,1\n");
+  const ProcessResult short_one =
+      run_catena({"new", moment, "--length", "1", "--density", "0.1", "--load-mass", "0"});
+  CHECK_MESSAGE(short_one.output.find("stod") == std::string::npos, short_one.output);
+  for (const char* length : {"1e-160", "1e160", "1e308"}) {
+    const ProcessResult run = made("m.csv", "0.5", length);
+    CHECK(run.exit_status == 2);
+    CHECK_MESSAGE(run.output.find("which cannot be meant") != std::string::npos, run.output);
+  }
+}
+
+TEST_CASE("the name of a recording begins no line of the case") {
+  const testing::TemporaryFolder folder;
+  const auto data = folder.write("a\n[model]\nlinks = 7\n.csv",
+                                 "time_s,side_1_m,down_1_m\n0,0.5,0.5\n0.1,0.5,0.6\n");
+  const ProcessResult run = run_catena({"new", data, "--length", "1", "--density", "0.1",
+                                        "--load-mass", "0", "-o", folder.path() / "a.toml"});
+  CHECK_MESSAGE(run.exit_status == 0, run.output);
+  CHECK(testing::text_of(folder.path() / "a.toml")
+            .starts_with("# Made by catena new from a [model] links = 7 .csv.\n"));
+  CHECK(read_case(folder.path() / "a.toml").links != 7);
+}
+
 TEST_CASE("new makes no case that could not be read") {
   const testing::TemporaryFolder folder;
   const std::filesystem::path latin = folder.path() / "m\xE4rz.csv";

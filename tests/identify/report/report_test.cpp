@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/cpu_seconds.hpp"
 #include "common/input_error.hpp"
 #include "identify/report/assets.hpp"
 #include "identify/report/page.hpp"
@@ -255,6 +256,39 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
   }
 }
 
+TEST_CASE("a diagnosis names results in its folder only") {
+  const testing::TemporaryFolder folder;
+  write(folder.path() / "mine.json", made_pendulum());
+  std::filesystem::create_directory(folder.path() / "theirs");
+  json diagnosis = made_diagnosis();
+  for (const std::string& file :
+       {std::string("../mine.json"), (folder.path() / "mine.json").string(),
+        std::string("/dev/zero"), std::string("round_0/../../mine.json"), std::string("")}) {
+    CAPTURE(file);
+    diagnosis["rounds"][0]["result"] = file;
+    const auto theirs = write(folder.path() / "theirs/diagnosis.json", diagnosis);
+    CHECK(failure([&] { read_document(theirs); }).find("a file within the folder") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("many experiments of one name do not take the square of their number") {
+  constexpr std::size_t kMany = 20'000;
+  const json energy = {
+      {"time", {0, 1}},
+      {"items", json::array({{{"name", "kinetic"}, {"kind", "kinetic"}, {"value", {0, 1}}}})},
+      {"imbalance", 0}};
+  json many = made_pendulum();
+  many["experiments"] = json::array();
+  for (std::size_t i = 0; i < kMany; ++i)
+    many["experiments"].push_back({{"name", "a"}, {"energy", energy}});
+  const Document document = read(many);
+  const double begin = cpu_seconds();
+  const std::vector<ReportFigure> figures = report_figures(document);
+  CHECK(cpu_seconds() - begin < 10);
+  CHECK(figures.size() >= kMany);
+}
+
 TEST_CASE("a result with next to nothing in it still makes a report") {
   const Document document = read({{"format", 1}, {"kind", "result"}, {"command", "simulate"}});
   CHECK(report_figures(document).empty());
@@ -454,7 +488,7 @@ TEST_CASE("files: one CSV for each figure, and the parameters") {
     const std::filesystem::directory_iterator entries(folder.path() / name);
     return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
   };
-  CHECK(files("csv") == written.figures + 1);
+  CHECK(files("csv") == written.figures + 2);  // and manifest.sha256
   CHECK(std::filesystem::file_size(folder.path() / "deep/report.html") == written.html_bytes);
   const std::string parameters = contents_of(folder.path() / "csv/parameters.csv");
   CHECK(parameters.find("\nbeta,0.9544,1,true,,0.2,inf,1.8,,100,practically_not,stiffness\n") !=
@@ -462,6 +496,18 @@ TEST_CASE("files: one CSV for each figure, and the parameters") {
   CHECK(contents_of(folder.path() / "csv/gap.csv") ==
         "series,model,gap / mm\nfitted part,baseline,31\nfitted part,with air_drag_quadratic,1.2\n"
         "held out,baseline,44\nheld out,with air_drag_quadratic,1.3\n");
+  // What an earlier report wrote is replaced, nothing else.
+  CHECK_NOTHROW(write_report(document, {{}, folder.path() / "csv"}));
+  const auto refusal = [&](const char* name, const char* mine) {
+    std::filesystem::create_directories(folder.path() / name);
+    std::ofstream(folder.path() / name / mine) << "mine";
+    const std::string said = failure([&] { write_report(document, {{}, folder.path() / name}); });
+    CHECK(contents_of(folder.path() / name / mine) == "mine");
+    CHECK(files(name) == 1);
+    return said;
+  };
+  CHECK(refusal("mine", "parameters.csv").find("was not written by catena") != std::string::npos);
+  CHECK(refusal("result", "result.json").find("give another folder") != std::string::npos);
 }
 
 }  // namespace

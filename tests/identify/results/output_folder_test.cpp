@@ -54,12 +54,14 @@ TEST_CASE("a result replaces an earlier one and nothing else") {
   const fs::path out = folder.path() / "a" / "out";
   publish(out / "", "first");
   write(out / "notes.txt", "mine");
+  write(out / "unfinished-thesis" / "notes.txt", "mine");
   publish(out, "second", "b.cpp");
   CHECK(text_of(out / "result.json") == "second");
   CHECK(text_of(out / "notes.txt") == "mine");
+  CHECK(text_of(out / "unfinished-thesis" / "notes.txt") == "mine");
   CHECK(!fs::exists(out / "model" / "a.cpp"));  // of the earlier model
   CHECK(text_of(out / "model" / "b.cpp") == "second");
-  CHECK(entries(out) == 4);  // manifest.sha256, too, and nothing unfinished
+  CHECK(entries(out) == 5);  // manifest.sha256, too, and nothing unfinished
   const std::string manifest = text_of(out / "manifest.sha256");
   CHECK(manifest.find("  model/b.cpp\n") == 64);
   CHECK(manifest.size() == 64 + 2 + 12 + 64 + 2 + 12);  // and result.json, each once
@@ -121,6 +123,38 @@ TEST_CASE("a finished result that cannot be moved is kept, and moved by the next
   CHECK(refusal(folder.path()).empty());
   CHECK(text_of(folder.path() / "result.json") == "found");
   CHECK(entries(folder.path()) == 3);
+}
+
+TEST_CASE("a folder that others made puts nothing outside of it") {
+  const testing::TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", elsewhere = folder.path() / "elsewhere";
+  const std::string hash(64, '0');
+  // As a run leaves it that was killed while it moved its files.
+  const auto unfinished = [&](const std::string& name, const fs::path& into) {
+    fs::remove_all(out);
+    write(into / "manifest.sha256", hash + "  " + name + "\n");
+    write(into / fs::path(name).filename(), "evil");
+    fs::create_directories(out);
+    fs::create_directories(elsewhere);
+  };
+  for (const std::string& name : {std::string("../elsewhere/a"), (elsewhere / "a").string(),
+                                  std::string("model/../../elsewhere/a")}) {
+    CAPTURE(name);
+    unfinished(name, out / "catena-unfinished-x");
+    write(out / "catena-unfinished-x/model/a", "evil");
+    CHECK(refusal(out).find("is outside of the folder") != std::string::npos);
+    CHECK(fs::is_empty(elsewhere));
+  }
+  unfinished("model/a", out / "catena-unfinished-x");
+  write(out / "catena-unfinished-x/model/a", "evil");
+  fs::create_directory_symlink(elsewhere, out / "model");
+  CHECK(refusal(out).find("is a link, through which no result is written") != std::string::npos);
+  CHECK(fs::is_empty(elsewhere));
+
+  unfinished("mine", folder.path() / "another");  // a result of the user's
+  fs::create_directory_symlink(folder.path() / "another", out / "catena-unfinished-x");
+  CHECK(refusal(out).empty());
+  CHECK(text_of(folder.path() / "another" / "mine") == "evil");
 }
 
 TEST_CASE("a result that cannot be written into the folder is written elsewhere") {
