@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
@@ -23,6 +24,31 @@ ParameterRole role_of(const EffectParameter& parameter) {
   return full_turn ? ParameterRole::kPhase : ParameterRole::kShape;
 }
 
+/// Whether what acts on the chain is a function of time. Sensors do not act.
+bool depends_on_time(const Effect& effect) {
+  const std::regex time("\\btime\\b");
+  const auto in = [&](const Expression& expression) {
+    return std::regex_search(expression.text, time);
+  };
+  const Support& support = effect.support;
+  const auto& fields = effect.kinematics.all();
+  return in(support.side) || in(support.down) || in(support.across) || in(support.clamp_side) ||
+         in(support.clamp_down) || in(support.clamp_across) || in(effect.flow.side) ||
+         in(effect.flow.down) || in(effect.flow.across) ||
+         std::any_of(fields.begin(), fields.end(),
+                     [&](const Expression* each) { return in(*each); }) ||
+         std::any_of(effect.definitions.begin(), effect.definitions.end(),
+                     [&](const Definition& each) { return in(each.value); }) ||
+         std::any_of(effect.scalars.begin(), effect.scalars.end(),
+                     [&](const ScalarTerm& each) { return in(each.value); }) ||
+         std::any_of(effect.states.begin(), effect.states.end(),
+                     [&](const ExtraState& each) { return in(each.rate); }) ||
+         std::any_of(effect.forces.begin(), effect.forces.end(), [&](const ForceTerm& each) {
+           return in(each.side) || in(each.down) || in(each.across) || in(each.normal) ||
+                  in(each.tangential);
+         });
+}
+
 }  // namespace
 
 Candidate candidate_of(Effect effect) {
@@ -31,6 +57,7 @@ Candidate candidate_of(Effect effect) {
   candidate.title = effect.title;
   candidate.sensor = effect.sensor.given();
   candidate.own_model = !effect.coordinates.empty() || !effect.states.empty();
+  candidate.driven = depends_on_time(effect);
   for (const EffectParameter& parameter : effect.parameters) {
     CandidateParameter entry;
     entry.name = effect.id + "." + parameter.name;

@@ -39,6 +39,8 @@ struct Candidate {
   /// Brings further coordinates or states: others should not pay for them, and at a limit they have
   /// no neutral value to rest at.
   bool own_model = false;
+  /// Depends on time itself: it may bring energy in for ever, as nothing does that is passive.
+  bool driven = false;
   std::vector<CandidateParameter> parameters;
   std::string unavailable;  ///< why it cannot be tried here; empty: it can
 

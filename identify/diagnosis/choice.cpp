@@ -5,18 +5,30 @@
 #include <cmath>
 
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/residual_frequencies.hpp"
 #include "identify/diagnosis/special_case.hpp"
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/verdict.hpp"
 
 namespace catena {
 namespace {
 
-/// What an explanation leaves, with the cost of its unknowns (Bayesian information criterion).
-double remainder(const DiagnosisState& state, const Explanation& explanation) {
-  return state.squares(explanation.model) +
-         std::log(static_cast<double>(std::max(2L, explanation.fit.count))) *
-             explanation.comparison.added;
+/// What an explanation leaves, with the cost of its unknowns: the Bayesian information criterion of
+/// `independent` residuals whose variance is not known, for a law misses more than the noise.
+double remainder(const DiagnosisState& state, const Explanation& explanation, double independent) {
+  return independent * std::log(state.squares(explanation.model)) +
+         std::log(independent) * explanation.comparison.added;
+}
+
+/// How many independent residuals the best of some explanations leaves.
+double independent_residuals(const DiagnosisState& state,
+                             const std::vector<const Explanation*>& explanations) {
+  const Explanation& best = **std::min_element(
+      explanations.begin(), explanations.end(), [&](const Explanation* a, const Explanation* b) {
+        return state.squares(a->model) < state.squares(b->model);
+      });
+  return std::max(2.0, static_cast<double>(best.fit.count) / best.comparison.autocorrelation);
 }
 
 bool simpler(const DiagnosisState& state, const Explanation& a, const Explanation& b) {
@@ -36,13 +48,20 @@ std::vector<const Explanation*> confirmed(const DiagnosisState& state,
   std::vector<const Explanation*> left;
   for (const Explanation* each : candidates)
     if (std::none_of(candidates.begin(), candidates.end(), [&](const Explanation* other) {
-          return predicts_better(other->model, each->model, state.found.noise);
+          return predicts_better(other->model, each->model, state.found.noise) ||
+                 needs_no_drive(state, other->id, other->held_out, each->id, each->held_out);
         }))
       left.push_back(each);
   return left;
 }
 
 }  // namespace
+
+bool more_than_a_detail_held_out(const DiagnosisState& state, const GapTest& base,
+                                 const GapTest& larger) {
+  const double whole = last_without_effects(state.found.stages).held_out.rms;
+  return std::pow(base.rms, 2) - std::pow(larger.rms, 2) > kThresholds.detail * std::pow(whole, 2);
+}
 
 bool more_than_a_detail(const DiagnosisState& state, const FittedModel& base,
                         const FittedModel& larger) {
@@ -51,10 +70,22 @@ bool more_than_a_detail(const DiagnosisState& state, const FittedModel& base,
   const double removed =
       std::pow(fit_gap(base, noise).misfit, 2) - std::pow(fit_gap(larger, noise).misfit, 2);
   if (removed > kThresholds.detail * std::pow(bare.fit.misfit, 2)) return true;
-  const double later =
-      std::pow(held_out_gap(base, noise).rms, 2) - std::pow(held_out_gap(larger, noise).rms, 2);
-  return later > kThresholds.detail * std::pow(bare.held_out.rms, 2) &&
+  return more_than_a_detail_held_out(state, held_out_gap(base, noise),
+                                     held_out_gap(larger, noise)) &&
          predicts_better(larger, base, noise);
+}
+
+bool goes_with_the_motion(const DiagnosisState& state, const FittedModel& base,
+                          const Explanation& explanation) {
+  const Candidate* const effect = state.context.find(explanation.id);
+  if (!effect || !effect->driven || explanation.fit.ratio() <= kThresholds.closed) return false;
+  return std::any_of(effect->parameters.begin(), effect->parameters.end(),
+                     [&](const CandidateParameter& parameter) {
+                       const FittedModel& model = explanation.model;
+                       const Eigen::Index j = unknown_index(*model.problem, parameter.name);
+                       return parameter.unit == "Hz" && j >= 0 &&
+                              !told_from_motion(base, model.x[j]);
+                     });
 }
 
 bool acceptable(const DiagnosisState& state, const FittedModel& base,
@@ -65,24 +96,36 @@ bool acceptable(const DiagnosisState& state, const FittedModel& base,
          comparison.misfit_share > kThresholds.worthwhile &&
          state.generalises(explanation.held_out) &&
          more_than_a_detail(state, base, explanation.model) &&
+         !goes_with_the_motion(state, base, explanation) &&
          (static_cast<int>(state.last().effects.size()) < kThresholds.effects_unconfirmed ||
           predicts_better(explanation.model, base, state.found.noise));
+}
+
+bool needs_no_drive(const DiagnosisState& state, const std::string& passive, const GapTest& left,
+                    const std::string& driven, const GapTest& left_driven) {
+  const auto is_driven = [&](const std::string& id) {
+    const Candidate* const effect = state.context.find(id);
+    return effect && effect->driven;
+  };
+  return is_driven(driven) && !is_driven(passive) && left.rms <= left_driven.rms;
 }
 
 const Explanation* choose(const DiagnosisState& state,
                           const std::vector<Explanation>& explanations) {
   const std::vector<const Explanation*> candidates = confirmed(state, explanations);
-  const Explanation* best = nullptr;
-  for (const Explanation* explanation : candidates)
-    if (!best || remainder(state, *explanation) < remainder(state, *best)) best = explanation;
-  if (!best) return best;
+  if (candidates.empty()) return nullptr;
+  const double independent = independent_residuals(state, candidates);
+  const auto leaves_less = [&](const Explanation* a, const Explanation* b) {
+    return remainder(state, *a, independent) < remainder(state, *b, independent);
+  };
+  const Explanation* const best =
+      *std::min_element(candidates.begin(), candidates.end(), leaves_less);
   const Explanation* simplest = best;
   for (const Explanation* explanation : candidates) {
     if (explanation == best || !simpler(state, *explanation, *best) ||
         decide(best->model, explanation->model, state.found.noise).decided)
       continue;
-    if (simplest == best || remainder(state, *explanation) < remainder(state, *simplest))
-      simplest = explanation;
+    if (simplest == best || leaves_less(explanation, simplest)) simplest = explanation;
   }
   return simplest;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 
 namespace catena {
@@ -60,7 +61,8 @@ Decision decide(const FittedModel& better, const FittedModel& worse,
   const double autocorrelation = autocorrelation_factor(white_residuals(better, noise));
   const double needed = 2 * std::log(kThresholds.odds) * autocorrelation +
                         std::log(std::max(2.0, count)) * (unknowns(better) - unknowns(worse));
-  decision.decided = decision.lead > by_error + needed;
+  decision.decided = decision.lead > by_error + needed &&
+                     predicts_as_well(held_out_gap(better, noise), held_out_gap(worse, noise));
   return decision;
 }
 

@@ -35,7 +35,8 @@ double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& n
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
 /// s noise that both share (what even the better one leaves, at least a tenth), that error could
 /// put the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the
-/// noise. Decided is a lead larger than that by what chance explains at odds of one in a thousand.
+/// noise. Decided is a lead larger than that by what chance explains at odds of one in a thousand, if
+/// the one ahead predicts what was held out as well: a lead that is lost there shows freedom, not truth.
 struct Decision {
   bool decided = false;
   double difference = 0;  ///< d, fitted and held-out parts

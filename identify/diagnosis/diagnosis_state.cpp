@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/verdict.hpp"
 

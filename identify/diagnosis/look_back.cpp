@@ -63,11 +63,14 @@ struct Weighed {
   const Explanation* explanation = nullptr;
   const Candidate* effect = nullptr;  // nullptr: a rival that is no effect
   Decision decision;
-  bool better = false;          // leaves less
-  bool predicts_worse = false;  // what was held out
+  bool better = false;  // leaves less
+  /// Predicts what was held out worse, or needs a drive without predicting it better, or drives the
+  /// chain as it moves anyway.
+  bool no_rival = false;
 };
 
-Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
+Weighed weigh(const DiagnosisState& state, const std::string& named, const FittedModel& without,
+              const Explanation& explanation) {
   Weighed weighed;
   weighed.explanation = &explanation;
   weighed.effect = explanation.is_effect() ? state.context.find(explanation.id) : nullptr;
@@ -75,7 +78,10 @@ Weighed weigh(const DiagnosisState& state, const Explanation& explanation) {
   weighed.better = state.squares(explanation.model) < state.squares(last);
   weighed.decision = weighed.better ? decide(explanation.model, last, state.found.noise)
                                     : decide(last, explanation.model, state.found.noise);
-  weighed.predicts_worse = predicts_better(last, explanation.model, state.found.noise);
+  weighed.no_rival =
+      predicts_better(last, explanation.model, state.found.noise) ||
+      goes_with_the_motion(state, without, explanation) ||
+      needs_no_drive(state, named, state.last().held_out, explanation.id, explanation.held_out);
   return weighed;
 }
 
@@ -84,7 +90,7 @@ void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
              const Weighed& weighed, const Model& all) {
   const bool contains = weighed.effect && is_special_case(named, *weighed.effect, all);
   const bool form = weighed.effect && weighed.effect->effect.form_of == id;
-  std::vector<Alternative>& list = weighed.decision.decided || weighed.predicts_worse || contains
+  std::vector<Alternative>& list = weighed.decision.decided || weighed.no_rival || contains
                                        ? found.runners_up
                                    : form ? found.forms
                                           : found.alternatives;
@@ -99,13 +105,15 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
   const Explanation* successor = nullptr;
   for (const Explanation& explanation : without.explanations) {
     if (!explanation.refitted || explanation.id == id) continue;
-    const Weighed weighed = weigh(state, explanation);
+    const Weighed weighed = weigh(state, id, without.model, explanation);
     const Model all = state.context.model_with_all(state.last().links);
-    const bool may_succeed = weighed.effect && !state.reopens_gap(explanation.model) &&
+    const bool may_succeed = weighed.effect && !weighed.no_rival &&
+                             !state.reopens_gap(explanation.model) &&
                              !state.had(with(without.effects, explanation.id));
     // What was held out may decide, too.
     if (may_succeed && !successor && acceptable(state, without.model, explanation) &&
-        predicts_better(explanation.model, state.last().model, noise))
+        (predicts_better(explanation.model, state.last().model, noise) ||
+         needs_no_drive(state, explanation.id, explanation.held_out, id, state.last().held_out)))
       successor = &explanation;
     if (may_succeed && weighed.better && weighed.decision.decided &&
         state.generalises(explanation.held_out) &&
@@ -132,6 +140,10 @@ bool needless(const DiagnosisState& state, const Stage& without) {
   if (state.reopens_gap(without.model)) return false;
   const Stage& last = state.last();
   if (!without.fit.present || !predicts_as_well(last.held_out, without.held_out)) return true;
+  // Others may have taken its place in what was fitted.
+  if (!predicts_as_well(without.held_out, last.held_out) &&
+      more_than_a_detail_held_out(state, without.held_out, last.held_out))
+    return false;
   const Comparison gain = compare(without.model, last.model, state.found.noise);
   return gain.log10_p > -std::log10(kThresholds.odds) ||
          gain.misfit_share < kThresholds.worthwhile ||

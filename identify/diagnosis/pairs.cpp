@@ -7,6 +7,7 @@
 #include "common/nearest_name.hpp"
 #include "common/parallel.hpp"
 #include "identify/diagnosis/candidate_scores.hpp"
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/refits.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/thresholds.hpp"

@@ -67,4 +67,9 @@ bool predicts_better(const FittedModel& model, const FittedModel& other,
          chance_of_lead(model, other, noise) * kThresholds.odds < 1;
 }
 
+bool predicts_as_well(const GapTest& held_out, const GapTest& other) {
+  // 0 and 0 where nothing is held out
+  return held_out.rms <= kThresholds.as_good_held_out * other.rms;
+}
+
 }  // namespace catena

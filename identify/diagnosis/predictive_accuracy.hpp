@@ -24,4 +24,8 @@ double chance_of_lead(const FittedModel& model, const FittedModel& other,
 bool predicts_better(const FittedModel& model, const FittedModel& other,
                      const std::vector<NoiseModel>& noise);
 
+/// Whether a model that leaves `held_out` of what no fit has seen predicts it as well as one that
+/// leaves `other`: an effect must, beside the model without it. True where nothing is held out.
+bool predicts_as_well(const GapTest& held_out, const GapTest& other);
+
 }  // namespace catena

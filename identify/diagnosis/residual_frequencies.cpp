@@ -42,25 +42,19 @@ Sampling longest_sampling(const FittedModel& model) {
   return longest;
 }
 
-}  // namespace
-
-double lowest_shown_frequency(const FittedModel& model) {
-  const Sampling sampling = longest_sampling(model);
-  return sampling.duration > 0 ? kFewestPeriods / sampling.duration : 0;
-}
-
-std::vector<double> strongest_frequencies(const FittedModel& model,
-                                          const std::vector<double>& sigmas, int count) {
+/// Frequencies of the strongest lines of series, one of each experiment, the strongest first.
+std::vector<double> strongest_lines(const FittedModel& model, const std::vector<MatrixXd>& series,
+                                    const std::vector<double>& sigmas, int count) {
   const Sampling sampling = longest_sampling(model);
   if (sampling.duration == 0) return {};
-  // The power of the residuals at a quarter of the resolution.
+  // The power at a quarter of the resolution.
   const double step = 0.25 / sampling.duration, highest = sampling.highest();
   std::vector<std::pair<double, double>> lines;  // power, frequency
   std::vector<double> power;
   for (double f = 2 * step; f <= highest; f += step) {
     double sum = 0;
-    for (std::size_t e = 0; e < model.fit_residual.size(); ++e) {
-      const MatrixXd& r = model.fit_residual[e];
+    for (std::size_t e = 0; e < series.size(); ++e) {
+      const MatrixXd& r = series[e];
       const auto& time = model.problem->experiments()[e].recording.time;
       VectorXd cosine(r.cols()), sine(r.cols());
       for (Index k = 0; k < r.cols(); ++k) {
@@ -90,6 +84,30 @@ std::vector<double> strongest_frequencies(const FittedModel& model,
   for (const auto& [strength, frequency] : lines)
     if (static_cast<int>(frequencies.size()) < count) frequencies.push_back(frequency);
   return frequencies;
+}
+
+}  // namespace
+
+double lowest_shown_frequency(const FittedModel& model) {
+  const Sampling sampling = longest_sampling(model);
+  return sampling.duration > 0 ? kFewestPeriods / sampling.duration : 0;
+}
+
+std::vector<double> strongest_frequencies(const FittedModel& model,
+                                          const std::vector<double>& sigmas, int count) {
+  return strongest_lines(model, model.fit_residual, sigmas, count);
+}
+
+bool told_from_motion(const FittedModel& model, double frequency) {
+  std::vector<MatrixXd> motion;
+  for (std::size_t e = 0; e < model.predicted.size(); ++e) {
+    motion.emplace_back(model.predicted[e].leftCols(model.fit_residual[e].cols()));
+    if (motion.back().size() > 0) motion.back().colwise() -= motion.back().rowwise().mean().eval();
+  }
+  const std::vector<double> strongest =
+      strongest_lines(model, motion, std::vector<double>(motion.size(), 1), 1);
+  return strongest.empty() ||
+         std::abs(frequency - strongest.front()) * longest_sampling(model).duration > 1;
 }
 
 std::vector<double> driving_frequencies(const FittedModel& model,

@@ -13,6 +13,11 @@ namespace catena {
 std::vector<double> strongest_frequencies(const FittedModel& model,
                                           const std::vector<double>& sigmas, int count);
 
+/// Whether the fitted part is long enough to tell a frequency (Hz) from the strongest one of the
+/// motion that `model` predicts: they are one over its duration apart. Closer ones differ by a slow
+/// change of amplitude and phase, as any law that goes with the motion makes it.
+bool told_from_motion(const FittedModel& model, double frequency);
+
 /// The lowest frequency (Hz) that the longest fitted part shows: two periods of it. 0 where no
 /// experiment has eight fitted frames.
 double lowest_shown_frequency(const FittedModel& model);

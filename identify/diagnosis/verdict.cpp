@@ -182,11 +182,6 @@ bool one_may_imitate_two(const std::vector<Stage>& stages) {
              kThresholds.wrong_law * std::pow(last_without_effects(stages).fit.misfit, 2);
 }
 
-bool predicts_as_well(const GapTest& held_out, const GapTest& other) {
-  // 0 and 0 where nothing is held out
-  return held_out.rms <= kThresholds.as_good_held_out * other.rms;
-}
-
 const Stage& last_without_effects(const std::vector<Stage>& stages) {
   const auto last = std::find_if(stages.rbegin(), stages.rend(),
                                  [](const Stage& stage) { return stage.effects.empty(); });

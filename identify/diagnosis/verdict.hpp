@@ -22,10 +22,6 @@ bool explained(const std::vector<Stage>& stages);
 /// slightly wrong would.
 bool one_may_imitate_two(const std::vector<Stage>& stages);
 
-/// Whether a model that leaves `held_out` of what no fit has seen predicts it as well as one that
-/// leaves `other`: an effect must, beside the model without it. True where nothing is held out.
-bool predicts_as_well(const GapTest& held_out, const GapTest& other);
-
 /// The last stage that had no effect; the baseline has none.
 const Stage& last_without_effects(const std::vector<Stage>& stages);
 

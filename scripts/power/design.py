@@ -87,8 +87,8 @@ NOISES = (0.001, 0.0005, 0.003)  # m
 RATES = (60, 30, 120)  # frames/s
 LINKS = (24, 48, 36, 60)  # of the hidden chain; the case has 12
 SEEDS, QUIET, DOUBLE, OUT, ROD_QUIET, ROD_SINGLE = 20, 500, 60, 60, 300, 300
-FIRST_SEED = 50000  # others were used while the diagnosis was changed
-FIRST_ROD_SEED = 61000  # likewise
+FIRST_SEED = 70000  # others were used while the diagnosis was changed
+FIRST_ROD_SEED = 81000  # likewise
 KINDS = ("quiet", "single", "double", "outside", "dirty_quiet", "dirty_single", "rod_quiet", "rod_single")
 
 

@@ -62,6 +62,13 @@ TEST_CASE("what the case calls impossible is not looked for, and must be an effe
         }).find("did you mean \"pivot_damping\"?") != std::string::npos);
 }
 
+TEST_CASE("what acts as a function of time drives the chain; a clock does not act") {
+  const auto driven = [](const char* id) { return candidate_of(built_in_effect(id)).driven; };
+  CHECK(driven("support_motion"));
+  for (const char* passive : {"load_drag", "joint_hysteresis", "gravity_tilt", "clock_offset"})
+    CHECK_FALSE(driven(passive));
+}
+
 TEST_CASE("what acts on a body without mass is not looked for") {
   Case thread = case_of(DataKind::kMarkers);
   thread.cable.link_masses = {0.0};

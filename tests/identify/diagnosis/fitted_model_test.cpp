@@ -60,3 +60,15 @@ TEST_CASE("an effect is driven at no frequency with fewer than two periods in th
   REQUIRE_FALSE(driving.empty());
   CHECK(*std::min_element(driving.begin(), driving.end()) >= lowest);
 }
+
+TEST_CASE("a frequency is told from that of the motion if it is one over the duration away") {
+  FittedModel model = with_sine(1.0);
+  Eigen::MatrixXd motion(2, kFrames);
+  for (int k = 0; k < kFrames; ++k)
+    motion.col(k) << 0.2 * std::cos(2 * std::numbers::pi * 0.8 * kStep * k), 1.0;
+  model.predicted = {motion};
+  CHECK_FALSE(told_from_motion(model, 0.8));
+  CHECK_FALSE(told_from_motion(model, 0.9));
+  CHECK(told_from_motion(model, 1.0));
+  CHECK(told_from_motion(model, 0.6));
+}

@@ -9,6 +9,7 @@
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/candidate.hpp"
 #include "identify/diagnosis/gap_test.hpp"
+#include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/score.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/verdict.hpp"
