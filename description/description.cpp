@@ -131,20 +131,22 @@ Description parse_description(const std::string& text, const std::string& name) 
 
 std::vector<std::string> space_words() { return {"plane", "3d"}; }
 
+std::string why_not_in(Space space, const Effect& effect) {
+  if (space == Space::kPlane)
+    return effect.support.across.given() || effect.support.turns()
+               ? "moves the support across the plane or turns its clamp, which needs space = \"3d\""
+               : "";
+  const std::string why = plane_alone(effect);
+  return why.empty()
+             ? ""
+             : "acts in the plane only: " + why + ". Space is \"3d\"; leave one of them away";
+}
+
 std::string conflict_in(const Description& description) {
   bool clamped = false;
   for (const Effect& effect : description.effects) {
-    const bool of_space = effect.support.across.given() || effect.support.turns();
-    if (description.space == Space::kPlane) {
-      if (of_space)
-        return in_quotes(effect.id) +
-               " moves the support across the plane or turns its clamp, which needs "
-               "space = \"3d\"";
-      continue;
-    }
-    if (const std::string why = plane_alone(effect); !why.empty())
-      return in_quotes(effect.id) + " acts in the plane only: " + why +
-             ". Space is \"3d\"; leave one of them away";
+    if (const std::string why = why_not_in(description.space, effect); !why.empty())
+      return in_quotes(effect.id) + " " + why;
     if (effect.support.turns() && clamped)
       return in_quotes(effect.id) +
              " is the second effect that gives the direction of the clamp; leave "

@@ -49,9 +49,13 @@ Description parse_description(const std::string& text, const std::string& name);
 /// add a coordinate, state or signal of the same name. Empty if they can.
 std::string conflict_between(const std::vector<Effect>& effects);
 
-/// The same for the effects of a description. In the plane no effect moves the support across or turns its
-/// clamp. In space one may turn the clamp, and none has what only the plane gives a meaning: torques, states,
-/// coordinates, sensors, rest angles, the angle of a link.
+/// Why an effect has no meaning in this space; empty: it has one. In the plane no effect moves the
+/// support across or turns its clamp. In space none has what only the plane gives a meaning: torques,
+/// states, coordinates, sensors, rest angles, the angle of a link.
+std::string why_not_in(Space space, const Effect& effect);
+
+/// The same for the effects of a description: each has a meaning in its space, and no two give the
+/// direction of the clamp.
 std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical

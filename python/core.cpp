@@ -149,26 +149,29 @@ void check_motion(const Model& model, const Eigen::VectorXd& parameters, const T
                                 " and " + std::to_string(model.states()));
 }
 
-/// (times x points) side and down of the support, the far end of each link, and the load.
+/// (times x points) side, down and, in space, across of the support, the far end of each link, and the
+/// load.
 py::tuple positions_over_time(const Model& model, const Eigen::VectorXd& parameters,
                               const Trajectory& trajectory) {
-  if (model.in_space())
-    throw std::invalid_argument(
-        "positions: the model moves in space, and these are side and down only; "
-        "trajectory.q has the directions of the links, and catena simulate writes positions.csv");
   check_motion(model, parameters, trajectory);
   const auto points = static_cast<Eigen::Index>(model.links() + 2);
   const auto times = static_cast<Eigen::Index>(trajectory.time.size());
-  py::array_t<double> side({times, points}), down({times, points});
-  Eigen::Map<Rows> side_rows(side.mutable_data(), times, points);
-  Eigen::Map<Rows> down_rows(down.mutable_data(), times, points);
+  std::vector<Eigen::VectorXd Positions::*> components = {&Positions::side, &Positions::down};
+  if (model.in_space()) components.push_back(&Positions::across);
+  py::tuple arrays(components.size());
+  std::vector<double*> data;
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    py::array_t<double> array({times, points});
+    data.push_back(array.mutable_data());
+    arrays[c] = std::move(array);
+  }
   for (Eigen::Index k = 0; k < times; ++k) {
     const Positions at = positions(model, parameters, trajectory.time[static_cast<std::size_t>(k)],
                                    trajectory.q.col(k));
-    side_rows.row(k) = at.side;
-    down_rows.row(k) = at.down;
+    for (std::size_t c = 0; c < components.size(); ++c)
+      Eigen::Map<Eigen::VectorXd>(data[c] + k * points, points) = at.*components[c];
   }
-  return py::make_tuple(side, down);
+  return arrays;
 }
 
 void check_rows(const char* name, const Rows& rows, Eigen::Index count, int columns) {
@@ -532,7 +535,8 @@ void add_simulation(py::module_& module) {
              "each joint (rad/m): arrays of times x links.");
   module.def(
       "positions", &positions_over_time, "model"_a, "parameters"_a, "trajectory"_a,
-      "side and down (m), times x (links + 2): the support, the far end of each link, the load.");
+      "side, down and, in space, across (m), times x (links + 2): the support, the far end of each "
+      "link, the load.");
 }
 
 }  // namespace

@@ -144,8 +144,9 @@ bool acts_on_nothing(const Effect& effect, const Weightless& bodies) {
 }
 
 /// Why an effect cannot be there in this case; empty: it can.
-std::string why_impossible(const Effect& effect, const Case& the_case) {
+std::string why_impossible(const Effect& effect, Space space, const Case& the_case) {
   const DiagnosisSpec& spec = the_case.diagnosis;
+  if (const std::string why = why_not_in(space, effect); !why.empty()) return why;
   if (has(spec.impossible, effect.id)) return "the case says that it is impossible";
   if (effect.rare && !has(spec.possible, effect.id))
     return "rare; tried where the case has it in diagnosis.possible";
@@ -179,7 +180,7 @@ std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::
       if (other.id == effect.id) return;
     // A file of the user's own comes before the built-in effect of the same name.
     std::erase_if(library, [&](const Candidate& known) { return known.id == effect.id; });
-    const std::string reason = why_impossible(effect, the_case);
+    const std::string reason = why_impossible(effect, present.space, the_case);
     library.push_back(candidate_of(std::move(effect)));
     if (!reason.empty()) library.back().unavailable = reason;
   };

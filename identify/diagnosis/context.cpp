@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/input_error.hpp"
 #include "common/sha256.hpp"
 #include "common/whole_file.hpp"
 
@@ -14,16 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The case's own model. Candidates, missing forces and their laws are of the plane.
 Description model_to_diagnose(const Case& the_case) {
-  if (the_case.description.empty()) return plain_chain();
-  Description description = read_description(the_case.description);
-  if (description.space != Space::kPlane)
-    throw InputError(
-        the_case.file.string() + ": model.description: " + the_case.description.string() +
-        " moves in space, and effects are looked for in the plane only; catena identify "
-        "fits this case, and its residuals tell whether something is missing");
-  return description;
+  return the_case.description.empty() ? plain_chain() : read_description(the_case.description);
 }
 
 }  // namespace

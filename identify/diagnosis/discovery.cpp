@@ -115,6 +115,10 @@ void discover(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
   if (found.verdict != DiagnosisVerdict::kUnexplained && found.verdict != DiagnosisVerdict::kPartly)
     return;
+  if (found.final.problem->model().in_space()) {
+    found.notes.emplace_back("the missing force is estimated in the plane only");
+    return;
+  }
   const Stage last = state.last(), bare = last_without_effects(found.stages);
   found.force = force_missing_in(state, found.final);
   // The effects may be there because they imitate the law.

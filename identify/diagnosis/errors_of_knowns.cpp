@@ -7,6 +7,7 @@
 #include <map>
 
 #include "identify/diagnosis/diagnosis_state.hpp"
+#include "identify/diagnosis/errors_of_markers.hpp"
 #include "identify/diagnosis/shares.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
@@ -19,9 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Of every experiment: channels x frames, all that is not sealed.
-using Frames = std::vector<MatrixXd>;
 
 /// Values where something was measured, in noise levels, one experiment after the other: those that
 /// were fitted, then those that were held out.
@@ -118,70 +116,6 @@ Case with_doubts(const DiagnosisState& state, const FittedModel& model,
   return doubtful;
 }
 
-/// Where the cable points at a mark, from its neighbours: side and down in the mark's rows.
-MatrixXd direction_at(Index mark, const MatrixXd& seen) {
-  const Index marks = seen.rows() / 2;
-  const Index above = std::max<Index>(mark - 1, 0), below = std::min(mark + 1, marks - 1);
-  MatrixXd direction = MatrixXd::Zero(seen.rows(), seen.cols());
-  for (Index k = 0; k < seen.cols(); ++k) {
-    const Eigen::Vector2d end = seen.col(k).segment<2>(2 * below);
-    const Eigen::Vector2d begin =
-        marks > 1 ? seen.col(k).segment<2>(2 * above) : Eigen::Vector2d(0, 0);
-    direction.col(k).segment<2>(2 * mark) = (end - begin).normalized();
-  }
-  return direction;
-}
-
-/// How far marks move until their line of the picture is read, for 1 s from the support to `length`.
-MatrixXd moved_until_read(const MatrixXd& seen, const std::vector<double>& time, double length) {
-  MatrixXd moved = MatrixXd::Zero(seen.rows(), seen.cols());
-  for (Index k = 0; k < seen.cols(); ++k) {
-    const Index before = std::max<Index>(k - 1, 0), after = std::min(k + 1, seen.cols() - 1);
-    const double span =
-        time[static_cast<std::size_t>(after)] - time[static_cast<std::size_t>(before)];
-    if (!(span > 0)) continue;
-    const VectorXd rate = (seen.col(after) - seen.col(before)) / span;
-    for (Index mark = 0; mark < seen.rows() / 2; ++mark)
-      moved.col(k).segment<2>(2 * mark) =
-          seen(2 * mark + 1, k) / length * rate.segment<2>(2 * mark);
-  }
-  return moved;
-}
-
-/// Errors of cameras that no effect has, each over its standard deviation and the same in all windows
-/// of a recording: every mark along the cable and across it, and a shutter that rolls down the picture.
-std::vector<Frames> errors_of_cameras(const FittedModel& model) {
-  const std::vector<Experiment>& experiments = model.problem->experiments();
-  const PlausibleErrors& plausibly = kThresholds.errors_of_knowns;
-  const double length = model.problem->the_case().cable.whole_length();
-  std::map<int, std::vector<std::size_t>> windows;  // of each recording
-  for (std::size_t e = 0; e < experiments.size(); ++e)
-    if (experiments[e].spec.kind == DataKind::kMarkers &&
-        experiments[e].recording.components() == 2)
-      windows[experiments[e].source].push_back(e);
-  std::vector<Frames> errors;
-  for (const auto& [source, members] : windows) {
-    const Index marks = model.predicted[members.front()].rows() / 2;
-    for (Index mark = 0; mark < marks; ++mark) {
-      Frames along(experiments.size()), across(experiments.size());
-      for (const std::size_t e : members) {
-        along[e] = plausibly.place * direction_at(mark, model.predicted[e]);
-        across[e] = MatrixXd::Zero(along[e].rows(), along[e].cols());
-        across[e].row(2 * mark) = along[e].row(2 * mark + 1);
-        across[e].row(2 * mark + 1) = -along[e].row(2 * mark);
-      }
-      errors.push_back(std::move(along));
-      errors.push_back(std::move(across));
-    }
-    Frames rolled(experiments.size());
-    for (const std::size_t e : members)
-      rolled[e] = plausibly.shutter *
-                  moved_until_read(model.predicted[e], experiments[e].recording.time, length);
-    errors.push_back(std::move(rolled));
-  }
-  return errors;
-}
-
 /// The least sum of squares, in noise levels, that the model leaves with plausible errors of what is
 /// known: linearised, everything fitted again to the fitted part, priors counted there. Infinite
 /// where it cannot be simulated.
@@ -218,7 +152,7 @@ Parts squares_with_errors(const DiagnosisState& state, const FittedModel& model,
     column.values.held_out *= unit;
     columns.push_back(std::move(column));
   }
-  for (const Frames& frames : errors_of_cameras(model))
+  for (const Frames& frames : errors_of_markers(model))
     columns.push_back({stacked_in_levels(frames, model, noise), true});
 
   const Stacked r = residuals(model, noise);

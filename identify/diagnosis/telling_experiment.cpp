@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "identify/problem/prediction.hpp"
@@ -10,6 +11,40 @@
 #include "runtime/simulation.hpp"
 
 namespace catena {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Every link at `factor` times its angle from the downward vertical, and `factor` times its rate.
+State scaled(const Model& model, State state, double factor) {
+  const Eigen::Index links = model.links();
+  state.v *= factor;
+  if (!model.in_space()) {
+    state.q.head(links) *= factor;
+    return state;
+  }
+  for (Eigen::Index i = 0; i < links; ++i) {
+    const auto components = Eigen::seqN(i, Eigen::fix<3>, links);
+    const Vector3d direction = state.q(components).normalized(), rate = state.v(components);
+    const Vector3d axis = Vector3d::UnitY().cross(direction);  // from down to the link
+    if (axis.isZero()) continue;
+    const double angle = std::atan2(axis.norm(), direction.y());
+    const Eigen::AngleAxisd turn((factor - 1) * angle, axis.normalized());
+    state.q(components) = turn * direction;
+    state.v(components) = turn * rate;
+  }
+  return state;
+}
+
+/// Per point, the sum of the squares of all components.
+Eigen::VectorXd squared_distances(const Positions& a, const Positions& b) {
+  Eigen::VectorXd squares =
+      (a.side - b.side).array().square() + (a.down - b.down).array().square();
+  if (a.across.size() > 0) squares += (a.across - b.across).cwiseAbs2();
+  return squares;
+}
+
+}  // namespace
 
 TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
                                      const std::vector<double>& sigmas) {
@@ -34,9 +69,8 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
       bool ok = true;
       for (int m = 0; m < 2; ++m) {
         const FittedModel& model = m ? b : a;
-        State state = model.problem->initial_state(model.x, index);
-        state.q.head(model.problem->model().links()) *= start.factor;
-        state.v *= start.factor;
+        const State state = scaled(model.problem->model(),
+                                   model.problem->initial_state(model.x, index), start.factor);
         SimulationOptions options = simulation_options(model.problem->the_case().simulation);
         options.energy = false;
         motions[m] =
@@ -46,6 +80,7 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
       }
       if (!ok) continue;
       const int links = a.problem->model().links();
+      const double components = a.problem->model().in_space() ? 3 : 2;
       Eigen::VectorXd sums = Eigen::VectorXd::Zero(links + 2);
       for (std::size_t k = 0; k < times.size(); ++k) {
         Positions at[2];
@@ -55,10 +90,7 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
                             times[k], motions[m].trajectory.q.col(static_cast<Eigen::Index>(k)),
                             experiment.signals);
         }
-        sums += ((at[0].side - at[1].side).array().square() +
-                 (at[0].down - at[1].down).array().square())
-                    .matrix() /
-                (2.0 * static_cast<double>(times.size()));
+        sums += squared_distances(at[0], at[1]) / (components * static_cast<double>(times.size()));
       }
       Eigen::Index point = 0;
       const double difference = std::sqrt(sums.maxCoeff(&point)) / sigmas[e];

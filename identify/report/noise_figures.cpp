@@ -35,7 +35,10 @@ std::vector<Channel> channels_of(const Experiment& experiment, const Residuals& 
     return Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(frames));
   };
   if (residuals.angles) return {{"angle", head(residuals.angle[point]), 1}};
-  return {{"side", head(residuals.side[point]), 1}, {"down", head(residuals.down[point]), 2}};
+  std::vector<Channel> channels = {{"side", head(residuals.side[point]), 1},
+                                   {"down", head(residuals.down[point]), 2}};
+  if (!residuals.across.empty()) channels.push_back({"across", head(residuals.across[point]), 3});
+  return channels;
 }
 
 Row seen(const Row& row) {

@@ -179,7 +179,9 @@ class Writer {
   ordered_json positions(const Channels& channels, std::size_t step) {
     ordered_json json = {{"time", columns_.add(channels.time, step)}};
     for (const auto& [key, rows] :
-         {std::pair("side", &channels.side), std::pair("down", &channels.down)}) {
+         {std::pair("side", &channels.side), std::pair("down", &channels.down),
+          std::pair("across", &channels.across)}) {
+      if (rows == &channels.across && rows->empty()) continue;  // of the plane
       json[key] = ordered_json::array();
       for (const Row& row : *rows) json[key].push_back(columns_.add(row, step));
     }

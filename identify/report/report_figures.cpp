@@ -7,8 +7,6 @@
 #include <map>
 #include <set>
 
-#include "common/input_error.hpp"
-
 namespace catena::report {
 namespace {
 
@@ -40,19 +38,9 @@ void name_files(std::vector<ReportFigure>& figures, bool several_experiments) {
   }
 }
 
-/// Figures of residuals and the player have side and down only.
-void check_in_plane(const Result& result) {
-  for (const Experiment& experiment : result.experiments)
-    if (experiment.measured && !experiment.measured->values.across.empty())
-      throw InputError("experiment \"" + experiment.name +
-                       "\": its markers are in space, and a report shows a plane only; "
-                       "residuals.csv and positions.csv beside the result have the numbers");
-}
-
 }  // namespace
 
 std::vector<ReportFigure> report_figures(const Document& document) {
-  check_in_plane(document.result);
   std::vector<ReportFigure> figures;
   if (document.diagnosis) add_diagnosis_figures(*document.diagnosis, figures);
   for (const Experiment& experiment : document.result.experiments) {

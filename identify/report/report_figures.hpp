@@ -11,6 +11,17 @@ namespace catena::report {
 
 using namespace results;
 
+/// What channels say of a point or a link.
+struct Coordinate {
+  const char* name;
+  const char* unit;
+  Rows Channels::* rows;
+};
+inline constexpr Coordinate kCoordinates[] = {{"side", "m", &Channels::side},
+                                           {"down", "m", &Channels::down},
+                                           {"across", "m", &Channels::across},
+                                           {"angle", "rad", &Channels::angle}};
+
 /// A figure and its place in the report. Figures of one family are shown in one frame, a reader
 /// choosing experiment and variant; the figures of a family follow one another.
 struct ReportFigure {
@@ -18,8 +29,8 @@ struct ReportFigure {
   std::string section;       ///< "motion", "forces", "residuals", "fit", "energy" or "diagnosis"
   std::string family;        ///< "positions_side"
   std::string experiment;    ///< name, or empty: of the whole result
-  std::string variant_kind;  ///< what a reader chooses: "Point", "Parameter", "Effect", "Round";
-                             ///< may be empty
+  std::string variant_kind;  ///< what a reader chooses: "Point", "View", "Parameter", "Effect",
+                             ///< "Round"; may be empty
   std::string variant;       ///< "marker 3"
 };
 

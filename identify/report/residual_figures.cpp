@@ -39,6 +39,8 @@ void add_by_point(const Experiment& experiment, const Residuals& residuals,
     } else {
       figure.series.push_back({"side", residuals.time, residuals.side[p], Mark::kLine, 1});
       figure.series.push_back({"down", residuals.time, residuals.down[p], Mark::kLine, 2});
+      if (!residuals.across.empty())
+        figure.series.push_back({"across", residuals.time, residuals.across[p], Mark::kLine, 4});
       figure.series.push_back({"radial", residuals.time, residuals.radial[p], Mark::kLine, 3});
     }
     add_residual_figure(figures, experiment, "residuals", residuals.points[p].name,
@@ -94,8 +96,10 @@ std::size_t worth_showing(const Row& amplitude) {
   return std::min(amplitude.size(), last + last / 4 + 10);
 }
 
-void add_spectra(const Experiment& experiment, const std::string& quantity, const std::string& unit,
-                 const Rows& measured, const Rows& predicted, std::vector<ReportFigure>& figures) {
+void add_spectra(const Experiment& experiment, const Coordinate& coordinate,
+                 std::vector<ReportFigure>& figures) {
+  const Rows& measured = experiment.measured->values.*coordinate.rows;
+  const Rows& predicted = experiment.measured->predicted.*coordinate.rows;
   const Row& time = experiment.measured->values.time;
   for (std::size_t p = 0; p < measured.size(); ++p) {
     const std::string& name = experiment.measured->points[p].name;
@@ -109,10 +113,10 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
     of_measured.frequency.resize(shown);
     of_measured.amplitude.resize(shown);
     Figure figure;
-    figure.title = fmt::format("Spectrum of {} of {}", quantity, name);
+    figure.title = fmt::format("Spectrum of {} of {}", coordinate.name, name);
     figure.caption = "Amplitude, through a Hann window.";
     figure.x = {"frequency", "Hz"};
-    figure.y = {"amplitude", unit, true};
+    figure.y = {"amplitude", std::string("m") + coordinate.unit, true};
     figure.series.push_back(
         {"measured", of_measured.frequency, of_measured.amplitude, Mark::kLineWithPoints, 0});
     if (!predicted.empty()) {
@@ -127,7 +131,7 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
       figure.series.push_back(
           {"simulated", simulated.frequency, simulated.amplitude, Mark::kLine, 1});
     }
-    add_residual_figure(figures, experiment, "spectrum_" + quantity, name, std::move(figure));
+    add_residual_figure(figures, experiment, std::string("spectrum_") + coordinate.name, name, std::move(figure));
   }
 }
 
@@ -135,17 +139,13 @@ void add_spectra(const Experiment& experiment, const std::string& quantity, cons
 
 void add_residual_figures(const Experiment& experiment, std::vector<ReportFigure>& figures) {
   if (!experiment.measured) return;
-  const Measured& measured = *experiment.measured;
   const Residuals residuals = residuals_of(experiment);
   if (!residuals.points.empty()) {
     add_by_point(experiment, residuals, figures);
     add_error_over_time(experiment, residuals, figures);
     add_map(experiment, residuals, figures);
   }
-  add_spectra(experiment, "side", "mm", measured.values.side, measured.predicted.side, figures);
-  add_spectra(experiment, "down", "mm", measured.values.down, measured.predicted.down, figures);
-  add_spectra(experiment, "angle", "mrad", measured.values.angle, measured.predicted.angle,
-              figures);
+  for (const Coordinate& coordinate : kCoordinates) add_spectra(experiment, coordinate, figures);
 }
 
 }  // namespace catena::report

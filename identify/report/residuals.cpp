@@ -19,6 +19,13 @@ Rows differences(const Rows& measured, const Rows& predicted) {
   return rows;
 }
 
+/// The length of the vector to a point, in the unit of the channels.
+double distance(const Rows& side, const Rows& down, const Rows& across, std::size_t point,
+                std::size_t time) {
+  const double in_plane = std::hypot(side[point][time], down[point][time]);
+  return across.empty() ? in_plane : std::hypot(in_plane, across[point][time]);
+}
+
 }  // namespace
 
 Residuals residuals_of(const Experiment& experiment) {
@@ -41,14 +48,18 @@ Residuals residuals_of(const Experiment& experiment) {
   }
   residuals.side = differences(measured.values.side, measured.predicted.side);
   residuals.down = differences(measured.values.down, measured.predicted.down);
+  residuals.across = differences(measured.values.across, measured.predicted.across);
+  const auto from_support = [](const Channels& at, std::size_t point, std::size_t time) {
+    return distance(at.side, at.down, at.across, point, time);
+  };
   for (std::size_t p = 0; p < residuals.side.size(); ++p) {
     residuals.size.emplace_back();
     residuals.radial.emplace_back();
     for (std::size_t t = 0; t < residuals.time.size(); ++t) {
-      residuals.size.back().push_back(std::hypot(residuals.side[p][t], residuals.down[p][t]));
-      residuals.radial.back().push_back(
-          kMilli * (std::hypot(measured.values.side[p][t], measured.values.down[p][t]) -
-                    std::hypot(measured.predicted.side[p][t], measured.predicted.down[p][t])));
+      residuals.size.back().push_back(
+          distance(residuals.side, residuals.down, residuals.across, p, t));
+      residuals.radial.back().push_back(kMilli * (from_support(measured.values, p, t) -
+                                                  from_support(measured.predicted, p, t)));
     }
   }
   return residuals;

@@ -17,6 +17,7 @@ struct Residuals {
   Row time;          ///< s
   std::vector<Point> points;
   Rows side, down;  ///< markers
+  Rows across;      ///< markers in space
   Rows angle;       ///< angles
   Rows radial;      ///< markers: of the distance from the support, as in (6.7)-(6.10)
   Rows size;        ///< distance (6.5), or size of the angle's residual: [point][time]

@@ -215,6 +215,26 @@ class Simulations(unittest.TestCase):
             with self.assertRaisesRegex(catena.InputError, "simulation.duration"):
                 catena.Case(folder / "case.toml").simulate()
 
+    def test_positions_in_space_have_three_components(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "model.toml").write_text('format = 1\nkind = "model"\nid = "chain"\nspace = "3d"\n')
+            (folder / "case.toml").write_text(
+                'format = 1\nkind = "case"\n[model]\nlinks = 2\ndescription = "model.toml"\n'
+                "[cable]\nlength = 1.0\ndensity = 0.3\nload_mass = 0.2\n"
+                '[[parameter]]\nname = "k"\nsets = "stiffness"\nvalue = 0.1\n'
+                '[[parameter]]\nname = "c"\nsets = "damping"\nvalue = 0.005\n'
+                '[initial]\nshape = "straight"\nangle = 0.6\nazimuth = 0.4\n'
+                "[simulation]\nduration = 1.0\nstep = 0.1\n"
+            )
+            case = catena.Case(folder / "case.toml")
+            run = case.simulate()
+            side, down, across = catena.positions(case.model, case.model_parameters(), run.trajectory)
+            self.assertEqual(across.shape, (11, 4))
+            np.testing.assert_allclose(across, side * np.tan(0.4), atol=1e-7)
+            distance = np.sqrt(side[:, 1] ** 2 + down[:, 1] ** 2 + across[:, 1] ** 2)
+            np.testing.assert_allclose(distance, 0.5, rtol=1e-12)
+
     def test_any_number_of_links(self):
         model = catena.Model(17)
         parameters = model.parameters(

@@ -265,6 +265,21 @@ json made_identification(int links, double duration, double rate) {
   return result;
 }
 
+json made_identification_in_space(int links, double duration, double rate) {
+  json result = made_identification(links, duration, rate);
+  for (json& experiment : result["experiments"])
+    for (const char* const channels : {"trajectory", "measured", "predicted"}) {
+      json& of = experiment[channels];
+      of.erase("angle");
+      of["across"] = of["side"];
+      for (const auto& [name, share] : {std::pair("side", std::sqrt(0.75)), {"across", 0.5}})
+        for (json& row : of[name])
+          for (json& value : row)
+            if (!value.is_null()) value = share * value.get<double>();
+    }
+  return result;
+}
+
 json made_pendulum() {
   json result = head("identify", "A made-up double pendulum", 2);
   const auto t = times(3, 100);

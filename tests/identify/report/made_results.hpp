@@ -15,6 +15,9 @@ nlohmann::json made_simulation(int links, double duration, double rate);
 /// experiment that only validates; with everything an identification can say.
 nlohmann::json made_identification(int links, double duration, double rate);
 
+/// The same motion in a vertical plane in space, at an azimuth of 30 degrees.
+nlohmann::json made_identification_in_space(int links, double duration, double rate);
+
 /// A double pendulum with measured angles.
 nlohmann::json made_pendulum();
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, result] :
        {std::pair("simulation", made_simulation(60, 6, 60)),
         std::pair("identification", made_identification(12, 6, 30)),
+        std::pair("space", made_identification_in_space(12, 6, 30)),
         std::pair("large", made_identification(60, 6, 60)), std::pair("pendulum", made_pendulum()),
         std::pair("diagnosis", made_diagnosis())}) {
     const auto file = folder / (std::string(name) + ".json");

@@ -16,6 +16,7 @@ export class Player {
     this.speed = 1;
     this.overlay = false;
     this.running = null;
+    this.view = 0;  // rad: where a motion in space is seen from; 0: along across
     this.build();
     state.on('experiment', () => this.load());
     state.on('time', (time) => this.showTime(time));
@@ -34,6 +35,9 @@ export class Player {
       this.overlay = this.overlayBox.checked;
       this.paint();
     }});
+    this.turn = element('input', {type: 'range', min: -180, max: 180, step: 1, value: 0, 'aria-label': 'View, degrees about the vertical',
+      oninput: () => this.look(Number(this.turn.value))});
+    this.turnLabel = element('label', {class: 'choice'}, 'View ', this.turn);
     this.key = element('p', {class: 'key'});
     this.controls = element('div', {class: 'controls', role: 'group', 'aria-label': 'Player'},
         button('◀◀', 'To the start', () => this.seekFrame(0)),
@@ -42,6 +46,7 @@ export class Player {
         button('+1', '+1 frame', () => this.step(1)),
         this.slider, this.clock,
         select('Speed', speeds, '1', (speed) => { this.speed = Number(speed); }),
+        this.turnLabel,
         element('label', {class: 'choice'}, this.overlayBox, ' Shapes so far'),
         button('SVG', 'Save this frame as SVG', () => saveSvg(this.fileName(), this.area.svg)),
         button('PNG', 'Save this frame as PNG', () => savePng(this.fileName(), this.area.svg)));
@@ -54,6 +59,8 @@ export class Player {
     this.pause();
     this.motion = this.motions.find((motion) => motion.experiment === this.state.experiment) ?? this.motions[0];
     this.slider.max = String(this.motion.time.length - 1);
+    this.turnLabel.hidden = !this.motion.across;
+    if (!this.motion.across) this.view = 0;
     const {measured, before} = this.motion;
     this.key.replaceChildren(
         ...[['simulated', 'c1', '—●'], ...(measured ? [['measured', 'c0', '○']] : []), ...(before ? [['before', 'c2', '- -']] : [])]
@@ -134,6 +141,13 @@ export class Player {
     act();
   }
 
+  /** From an angle about the vertical, degrees: at 0 side is to the right, at 90 across is. */
+  look(degrees) {
+    this.view = degrees * Math.PI / 180;
+    this.turn.setAttribute('aria-valuetext', `${degrees} degrees`);
+    this.draw();
+  }
+
   fileName() {
     return `frame_${this.clock.textContent.split(' ')[0].replace('.', '_')}_s`;
   }
@@ -143,7 +157,7 @@ export class Player {
     const width = Math.max(240, this.stage.clientWidth);
     const bounds = boundsOf(this.motion);
     this.area = plotArea({width, height, equalAspect: true,
-      x: {axis: {label: 'side', unit: 'm'}, range: bounds.side},
+      x: {axis: {label: {0: 'side', 90: 'across'}[this.turn.value] ?? 'to the right', unit: 'm'}, range: bounds.right},
       y: {axis: {label: 'down', unit: 'm'}, range: bounds.down, reversed: true}});
     this.area.svg.prepend(svg('rect', {width: '100%', height: '100%', fill: 'var(--paper)'}));
     this.stage.replaceChildren(this.area.svg);
@@ -152,10 +166,11 @@ export class Player {
 
   paint() {
     if (!this.area) return;
-    const {motion, frame, area} = this;
+    const {motion, frame, area, view} = this;
     const now = motion.time[frame];
+    const seenPlaces = (part, at) => places(area, part, at, view).filter((place) => place !== null);
     const cable = (part, at, attributes) => svg('path', {fill: 'none', 'stroke-linejoin': 'round',
-      d: linePath(places(area, part, at).filter((place) => place !== null)), ...attributes});
+      d: linePath(seenPlaces(part, at)), ...attributes});
     const drawn = [];
     if (this.overlay) {
       const step = Math.max(0.02, (motion.time.at(-1) - motion.time[0]) / 90);  // 0.02 s in figure 6.10
@@ -167,7 +182,7 @@ export class Player {
       drawn.push(cable(motion.before, nearest(motion.before.time, now), {stroke: strokeOf(2), 'stroke-width': 1.6, 'stroke-dasharray': '7 3'}));
     }
     drawn.push(cable(motion, frame, {stroke: strokeOf(1), 'stroke-width': 2.2}));
-    const joints = places(area, motion, frame).filter((place) => place !== null);
+    const joints = seenPlaces(motion, frame);
     const small = joints.length > 30 ? 1.5 : 2.5;
     const dots = joints.map((at, k) => (k + 1 === joints.length && motion.loadMass > 0 ? markerPath(0, at, 6) : markerPath(0, at, small)));
     drawn.push(svg('path', {d: dots.join(''), fill: strokeOf(1)}));
@@ -177,22 +192,22 @@ export class Player {
     // The frame nearest in time, unless it is further away than the recording's step.
     if (measured && Math.abs(measured.time[seen] - now) <= (measured.time.at(-1) - measured.time[0]) / Math.max(1, measured.time.length - 1)) {
       if (measured.connected) drawn.push(cable(measured, seen, {stroke: strokeOf(0), 'stroke-width': 1.4, 'stroke-dasharray': '2 2.5'}));
-      const markers = places(area, measured, seen).filter((place) => place !== null).map((place) => markerPath(0, place, 4.5));
+      const markers = seenPlaces(measured, seen).map((place) => markerPath(0, place, 4.5));
       drawn.push(svg('path', {d: markers.join(''), fill: 'none', stroke: strokeOf(0), 'stroke-width': 1.4}));
     }
     area.inside.replaceChildren(...drawn);
   }
 }
 
-/** Places of the points in one frame; null: not seen. */
-const places = (area, part, frame) => part.side.map((side, p) => {
-  const [x, y] = [side[frame], part.down[p][frame]];
-  return x === null || y === null ? null : [area.x(x), area.y(y)];
+/** Places of the points in one frame, seen from `view` (rad); null: not seen. */
+const places = (area, part, frame, view) => part.side.map((side, p) => {
+  const [x, y, z] = [side[frame], part.down[p][frame], part.across ? part.across[p][frame] : 0];
+  return x === null || y === null || z === null ? null : [area.x(x * Math.cos(view) + z * Math.sin(view)), area.y(y)];
 });
 
 function resolve(motion, columns) {
-  const positions = ({time, side, down, ...rest}) => ({...rest, time: columns[time],
-    side: side.map((k) => columns[k]), down: down.map((k) => columns[k])});
+  const positions = ({time, side, down, across, ...rest}) => ({...rest, time: columns[time],
+    side: side.map((k) => columns[k]), down: down.map((k) => columns[k]), across: across?.map((k) => columns[k])});
   return {...positions(motion), measured: motion.measured && positions(motion.measured),
     before: motion.before && positions(motion.before)};
 }
@@ -207,20 +222,18 @@ function nearest(times, at) {
   return low > 0 && at - times[low - 1] < times[low] - at ? low - 1 : low;
 }
 
-/** Ends of side and of down over all times, and a little more. */
+/** Ends of what is to the right and of down over all times, and a little more. In space the same for all views. */
 function boundsOf(motion) {
-  const range = (name) => {
-    let [low, high] = [0, 0];
-    for (const part of [motion, motion.measured, motion.before]) {
-      for (const value of (part?.[name] ?? []).flat()) {
-        if (value === null) continue;
-        low = Math.min(low, value);
-        high = Math.max(high, value);
-      }
-    }
-    return [low, high];
-  };
-  const [side, down] = [range('side'), range('down')];
-  const margin = 0.06 * Math.max(side[1] - side[0], down[1] - down[0], 1e-3);
-  return {side: [side[0] - margin, side[1] + margin], down: [down[0] - margin, down[1] + margin]};
+  let [left, right, top, bottom] = [0, 0, 0, 0];
+  for (const part of [motion, motion.measured, motion.before]) {
+    part?.side.forEach((row, p) => row.forEach((side, k) => {
+      const down = part.down[p][k];
+      if (side === null || down === null) return;
+      const reach = part.across ? Math.hypot(side, part.across[p][k]) : side;
+      [left, right] = [Math.min(left, part.across ? -reach : side), Math.max(right, reach)];
+      [top, bottom] = [Math.min(top, down), Math.max(bottom, down)];
+    }));
+  }
+  const margin = 0.06 * Math.max(right - left, bottom - top, 1e-3);
+  return {right: [left - margin, right + margin], down: [top - margin, bottom + margin]};
 }

@@ -175,6 +175,28 @@ await attempt('player: play, pause, step, scrub, keys, overlaid shapes', async (
   await page.close();
 });
 
+await attempt('player: a motion in space is turned about the vertical, one in the plane is not', async () => {
+  const plane = await open('identification');
+  assert(await plane.getByLabel('View', {exact: false}).first().isHidden());
+  await plane.close();
+  const page = await open('space');
+  await page.getByLabel('Frame', {exact: true}).fill('30');
+  const width = () => page.locator('#player .stage path[stroke-width="2.2"]').evaluate((cable) => cable.getBBox().width);
+  const view = page.getByLabel('View, degrees about the vertical');
+  const widths = [];
+  for (const degrees of [0, 30, 120]) {  // the motion is in a plane at 30 degrees
+    await view.fill(String(degrees));
+    widths.push(await width());
+  }
+  assert(Math.abs(widths[0] / widths[1] - Math.sqrt(0.75)) < 0.02, `${widths}`);
+  assert(widths[2] < 0.02 * widths[1], `${widths}`);
+  await view.fill('90');
+  assert.match(await page.locator('#player .stage').textContent(), /across/);
+  await page.locator('#player').screenshot({path: join(folder, 'player-space.png')});
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 await attempt('charts over time zoom together, show values and move the player', async () => {
   const page = await open('identification');
   await seeAll(page);
