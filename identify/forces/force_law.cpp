@@ -26,6 +26,9 @@ constexpr double kSplitDeviation = 0.2;
 /// Share of the arc length by which the place is moved to see what that changes.
 constexpr double kApart = 0.02;
 constexpr int kClosedLoops = 3;
+/// Steps of the integration in one of the estimate of the force. A law has few constants, which all
+/// frames determine: with one they are wrong by half their standard error.
+constexpr int kFiner = 4;
 constexpr std::uint64_t kLawSeed = 18;
 
 /// Forces at the nodes of one recording, patterns x columns each, and how they depend on the state
@@ -41,16 +44,14 @@ struct SeenOfLaw {
   VectorXd value;  ///< measured, less what the path gives without any force
 };
 
-/// (w, w' / rate) at the beginning of a step such that the prior expects the force `next` at its
-/// end: now_by_now w_now + by_next w_next.
+/// A force that goes straight from w at the beginning of a step to w at its end.
 struct StepForces {
   MatrixXd now, next;  // states x patterns: what the end of the step takes from w at both ends
   explicit StepForces(const LinearRecording::Step& step)
       : now(step.by_force.rows(), step.by_force.cols() / 2), next(now.rows(), now.cols()) {
-    const double same = step.transition(0, 0), slope = step.transition(0, 1);
     for (Index m = 0; m < now.cols(); ++m) {
-      next.col(m) = step.by_force.col(2 * m + 1) / slope;
-      now.col(m) = step.by_force.col(2 * m) - same * next.col(m);
+      next.col(m) = step.by_force.col(2 * m + 1) / step.duration;
+      now.col(m) = step.by_force.col(2 * m) - next.col(m);
     }
   }
 };
@@ -261,7 +262,7 @@ std::string with_constants(const PlaceLaw::Formula& formula) {
 
 class LawSearch {
  public:
-  /// `found`: (w, w' / rate) of each pattern at the place, one column per node, of each recording.
+  /// `found`: (w, dw/dt) of each pattern at the place, one column per node, of each recording.
   /// `linear`: patterns at the place, then the same at a place `apart` m from it, which is 0 for the
   /// torque.
   LawSearch(const ForcePaths& paths, const std::vector<MatrixXd>& found,
@@ -482,7 +483,7 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const VectorXd& lengths,
       patterns.push_back(point_pattern(direction, arc_length + apart, lengths));
   }
   paths.act(std::move(patterns));
-  const std::optional<LinearProblem> linear = paths.linearise();
+  const std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
   ForceLaw law = LawSearch(paths, found, *linear, lengths, coordinates, arc_length, apart).run();
   describe_law(law);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "runtime/status.hpp"
 
@@ -26,13 +28,18 @@ constexpr double kStartDeviation = 0.2;
 /// Of the admissible range of any other.
 constexpr double kRangeDeviation = 0.25;
 
-constexpr int kMostLinearisations = 9;
-/// Root mean square change of what the sensors would see, in standard deviations, and of the
-/// logarithm of the variances, from which on nothing is iterated.
+constexpr int kMostLinearisations = 12;
+/// Root mean square change of what the sensors would see, in standard deviations, and gain of log
+/// evidence, from which on nothing is iterated.
 constexpr double kSettled = 0.02;
-constexpr double kSettledVariance = 0.3;
+constexpr double kSettledEvidence = 1;
 /// Bounds of one change of a variance.
 constexpr double kLeastGrowth = 0.02, kMostGrowth = 100;
+/// The evidence is compared at the prior's time scale and at it times and over this; one change is
+/// at most so many of these steps.
+constexpr double kScaleStep = 1.5, kMostScaleSteps = 2;
+/// s: some frames; longer than the pendulum swings of any recording that was tried.
+constexpr double kShortestScale = 0.02, kLongestScale = 5;
 
 }  // namespace
 
@@ -196,7 +203,7 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
   return seen;
 }
 
-std::optional<LinearProblem> ForcePaths::linearise() const {
+std::optional<LinearProblem> ForcePaths::linearise(int finer) const {
   const Model& model = problem_.model();
   const Index n = model.coordinates();
   LinearProblem linear;
@@ -232,8 +239,8 @@ std::optional<LinearProblem> ForcePaths::linearise() const {
       if (direction.parameters.size() > 0) along.back().parameters = slope * direction.parameters;
     }
 
-    IntervalIntegrator integrate(model, parameters, experiment.signals, patterns_, prior, along,
-                                 kStep);
+    IntervalIntegrator integrate(model, parameters, experiment.signals, patterns_, along,
+                                 kStep / finer);
     const std::vector<double>& times = clocks_[number].times;
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
       if (keep_going_ && !keep_going_()) return std::nullopt;
@@ -246,7 +253,7 @@ std::optional<LinearProblem> ForcePaths::linearise() const {
       step.by_state = std::move(map->by_state);
       step.by_force = std::move(map->by_force);
       step.by_parameter = std::move(map->by_parameter);
-      step.transition = prior.transition(times[k + 1] - times[k]);
+      step.duration = times[k + 1] - times[k];
     }
     recording.seen = observe(number, unknowns);
   }
@@ -281,7 +288,33 @@ double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
   return std::sqrt(sum / std::max(1.0, count));
 }
 
-std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance) {
+/// Moves the prior's time scale towards the largest evidence, and the variances so that the prior
+/// of fast forces stays: variance / time scale^3.
+void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
+                           std::vector<double>& variance) {
+  const auto scaled = [&](double factor) {
+    ForcePrior other = prior;
+    other.time_scale *= factor;
+    std::vector<double> variances = variance;
+    for (double& of : variances) of *= factor * factor * factor;
+    return std::pair(other, variances);
+  };
+  const auto evidence = [&](double factor) {
+    const auto [other, variances] = scaled(factor);
+    return smooth_forces(linear, acting, variances, other, false).log_evidence;
+  };
+  const double less = evidence(1 / kScaleStep), here = evidence(1), more = evidence(kScaleStep);
+  if (!std::isfinite(less + here + more)) return;
+  const double slope = 0.5 * (more - less), bend = more - 2 * here + less;
+  double steps = slope > 0 ? 1 : -1;
+  if (bend < 0) steps = std::clamp(-slope / bend, -kMostScaleSteps, kMostScaleSteps);
+  const double factor = std::clamp(prior.time_scale * std::pow(kScaleStep, steps),
+                                   kShortestScale, kLongestScale) /
+                        prior.time_scale;
+  std::tie(prior, variance) = scaled(factor);
+}
+
+std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance, bool with_time_scale) {
   std::vector<ActingForce> acting;
   for (std::size_t m = 0; m < patterns_.size(); ++m)
     acting.push_back({static_cast<Index>(m), patterns_[m].group});
@@ -289,18 +322,15 @@ std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance) {
   for (int iteration = 0; iteration < kMostLinearisations; ++iteration) {
     const std::optional<LinearProblem> linear = linearise();
     if (!linear) return std::nullopt;
-    smoothed = smooth_forces(*linear, acting, variance, true);
+    const double before = smoothed ? smoothed->log_evidence : -HUGE_VAL;
+    smoothed = smooth_forces(*linear, acting, variance, prior, true);
     if (!std::isfinite(smoothed->log_evidence)) return std::nullopt;
     const double moved = move(*linear, *smoothed);
-    double change = 0;
-    for (std::size_t g = 0; g < variance.size(); ++g) {
-      const double growth = std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth);
-      // A variance that vanishes has no scale to settle on.
-      if (growth > kLeastGrowth && variance[g] > 1e-12)
-        change = std::max(change, std::abs(std::log(growth)));
-      variance[g] = std::max(1e-16, variance[g] * growth);
-    }
-    if (moved < kSettled && change < kSettledVariance) break;
+    if (moved < kSettled && smoothed->log_evidence - before < kSettledEvidence) break;
+    for (std::size_t g = 0; g < variance.size(); ++g)
+      variance[g] = std::max(
+          1e-16, variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth));
+    if (with_time_scale) rescale(*linear, acting, variance);
   }
   return smoothed;
 }

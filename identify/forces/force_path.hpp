@@ -44,7 +44,7 @@ class LatentUnknowns {
 struct ForcePath {
   int experiment = 0;
   Eigen::MatrixXd state;  ///< (q, v, z), one column per node
-  Eigen::MatrixXd force;  ///< (w, w' / rate) of each pattern, one column per node
+  Eigen::MatrixXd force;  ///< (w, dw/dt) of each pattern, one column per node
 };
 
 /// A motion of all recordings, forces and the values of the unknowns, iterated until it is the most
@@ -66,12 +66,14 @@ class ForcePaths {
   void act(std::vector<ForcePattern> patterns);
   const std::vector<ForcePattern>& patterns() const { return patterns_; }
 
-  /// Nothing where the equations cannot be followed or the work is to end.
-  std::optional<LinearProblem> linearise() const;
+  /// With steps so many times finer than the estimate needs. Nothing where the equations cannot be
+  /// followed or the work is to end.
+  std::optional<LinearProblem> linearise(int finer = 1) const;
 
   /// Relinearises and smooths until nothing moves by more than a small part of the noise, and the
-  /// variances (of the groups, updated) are those of the largest evidence. Nothing as linearise.
-  std::optional<Smoothed> settle(std::vector<double>& variance);
+  /// variances (of the groups, updated) are those of the largest evidence; `with_time_scale`: the
+  /// prior's time scale, too. Nothing as linearise.
+  std::optional<Smoothed> settle(std::vector<double>& variance, bool with_time_scale);
 
   /// Sum of the squared residuals, in units of the noise.
   double squares() const;
@@ -82,6 +84,8 @@ class ForcePaths {
   std::vector<LinearRecording::Seen> observe(std::size_t path,
                                              const std::vector<Eigen::Index>& unknowns) const;
   double move(const LinearProblem& linear, const Smoothed& smoothed);
+  void rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
+               std::vector<double>& variance);
 
   const Problem& problem_;
   const LatentUnknowns& unknowns_;

@@ -71,7 +71,7 @@ class PlaceLaw {
     std::vector<Constant> constants;
     bool dissipation = false;  ///< `energy` is one, else a potential
     /// The integral of -force over the variable in the language of effects (docs/effects.md). The
-    /// place is `offset` past the middle of a link.
+    /// place is `offset` past the middle of a link; the torque is at the pivot.
     std::string energy;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };
