@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "identify/noise/cosine_spectrum.hpp"
 #include "linear_algebra/decompositions.hpp"
@@ -26,6 +27,10 @@ constexpr double kSplitDeviation = 0.2;
 /// Share of the arc length by which the place is moved to see what that changes.
 constexpr double kApart = 0.02;
 constexpr int kClosedLoops = 3;
+/// Times that the motion is linearised anew about the law.
+constexpr int kRoundsAboutLaw = 2;
+/// Deviation of a coefficient's prior there, in units of its size; of the place, of what it is moved by.
+constexpr double kWide = 100;
 /// Steps of the integration in one of the estimate of the force. A law has few constants, which all
 /// frames determine: with one they are wrong by half their standard error.
 constexpr int kFiner = 4;
@@ -53,6 +58,12 @@ struct StepForces {
       next.col(m) = step.by_force.col(2 * m + 1) / step.duration;
       now.col(m) = step.by_force.col(2 * m) - next.col(m);
     }
+  }
+  /// What makes y' of the y' without it, where the force at the end is d y': y' = moved + next d y',
+  /// d patterns x states, so y' = (1 + next (1 - d next)^-1 d) moved.
+  MatrixXd feedback(const MatrixXd& d) const {
+    const MatrixXd small = MatrixXd::Identity(d.rows(), d.rows()) - d * next;
+    return MatrixXd::Identity(next.rows(), next.rows()) + next * (inverse(small) * d);
   }
 };
 
@@ -98,10 +109,7 @@ SeenOfLaw law_response(const LinearRecording& recording, std::size_t first, std:
     moved.rightCols(1) += step.offset;
     if (closed) {
       moved += by.now * (forces.by_state[k] * y);
-      // y' = moved + next D y', D patterns x states: the small system D y' = (1 - D next)^-1 D moved.
-      const MatrixXd& d = forces.by_state[k + 1];
-      const MatrixXd small = MatrixXd::Identity(d.rows(), d.rows()) - d * by.next;
-      moved += by.next * (inverse(small) * (d * moved));
+      moved = by.feedback(forces.by_state[k + 1]) * moved;
     }
     y = std::move(moved);
   }
@@ -160,6 +168,42 @@ LawPart law_part(const LinearProblem& linear, const std::vector<NodeForces>& for
     column += own + free;
   }
   return part;
+}
+
+/// The problem with a law whose force follows the state. Its coefficients are further shared
+/// parameters, free but for a prior of so many times their size.
+LinearProblem with_law(const LinearProblem& linear, const std::vector<NodeForces>& forces,
+                       const VectorXd& deviation) {
+  LinearProblem out = linear;
+  const Index shared = linear.shared_mean.size(), terms = deviation.size();
+  out.shared_mean.conservativeResizeLike(VectorXd::Zero(shared + terms));
+  out.shared_deviation.conservativeResize(shared + terms);
+  out.shared_deviation.tail(terms) = deviation;
+  const auto with_columns = [&](const MatrixXd& by_parameter, const MatrixXd& columns) {
+    MatrixXd wider(by_parameter.rows(), by_parameter.cols() + terms);
+    wider << by_parameter.leftCols(shared), columns,
+        by_parameter.rightCols(by_parameter.cols() - shared);
+    return wider;
+  };
+  for (std::size_t r = 0; r < out.recordings.size(); ++r) {
+    LinearRecording& recording = out.recordings[r];
+    const NodeForces& of = forces[r];
+    recording.start_by_parameter = with_columns(
+        recording.start_by_parameter, MatrixXd::Zero(recording.start_by_parameter.rows(), terms));
+    for (LinearRecording::Seen& seen : recording.seen)
+      seen.by_parameter =
+          with_columns(seen.by_parameter, MatrixXd::Zero(seen.by_parameter.rows(), terms));
+    for (std::size_t k = 0; k < recording.steps.size(); ++k) {
+      LinearRecording::Step& step = recording.steps[k];
+      const StepForces by(step);
+      const MatrixXd feedback = by.feedback(of.by_state[k + 1]);
+      step.by_state = feedback * (step.by_state + by.now * of.by_state[k]);
+      step.by_parameter = feedback * with_columns(step.by_parameter, by.now * of.columns[k] +
+                                                                         by.next * of.columns[k + 1]);
+      step.offset = feedback * step.offset;
+    }
+  }
+  return out;
 }
 
 /// Takes away what the unknowns imitate.
@@ -246,6 +290,7 @@ struct FittedForm {
   std::size_t candidate = 0;
   std::vector<int> form;
   VectorXd coefficients;
+  double shift = 0;  ///< m, of the place
   MatrixXd covariance;
   double place_variance = 0;
   double squares = 0, freedom = 0;
@@ -265,21 +310,20 @@ class LawSearch {
   /// `found`: (w, dw/dt) of each pattern at the place, one column per node, of each recording.
   /// `linear`: patterns at the place, then the same at a place `apart` m from it, which is 0 for the
   /// torque.
-  LawSearch(const ForcePaths& paths, const std::vector<MatrixXd>& found,
-            const LinearProblem& linear, const VectorXd& lengths, Index coordinates,
-            double arc_length, double apart)
-      : found_(found), linear_(linear), apart_(apart) {
-    for (const ForcePath& path : paths.paths()) {
-      std::vector<PlaceKinematics>& places = places_.emplace_back();
-      std::vector<PlaceMotion>& beside = beside_.emplace_back();
-      for (Index k = 0; k < path.state.cols(); ++k) {
-        places.push_back(place_kinematics(path.state.col(k), coordinates, lengths, arc_length));
-        visited_.push_back(places.back().motion);
-        beside.push_back(
-            place_kinematics(path.state.col(k), coordinates, lengths, arc_length + apart).motion);
-      }
-    }
-    candidates_ = place_laws(apart == 0, visited_);
+  LawSearch(ForcePaths& paths, const std::vector<MatrixXd>& found, LinearProblem linear,
+            const VectorXd& lengths, Index coordinates, double arc_length, double apart)
+      : paths_(paths),
+        found_(found),
+        linear_(std::move(linear)),
+        lengths_(lengths),
+        coordinates_(coordinates),
+        arc_length_(arc_length),
+        apart_(apart) {
+    see_places();
+    std::vector<PlaceMotion> visited;
+    for (const std::vector<PlaceKinematics>& places : places_)
+      for (const PlaceKinematics& place : places) visited.push_back(place.motion);
+    candidates_ = place_laws(apart == 0, visited);
   }
 
   ForceLaw run() {
@@ -320,6 +364,54 @@ class LawSearch {
   }
 
  private:
+  /// The place, and the one beside it, along the motion.
+  void see_places() {
+    places_.clear();
+    beside_.clear();
+    for (const ForcePath& path : paths_.paths()) {
+      std::vector<PlaceKinematics>& places = places_.emplace_back();
+      std::vector<PlaceMotion>& beside = beside_.emplace_back();
+      for (Index k = 0; k < path.state.cols(); ++k) {
+        const auto at = [&](double s) {
+          return place_kinematics(path.state.col(k), coordinates_, lengths_, s);
+        };
+        places.push_back(at(arc_length_));
+        beside.push_back(at(arc_length_ + apart_).motion);
+      }
+    }
+  }
+
+  /// Moves to the motion that the law gives, and fits the law about that: no force that follows noise is
+  /// left in the motion. Nothing changes where the equations cannot be followed.
+  void follow(FittedForm& law) {
+    const PlaceLaw& candidate = candidates_[law.candidate];
+    for (int round = 0; round < kRoundsAboutLaw; ++round) {
+      VectorXd wide(law.coefficients.size() + (apart_ != 0 ? 1 : 0));
+      wide.head(law.coefficients.size()) = kWide * law.coefficients.cwiseAbs();
+      if (apart_ != 0) wide[wide.size() - 1] = std::abs(apart_) * kWide;
+      const LinearProblem closed =
+          with_law(linear_, forces_of(candidate, law.form, law.coefficients), wide);
+      paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
+      see_places();
+      VectorXd sizes(wide.size());
+      sizes.head(law.coefficients.size()) = law.coefficients;
+      if (apart_ != 0) sizes[wide.size() - 1] = law.shift;
+      std::vector<MatrixXd> taken;
+      for (const NodeForces& of : forces_of(candidate, law.form, law.coefficients)) {
+        MatrixXd& force = taken.emplace_back(patterns(), static_cast<Index>(of.columns.size()));
+        for (std::size_t k = 0; k < of.columns.size(); ++k)
+          force.col(static_cast<Index>(k)) = of.columns[k] * sizes;
+      }
+      paths_.take_forces(taken);
+      std::optional<LinearProblem> linear = paths_.linearise(kFiner);
+      if (!linear) return;
+      linear_ = std::move(*linear);
+      const FittedForm fitted = fit(law.candidate, law.form, law.coefficients);
+      if (!std::isfinite(fitted.squares) || !candidate.admits(fitted.coefficients)) return;
+      law = fitted;
+    }
+  }
+
   /// Squared residuals that the free force leaves, in standard deviations.
   double left_by_force(FrameHalf half) const {
     double sum = 0;
@@ -371,10 +463,12 @@ class LawSearch {
     return forces;
   }
 
-  FittedForm fit(std::size_t number, const std::vector<int>& form) const {
+  /// `first`: coefficients to begin with, or none.
+  FittedForm fit(std::size_t number, const std::vector<int>& form, const VectorXd& first = {}) const {
     FittedForm fitted;
     fitted.candidate = number;
     fitted.form = form;
+    fitted.coefficients = first;
     const auto terms = static_cast<Index>(form.size());
     for (int loop = 0; loop <= kClosedLoops; ++loop) {
       const LawPart part = law_part(
@@ -389,12 +483,15 @@ class LawSearch {
       fitted.freedom = static_cast<double>(part.seen - laws.cols());
       const MatrixXd covariance = inverse(laws.transpose() * laws);
       fitted.covariance = covariance.topLeftCorner(terms, terms);
-      if (covariance.cols() > terms) fitted.place_variance = covariance(terms, terms);
+      if (covariance.cols() > terms) {
+        fitted.place_variance = covariance(terms, terms);
+        fitted.shift = all[terms];
+      }
     }
     return fitted;
   }
 
-  void read_formula(std::size_t number, ForceLaw& law) const {
+  void read_formula(std::size_t number, ForceLaw& law) {
     std::vector<FittedForm> fits;
     double least = HUGE_VAL, inflation = 1;
     for (std::size_t c = 0; c < candidates_.size(); ++c)
@@ -430,19 +527,25 @@ class LawSearch {
       return candidates_[fitted.candidate].formula(fitted.form, fitted.coefficients,
                                                    inflation * fitted.covariance);
     };
-    law.formula = formula_of(*best);
-    law.place_deviation = std::sqrt(inflation * best->place_variance);
     for (const FittedForm& fitted : fits)
       if (&fitted != best && criterion(fitted) < criterion(*best) + kThresholds.undecided)
         law.rivals.push_back(with_constants(formula_of(fitted)));
+    FittedForm found = *best;
+    follow(found);
+    inflation = std::max(1.0, found.squares / found.freedom);
+    law.formula = formula_of(found);
+    law.place_shift = found.shift;
+    law.place_deviation = std::sqrt(inflation * found.place_variance);
   }
 
+  ForcePaths& paths_;
   const std::vector<MatrixXd>& found_;
-  const LinearProblem& linear_;
-  double apart_;
+  LinearProblem linear_;
+  const VectorXd& lengths_;
+  Index coordinates_;
+  double arc_length_, apart_;
   std::vector<std::vector<PlaceKinematics>> places_;
   std::vector<std::vector<PlaceMotion>> beside_;
-  std::vector<PlaceMotion> visited_;
   std::vector<PlaceLaw> candidates_;
 };
 
@@ -483,9 +586,9 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const VectorXd& lengths,
       patterns.push_back(point_pattern(direction, arc_length + apart, lengths));
   }
   paths.act(std::move(patterns));
-  const std::optional<LinearProblem> linear = paths.linearise(kFiner);
+  std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
-  ForceLaw law = LawSearch(paths, found, *linear, lengths, coordinates, arc_length, apart).run();
+  ForceLaw law = LawSearch(paths, found, std::move(*linear), lengths, coordinates, arc_length, apart).run();
   describe_law(law);
   return law;
 }

@@ -260,8 +260,6 @@ std::optional<LinearProblem> ForcePaths::linearise(int finer) const {
   return linear;
 }
 
-/// Moves path, forces and unknowns there. Returns the root mean square change of what the sensors
-/// would see, in standard deviations.
 double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
   double sum = 0, count = 0;
   for (std::size_t number = 0; number < paths_.size(); ++number) {
@@ -286,6 +284,23 @@ double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
     x_[i] = unknowns_.moved(i, x_[i], smoothed.shared[static_cast<Index>(j)]);
   }
   return std::sqrt(sum / std::max(1.0, count));
+}
+
+void ForcePaths::take_forces(const std::vector<MatrixXd>& forces) {
+  for (std::size_t number = 0; number < paths_.size(); ++number) {
+    const MatrixXd& taken = forces[number];
+    MatrixXd& force = paths_[number].force;
+    force.setZero(2 * taken.rows(), taken.cols());
+    for (Index k = 0; k < taken.cols(); ++k) {
+      const auto node = static_cast<std::size_t>(k);
+      for (Index m = 0; m < taken.rows(); ++m) {
+        force(2 * m, k) = taken(m, k);
+        if (k + 1 < taken.cols())
+          force(2 * m + 1, k) = (taken(m, k + 1) - taken(m, k)) /
+                                (clocks_[number].times[node + 1] - clocks_[number].times[node]);
+      }
+    }
+  }
 }
 
 /// Moves the prior's time scale towards the largest evidence, and the variances so that the prior

@@ -75,6 +75,14 @@ class ForcePaths {
   /// prior's time scale, too. Nothing as linearise.
   std::optional<Smoothed> settle(std::vector<double>& variance, bool with_time_scale);
 
+  /// Moves motion and unknowns to what was smoothed about them; `linear` may have more shared
+  /// parameters behind those of the problem. The forces are those smoothed, none where none acted.
+  /// Returns the root mean square change of what the sensors would see, in standard deviations.
+  double move(const LinearProblem& linear, const Smoothed& smoothed);
+
+  /// Takes forces that go straight from node to node: patterns x nodes, of each recording.
+  void take_forces(const std::vector<Eigen::MatrixXd>& forces);
+
   /// Sum of the squared residuals, in units of the noise.
   double squares() const;
 
@@ -83,7 +91,6 @@ class ForcePaths {
  private:
   std::vector<LinearRecording::Seen> observe(std::size_t path,
                                              const std::vector<Eigen::Index>& unknowns) const;
-  double move(const LinearProblem& linear, const Smoothed& smoothed);
   void rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
                std::vector<double>& variance);
 
