@@ -124,6 +124,26 @@ ForcePaths::ForcePaths(const Problem& problem, const LatentUnknowns& unknowns,
   }
 }
 
+const Recording& ForcePaths::recording(std::size_t path) const {
+  return problem_.experiments()[static_cast<std::size_t>(paths_[path].experiment)].recording;
+}
+
+double ForcePaths::sigma(std::size_t path) const {
+  return sigmas_[static_cast<std::size_t>(paths_[path].experiment)];
+}
+
+std::vector<std::vector<ForcePaths::SeenValue>> ForcePaths::seen_values(std::size_t path) const {
+  const FrameClock& clock = clocks_[path];
+  const Eigen::MatrixXd& measured = recording(path).measured;
+  std::vector<std::vector<SeenValue>> values(clock.times.size());
+  for (Index k = 0; k < recording(path).fit_frames; ++k)
+    for (Index c = 0; c < measured.rows(); ++c)
+      if (!std::isnan(measured(c, k)))
+        values[static_cast<std::size_t>(clock.column[static_cast<std::size_t>(k)])].push_back(
+            {k, static_cast<std::size_t>(c)});
+  return values;
+}
+
 void ForcePaths::act(std::vector<ForcePattern> patterns) {
   patterns_ = std::move(patterns);
   for (ForcePath& path : paths_)
@@ -157,14 +177,10 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
   change.z.setZero(model.states(), 1);
 
   const FrameClock& clock = clocks_[number];
-  std::vector<std::vector<Index>> frames(clock.times.size());
-  for (Index k = 0; k < recording.fit_frames; ++k)
-    frames[static_cast<std::size_t>(clock.column[static_cast<std::size_t>(k)])].push_back(k);
-  std::vector<LinearRecording::Seen> seen(clock.times.size());
-  for (std::size_t node = 0; node < frames.size(); ++node) {
-    Index count = 0;
-    for (const Index k : frames[node])
-      count += (recording.measured.col(k).array() == recording.measured.col(k).array()).count();
+  const std::vector<std::vector<SeenValue>> values = seen_values(number);
+  std::vector<LinearRecording::Seen> seen(values.size());
+  for (std::size_t node = 0; node < values.size(); ++node) {
+    const auto count = static_cast<Index>(values[node].size());
     LinearRecording::Seen& out = seen[node];
     out.value.resize(count);
     out.by_state.setZero(count, ny);
@@ -173,19 +189,18 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
     here.q = path.state.col(static_cast<Index>(node)).head(n);
     here.v = path.state.col(static_cast<Index>(node)).segment(n, n);
     here.z = path.state.col(static_cast<Index>(node)).tail(model.states());
-    Index first = 0;
-    for (const Index k : frames[node]) {
+    for (Index first = 0, next = 0; first < count; first = next) {
+      const Index k = values[node][static_cast<std::size_t>(first)].frame;
+      while (next < count && values[node][static_cast<std::size_t>(next)].frame == k) ++next;
       const auto frame = static_cast<std::size_t>(k);
       observer.move_to(here, 0, recording.time[frame]);
       const auto each = [&](const auto& act) {
-        Index row = first;
-        for (std::size_t c = 0; c < recording.channels.size(); ++c)
-          if (!std::isnan(recording.measured(static_cast<Index>(c), k)))
-            act(row++, observer(recording.channels[c]),
-                recording.measured(static_cast<Index>(c), k));
-        return row;
+        for (Index row = first; row < next; ++row) {
+          const std::size_t c = values[node][static_cast<std::size_t>(row)].channel;
+          act(row, observer(recording.channels[c]), recording.measured(static_cast<Index>(c), k));
+        }
       };
-      const Index next = each([&](Index row, double simulated, double measured) {
+      each([&](Index row, double simulated, double measured) {
         out.value[row] = (measured - simulated) / sigma;
       });
       for (std::size_t j = 0; j < along.size(); ++j) {
@@ -197,7 +212,6 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
           (column < n ? out.by_state(row, column) : out.by_parameter(row, column - n)) = by / sigma;
         });
       }
-      first = next;
     }
   }
   return seen;
@@ -306,7 +320,7 @@ void ForcePaths::take_forces(const std::vector<MatrixXd>& forces) {
 /// Moves the prior's time scale towards the largest evidence, and the variances so that the prior
 /// of fast forces stays: variance / time scale^3.
 void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
-                           std::vector<double>& variance) {
+                         std::vector<double>& variance) {
   const auto scaled = [&](double factor) {
     ForcePrior other = prior;
     other.time_scale *= factor;
@@ -323,9 +337,9 @@ void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingFo
   const double slope = 0.5 * (more - less), bend = more - 2 * here + less;
   double steps = slope > 0 ? 1 : -1;
   if (bend < 0) steps = std::clamp(-slope / bend, -kMostScaleSteps, kMostScaleSteps);
-  const double factor = std::clamp(prior.time_scale * std::pow(kScaleStep, steps),
-                                   kShortestScale, kLongestScale) /
-                        prior.time_scale;
+  const double factor =
+      std::clamp(prior.time_scale * std::pow(kScaleStep, steps), kShortestScale, kLongestScale) /
+      prior.time_scale;
   std::tie(prior, variance) = scaled(factor);
 }
 
@@ -343,8 +357,8 @@ std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance, bool w
     const double moved = move(*linear, *smoothed);
     if (moved < kSettled && smoothed->log_evidence - before < kSettledEvidence) break;
     for (std::size_t g = 0; g < variance.size(); ++g)
-      variance[g] = std::max(
-          1e-16, variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth));
+      variance[g] =
+          std::max(1e-16, variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth));
     if (with_time_scale) rescale(*linear, acting, variance);
   }
   return smoothed;

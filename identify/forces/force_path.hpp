@@ -56,6 +56,17 @@ class ForcePaths {
              const std::vector<double>& sigmas, const Eigen::VectorXd& x,
              const std::function<bool()>& keep_going);
 
+  /// The recording of a path, and its noise, m or rad.
+  const Recording& recording(std::size_t path) const;
+  double sigma(std::size_t path) const;
+  /// A number that was measured, by its frame and channel.
+  struct SeenValue {
+    Eigen::Index frame = 0;
+    std::size_t channel = 0;
+  };
+  /// Of each node, in the order of LinearRecording::Seen.
+  std::vector<std::vector<SeenValue>> seen_values(std::size_t path) const;
+
   /// Whether there is a motion: the simulation at x succeeded.
   bool ok() const { return !paths_.empty(); }
   const Eigen::VectorXd& x() const { return x_; }

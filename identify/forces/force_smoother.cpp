@@ -295,8 +295,7 @@ Matrix2d ForcePrior::transition(double step) const {
 }
 
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, const ForcePrior& prior,
-                       bool smooth) {
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth) {
   return ChainFilter(problem, forces, variance, prior).run(smooth);
 }
 

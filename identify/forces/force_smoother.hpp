@@ -77,7 +77,6 @@ struct Smoothed {
 /// group. Without `smooth` the evidence alone. References: Bierman, Automatica 9 (1973) 503;
 /// MacKay, Neural Computation 4 (1992) 415, for the growth.
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, const ForcePrior& prior,
-                       bool smooth);
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth);
 
 }  // namespace catena

@@ -13,8 +13,6 @@ namespace catena {
 
 namespace {
 
-/// Share of the cable below which a place is at its end.
-constexpr double kAtEnd = 1e-6;
 /// Bounds: amplitudes are at most so many times the one found, others so many deviations from the
 /// value found. A fit that goes there has lost its way.
 constexpr double kBound = 1000;
@@ -27,13 +25,13 @@ constexpr double kStepWidth = 1e-5;
 std::string effect_of(const ForceLaw& law, const std::string& id, double arc_length,
                       double length) {
   const PlaceLaw::Formula& formula = law.formula;
-  const bool load = arc_length > length * (1 - kAtEnd), support = arc_length == 0;
+  const bool load = at_end(arc_length, length), support = arc_length == 0;
   const bool inside = !load && !support;
-  const std::string title = fmt::format(
-      "{} against {}{}", law.force, law.variable,
-      support ? std::string()
-              : " at " + (load ? std::string("the load")
-                               : fmt::format("arc length {:.3g} m", arc_length)));
+  const std::string title =
+      fmt::format("{} against {}{}", law.force, law.variable,
+                  support ? std::string()
+                          : " at " + (load ? std::string("the load")
+                                           : fmt::format("arc length {:.3g} m", arc_length)));
   const std::string words = fmt::format(
       "Found in recordings, declared by nobody: {}; {}. Chosen of {} pairs of a force and a "
       "variable in the first half of the frames, it explained {:.0f} % of what a force can explain "

@@ -8,6 +8,7 @@
 
 #include "common/cpu_seconds.hpp"
 #include "identify/forces/force_path.hpp"
+#include "identify/forces/sensor_error.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/parameter_map.hpp"
 
@@ -205,8 +206,7 @@ class PlaceSearch {
     patterns.push_back(torque_pattern(chain_.lengths.size()));
     if (!linearise(std::move(patterns))) return false;
     none_ = smooth_forces(*linear_, {}, {}, paths_.prior, false).log_evidence;
-    const Peak torque =
-        peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, paths_.prior,
+    const Peak torque = peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, paths_.prior,
                                 size_ * chain_.length);
     missing.places.push_back({"torque at the support", 0, torque.log_evidence - none_});
     variance_.push_back(torque.variance);
@@ -248,6 +248,16 @@ class PlaceSearch {
     missing.best->arc_length = top_between(tried, missing.best->arc_length);
     missing.best->name = fmt::format("force at arc length {:.3g} m", missing.best->arc_length);
     return true;
+  }
+
+  /// The error of the camera that explains most about the motion last linearised.
+  std::optional<MissingForce::Sensor> best_sensor() const {
+    std::optional<MissingForce::Sensor> best;
+    for (const SensorError& error : sensor_errors(paths_, chain_.lengths)) {
+      const double evidence = log_evidence_of(error, *linear_) - none_;
+      if (!best || evidence > best->log_evidence) best = {error.name, evidence};
+    }
+    return best;
   }
 
   double best_variance() const { return best_variance_; }
@@ -373,6 +383,13 @@ void describe_everywhere(MissingForce& missing) {
 }
 
 void describe(MissingForce& missing) {
+  if (!missing.found && missing.sensor) {
+    missing.words.push_back(fmt::format(
+        "no force on the chain: an error of the camera explains the recordings as well: {} "
+        "(log evidence {:.4g}, of forces {:.4g})",
+        missing.sensor->name, missing.sensor->log_evidence, missing.log_evidence));
+    return;
+  }
   if (!missing.found) {
     missing.words.push_back(
         fmt::format("no force on the chain: one would explain {:.1f} % of the squared residuals "
@@ -457,7 +474,13 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.places.clear();
     return true;
   }
+  missing.sensor = search.best_sensor();
   if (!search.look_closer(missing)) return false;
+  if (missing.sensor &&
+      missing.sensor->log_evidence >= std::max(missing.log_evidence, missing.best->log_evidence)) {
+    missing.found = false;
+    return true;
+  }
 
   // What acts there if it acts nowhere else.
   const bool torque = missing.best->arc_length == 0;

@@ -21,6 +21,9 @@ struct PlaceKinematics {
 PlaceKinematics place_kinematics(const Eigen::VectorXd& state, Eigen::Index coordinates,
                                  const Eigen::VectorXd& lengths, double s);
 
+/// Whether a place is the end of the cable, but for rounding.
+inline bool at_end(double s, double length) { return s > length * (1 - 1e-6); }
+
 /// A force of a place and the variable that it goes with.
 enum class ConjugatePair {
   kSidePosition,

@@ -97,8 +97,8 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
   std::string names;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const std::string id = fmt::format("law_{}", i);
-    const auto file = folder.write(id + ".toml",
-                                   effect_of(laws[i].found, id, laws[i].arc_length, kLength));
+    const auto file =
+        folder.write(id + ".toml", effect_of(laws[i].found, id, laws[i].arc_length, kLength));
     names += fmt::format("{}\"{}.toml\"", i ? ", " : "", id);
     if (!laws[i].law.dissipative()) continue;
     for (const EffectParameter& parameter : read_effect(file).parameters)
