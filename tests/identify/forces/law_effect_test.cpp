@@ -23,8 +23,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLength = 0.4;  // m
-/// Below the support: a link's end of two links, no link's end of three; and the reverse.
-constexpr double kPlaces[] = {0.0, 0.2, 0.23, 2 * kLength / 3, kLength};
+/// The third is inside of a link of two links, and where one ends of three. On the first link nothing
+/// moves along it.
+constexpr double kPlaces[] = {0.0, 0.23, 2 * kLength / 3, kLength};
 
 VectorXd lengths_of(int links) { return VectorXd::Constant(links, kLength / links); }
 

@@ -112,7 +112,7 @@ TEST_CASE("a lens, a shutter that rolls, a drift and a slipping marker are no fo
   };
   for (const Wrong& wrong :
        {Wrong{"the lens bends lines, or the camera looks at a slant", &truth::Camera::lens, 0.02},
-        Wrong{"the picture is read line by line (rolling shutter)", &truth::Camera::shutter, 0.01},
+        Wrong{"the picture is read line by line (rolling shutter)", &truth::Camera::shutter, 0.004},
         Wrong{"the camera drifts", &truth::Camera::drift, 0.02},
         Wrong{"marker 3 slips along the cable", &truth::Camera::slip, 0.02}}) {
     CAPTURE(wrong.name);
