@@ -95,14 +95,17 @@ Recording film(const Cable& cable, const Hidden& hidden, const Moves& moves, con
   constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < frames; ++i) {
     std::vector<double> side(markers, kNotSeen), down(markers, kNotSeen);
+    const double passed = static_cast<double>(i) / static_cast<double>(frames - 1);
     for (std::size_t k = 0; k < markers; ++k) {
       if (!seen[i][k]) continue;
       const double sine = std::sin(motion.angle[i][k]), cosine = std::cos(motion.angle[i][k]);
+      const double slid = static_cast<int>(k) + 1 == camera.slipping ? camera.slip * passed : 0;
       const double x =
-          motion.side[i][k] + hidden.marker_across * cosine + hidden.marker_along * sine;
+          motion.side[i][k] + hidden.marker_across * cosine + (hidden.marker_along + slid) * sine;
       const double y =
-          motion.down[i][k] - hidden.marker_across * sine + hidden.marker_along * cosine;
-      double seen_side = hidden.scale * (c * x + s * y) + hidden.origin_side;
+          motion.down[i][k] - hidden.marker_across * sine + (hidden.marker_along + slid) * cosine;
+      double seen_side =
+          hidden.scale * (c * x + s * y) + hidden.origin_side + camera.drift * passed;
       double seen_down = hidden.scale * (c * y - s * x) + hidden.origin_down;
       const double middle = cable.length / 2, from_middle = seen_down - middle;
       const double farther = camera.lens * (seen_side * seen_side + from_middle * from_middle) /

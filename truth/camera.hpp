@@ -25,6 +25,10 @@ struct Camera {
       0;  // s; the picture is read from the support down, a cable's length in this time
   double misplaced =
       0;  // m, standard deviation of the marks' places along the cable; the last is right
+  double drift = 0;        // m by which the camera has drifted to the side at the end
+  double slip = 0;         // m by which the mark `slipping` slides down the cable, evenly, from the
+                           // first to the last frame
+  int slipping = 3;        // from 1
   NoiseKind kind = {};     // of the noise
   std::uint64_t seed = 1;  // of noise and loss
 };

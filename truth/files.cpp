@@ -103,7 +103,8 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       number(held.at(1)) + "]\n\n[camera]\nrate = " + number(camera.rate) +
       "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
       "\nlens = " + number(camera.lens) + "\nshutter = " + number(camera.shutter) +
-      "\nmisplaced = " + number(camera.misplaced) + "\nlost = " + number(camera.lost) +
+      "\nmisplaced = " + number(camera.misplaced) + "\ndrift = " + number(camera.drift) +
+      "\nslip = " + number(camera.slip) + "\nlost = " + number(camera.lost) +
       "\npixel = " + number(camera.pixel) +
       "\nautocorrelation = " + number(camera.kind.autocorrelation) +
       "\nshaking = " + number(camera.kind.shaking) +

@@ -66,6 +66,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 0.03));
   app.add_option("--misplaced", camera.misplaced, "m, of marks along the cable")
       ->check(CLI::Range(0.0, 0.05));
+  app.add_option("--drift", camera.drift, "m by which the camera drifts to the side");
+  app.add_option("--slip", camera.slip, "m by which one mark slides along the cable");
+  app.add_option("--slipping", camera.slipping, "which mark")->check(CLI::Range(1, 1000));
   app.add_option("--pixel", camera.pixel, "m")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", camera.seed, "of noise and losses");
   app.add_option("--step", integration.step, "of the integrator, s")->check(CLI::PositiveNumber);

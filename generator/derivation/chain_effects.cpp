@@ -197,6 +197,7 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
     add("length", length_[i], "m");
     add("mass", mass_[i], "kg");
     add("inertia", inertia_[i], "kg m^2");
+    add("arc", arc_[i - 1] + length_[i] / 2, "m");
     for (const Coordinate& coordinate : effect.coordinates) {
       const ex symbol = effect_symbols_.at(effect.id + "." + coordinate.name)[i];
       add(coordinate.name, symbol, coordinate.unit);

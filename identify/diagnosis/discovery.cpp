@@ -28,22 +28,18 @@ std::string new_id(const DiagnosisContext& context) {
 /// The law as an effect of the library, whose parameters begin at the values found.
 const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& base,
                                 const MissingForce& force) {
-  const Eigen::VectorXd lengths =
-      link_lengths(base.problem->model(), base.problem->model_parameters(base.x, 0));
+  const double length =
+      link_lengths(base.problem->model(), base.problem->model_parameters(base.x, 0)).sum();
   const std::string id = new_id(context);
-  const LawEffect effect = effect_of(*force.law, id, force.best->arc_length, lengths);
-  Candidate& candidate = context.add_effect(id, effect.text);
+  Candidate& candidate = context.add_effect(
+      id, effect_of(*force.law, id, force.best->arc_length + force.law->place_shift, length));
   const auto value_of = [&](const std::string& name) {
     for (const PlaceLaw::Constant& constant : force.law->formula.constants)
       if (name == constant.name) return constant.value;
-    return effect.offset;
+    return force.best->arc_length + force.law->place_shift;
   };
-  for (std::size_t i = 0; i < candidate.parameters.size(); ++i) {
-    const EffectParameter& parameter = candidate.effect.parameters[i];
-    candidate.parameters[i].value = value_of(parameter.name);
-    if (parameter.scope == Scope::kLink)  // amplitudes are one link's
-      candidate.parameters[i].name += fmt::format("_{}", effect.link);
-  }
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    candidate.parameters[i].value = value_of(candidate.effect.parameters[i].name);
   return candidate;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include "identify/forces/law_response.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
 #include "linear_algebra/decompositions.hpp"
 
@@ -21,151 +23,17 @@ namespace {
 /// Random forces for the null distribution: a chance of 1 in 200 can be told.
 constexpr Index kRandomForces = 199;
 constexpr LawThresholds kThresholds;
-/// rad, rad/s: prior of the state at the beginning of the second part, relative to the motion found.
-constexpr double kSplitDeviation = 0.2;
 /// Share of the arc length by which the place is moved to see what that changes.
 constexpr double kApart = 0.02;
 constexpr int kClosedLoops = 3;
+/// Times that the motion is linearised anew about the law.
+constexpr int kRoundsAboutLaw = 2;
+/// Deviation of a coefficient's prior there, in units of its size; of the place, of what it is moved by.
+constexpr double kWide = 100;
+/// Steps of the integration in one of the estimate of the force. A law has few constants, which all
+/// frames determine: with one they are wrong by half their standard error.
+constexpr int kFiner = 4;
 constexpr std::uint64_t kLawSeed = 18;
-
-/// Forces at the nodes of one recording, patterns x columns each, and how they depend on the state
-/// there: nothing, or patterns x states.
-struct NodeForces {
-  std::vector<MatrixXd> columns;
-  std::vector<MatrixXd> by_state;
-};
-
-/// Rows of what is seen from node `first` on, before node `last`.
-struct SeenOfLaw {
-  MatrixXd by_parameter, by_start, by_force;
-  VectorXd value;  ///< measured, less what the path gives without any force
-};
-
-/// (w, w' / rate) at the beginning of a step such that the prior expects the force `next` at its
-/// end: now_by_now w_now + by_next w_next.
-struct StepForces {
-  MatrixXd now, next;  // states x patterns: what the end of the step takes from w at both ends
-  explicit StepForces(const LinearRecording::Step& step)
-      : now(step.by_force.rows(), step.by_force.cols() / 2), next(now.rows(), now.cols()) {
-    const double same = step.transition(0, 0), slope = step.transition(0, 1);
-    for (Index m = 0; m < now.cols(); ++m) {
-      next.col(m) = step.by_force.col(2 * m + 1) / slope;
-      now.col(m) = step.by_force.col(2 * m) - same * next.col(m);
-    }
-  }
-};
-
-/// The response of the linearised chain to parameters, to the state at node `first` and to forces
-/// there. At node 0 the state comes from the parameters.
-SeenOfLaw law_response(const LinearRecording& recording, std::size_t first, std::size_t last,
-                       const NodeForces& forces) {
-  const Index states = recording.start_offset.size();
-  const Index parameters = recording.start_by_parameter.cols(), free = first > 0 ? states : 0;
-  const Index columns = forces.columns.front().cols(), all = parameters + free + columns + 1;
-  Index rows = 0;
-  for (std::size_t k = first; k < last; ++k) rows += recording.seen[k].value.size();
-  SeenOfLaw out{MatrixXd(rows, parameters), MatrixXd(rows, free), MatrixXd(rows, columns),
-                VectorXd(rows)};
-  MatrixXd y = MatrixXd::Zero(states, all);
-  if (first == 0) {
-    y.leftCols(parameters) = recording.start_by_parameter;
-    y.rightCols(1) = recording.start_offset;
-  } else {
-    y.middleCols(parameters, free).setIdentity();
-  }
-  const bool closed = !forces.by_state.empty();
-  Index row = 0;
-  for (std::size_t k = first; k < last; ++k) {
-    const LinearRecording::Seen& seen = recording.seen[k];
-    const Index count = seen.value.size();
-    MatrixXd now(count, all);
-    now.noalias() = seen.by_state * y;
-    now.leftCols(parameters) += seen.by_parameter;
-    out.by_parameter.middleRows(row, count) = now.leftCols(parameters);
-    out.by_start.middleRows(row, count) = now.middleCols(parameters, free);
-    out.by_force.middleRows(row, count) = now.middleCols(parameters + free, columns);
-    out.value.segment(row, count) = seen.value - now.rightCols(1);
-    row += count;
-    if (k + 1 == last) break;
-    const LinearRecording::Step& step = recording.steps[k];
-    const StepForces by(step);
-    MatrixXd moved(states, all);
-    moved.noalias() = step.by_state * y;
-    moved.leftCols(parameters) += step.by_parameter;
-    moved.middleCols(parameters + free, columns) +=
-        by.now * forces.columns[k] + by.next * forces.columns[k + 1];
-    moved.rightCols(1) += step.offset;
-    if (closed) {
-      moved += by.now * (forces.by_state[k] * y);
-      // y' = moved + next D y', D patterns x states: the small system D y' = (1 - D next)^-1 D moved.
-      const MatrixXd& d = forces.by_state[k + 1];
-      const MatrixXd small = MatrixXd::Identity(d.rows(), d.rows()) - d * by.next;
-      moved += by.next * (inverse(small) * (d * moved));
-    }
-    y = std::move(moved);
-  }
-  return out;
-}
-
-/// Some nodes of every recording as one least-squares problem, in standard deviations: parameters
-/// and states with their priors, and forces.
-struct LawPart {
-  MatrixXd nuisance;  ///< rows x (parameters, states)
-  MatrixXd forces;    ///< rows x columns
-  VectorXd value;
-  Index seen = 0;  ///< rows that are measured; those of the priors follow
-};
-
-enum class FrameHalf { kFirst, kSecond, kBoth };
-
-LawPart law_part(const LinearProblem& linear, const std::vector<NodeForces>& forces,
-                 FrameHalf half) {
-  std::vector<SeenOfLaw> responses;
-  Index rows = 0, unknowns = linear.shared_mean.size();
-  const Index shared = unknowns, columns = forces.front().columns.front().cols();
-  for (std::size_t r = 0; r < linear.recordings.size(); ++r) {
-    const LinearRecording& recording = linear.recordings[r];
-    const std::size_t nodes = recording.seen.size(), middle = nodes / 2;
-    responses.push_back(law_response(recording, half == FrameHalf::kSecond ? middle : 0,
-                                     half == FrameHalf::kFirst ? middle : nodes, forces[r]));
-    rows += responses.back().value.size();
-    unknowns += recording.own_mean.size() + responses.back().by_start.cols();
-  }
-  LawPart part;
-  part.seen = rows;
-  part.nuisance.setZero(rows + unknowns, unknowns);
-  part.forces.setZero(rows + unknowns, columns);
-  part.value.setZero(rows + unknowns);
-  const auto prior = [&](Index column, const VectorXd& mean, const VectorXd& deviation) {
-    for (Index j = 0; j < mean.size(); ++j) {
-      part.nuisance(rows + column + j, column + j) = 1 / deviation[j];
-      part.value[rows + column + j] = mean[j] / deviation[j];
-    }
-  };
-  prior(0, linear.shared_mean, linear.shared_deviation);
-  Index row = 0, column = shared;
-  for (std::size_t r = 0; r < responses.size(); ++r) {
-    const SeenOfLaw& seen = responses[r];
-    const Index count = seen.value.size(), free = seen.by_start.cols();
-    const Index own = linear.recordings[r].own_mean.size();
-    part.nuisance.block(row, 0, count, shared) = seen.by_parameter.leftCols(shared);
-    part.nuisance.block(row, column, count, own) = seen.by_parameter.rightCols(own);
-    part.nuisance.block(row, column + own, count, free) = seen.by_start;
-    part.forces.middleRows(row, count) = seen.by_force;
-    part.value.segment(row, count) = seen.value;
-    prior(column, linear.recordings[r].own_mean, linear.recordings[r].own_deviation);
-    prior(column + own, VectorXd::Zero(free), VectorXd::Constant(free, kSplitDeviation));
-    row += count;
-    column += own + free;
-  }
-  return part;
-}
-
-/// Takes away what the unknowns imitate.
-MatrixXd without_nuisance(const LawPart& part, const MatrixXd& columns) {
-  const MatrixXd basis = orthonormal_basis(part.nuisance, 1e-12);
-  return columns - basis * (basis.transpose() * columns);
-}
 
 /// What forces look like that follow no law: at every node, patterns x random forces.
 std::vector<MatrixXd> random_forces(const MatrixXd& path, std::mt19937_64& random) {
@@ -245,40 +113,42 @@ struct FittedForm {
   std::size_t candidate = 0;
   std::vector<int> form;
   VectorXd coefficients;
+  double shift = 0;  ///< m, of the place
   MatrixXd covariance;
   double place_variance = 0;
   double squares = 0, freedom = 0;
 };
 
-/// "side force = -linear x (side position - rest), linear = 0.3 N/m, rest = 0.3 m": without intervals,
-/// for the motion is not linearised anew about the law.
+/// "side force = -linear x (side position - rest), linear = 0.3 (0.296 to 0.304) N/m, ...": with
+/// intervals of 95 %.
 std::string with_constants(const PlaceLaw::Formula& formula) {
   std::string words = formula.text;
   for (const PlaceLaw::Constant& constant : formula.constants)
-    words += fmt::format(", {} = {:.3g} {}", constant.name, constant.value, constant.unit);
+    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
+                         constant.value - 1.96 * constant.deviation,
+                         constant.value + 1.96 * constant.deviation, constant.unit);
   return words;
 }
 
 class LawSearch {
  public:
-  /// `found`: (w, w' / rate) of each pattern at the place, one column per node, of each recording.
+  /// `found`: (w, dw/dt) of each pattern at the place, one column per node, of each recording.
   /// `linear`: patterns at the place, then the same at a place `apart` m from it, which is 0 for the
   /// torque.
-  LawSearch(const ForcePaths& paths, const std::vector<MatrixXd>& found,
-            const LinearProblem& linear, const VectorXd& lengths, Index coordinates,
-            double arc_length, double apart)
-      : found_(found), linear_(linear), apart_(apart) {
-    for (const ForcePath& path : paths.paths()) {
-      std::vector<PlaceKinematics>& places = places_.emplace_back();
-      std::vector<PlaceMotion>& beside = beside_.emplace_back();
-      for (Index k = 0; k < path.state.cols(); ++k) {
-        places.push_back(place_kinematics(path.state.col(k), coordinates, lengths, arc_length));
-        visited_.push_back(places.back().motion);
-        beside.push_back(
-            place_kinematics(path.state.col(k), coordinates, lengths, arc_length + apart).motion);
-      }
-    }
-    candidates_ = place_laws(apart == 0, visited_);
+  LawSearch(ForcePaths& paths, const std::vector<MatrixXd>& found, LinearProblem linear,
+            const VectorXd& lengths, Index coordinates, double arc_length, double apart)
+      : paths_(paths),
+        found_(found),
+        linear_(std::move(linear)),
+        lengths_(lengths),
+        coordinates_(coordinates),
+        arc_length_(arc_length),
+        apart_(apart) {
+    see_places();
+    std::vector<PlaceMotion> visited;
+    for (const std::vector<PlaceKinematics>& places : places_)
+      for (const PlaceKinematics& place : places) visited.push_back(place.motion);
+    candidates_ = place_laws(apart == 0, visited);
   }
 
   ForceLaw run() {
@@ -319,6 +189,54 @@ class LawSearch {
   }
 
  private:
+  /// The place, and the one beside it, along the motion.
+  void see_places() {
+    places_.clear();
+    beside_.clear();
+    for (const ForcePath& path : paths_.paths()) {
+      std::vector<PlaceKinematics>& places = places_.emplace_back();
+      std::vector<PlaceMotion>& beside = beside_.emplace_back();
+      for (Index k = 0; k < path.state.cols(); ++k) {
+        const auto at = [&](double s) {
+          return place_kinematics(path.state.col(k), coordinates_, lengths_, s);
+        };
+        places.push_back(at(arc_length_));
+        beside.push_back(at(arc_length_ + apart_).motion);
+      }
+    }
+  }
+
+  /// Moves to the motion that the law gives, and fits the law about that: no force that follows noise is
+  /// left in the motion. Nothing changes where the equations cannot be followed.
+  void follow(FittedForm& law) {
+    const PlaceLaw& candidate = candidates_[law.candidate];
+    for (int round = 0; round < kRoundsAboutLaw; ++round) {
+      VectorXd wide(law.coefficients.size() + (apart_ != 0 ? 1 : 0));
+      wide.head(law.coefficients.size()) = kWide * law.coefficients.cwiseAbs();
+      if (apart_ != 0) wide[wide.size() - 1] = std::abs(apart_) * kWide;
+      const LinearProblem closed =
+          with_law(linear_, forces_of(candidate, law.form, law.coefficients), wide);
+      paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
+      see_places();
+      VectorXd sizes(wide.size());
+      sizes.head(law.coefficients.size()) = law.coefficients;
+      if (apart_ != 0) sizes[wide.size() - 1] = law.shift;
+      std::vector<MatrixXd> taken;
+      for (const NodeForces& of : forces_of(candidate, law.form, law.coefficients)) {
+        MatrixXd& force = taken.emplace_back(patterns(), static_cast<Index>(of.columns.size()));
+        for (std::size_t k = 0; k < of.columns.size(); ++k)
+          force.col(static_cast<Index>(k)) = of.columns[k] * sizes;
+      }
+      paths_.take_forces(taken);
+      std::optional<LinearProblem> linear = paths_.linearise(kFiner);
+      if (!linear) return;
+      linear_ = std::move(*linear);
+      const FittedForm fitted = fit(law.candidate, law.form, law.coefficients);
+      if (!std::isfinite(fitted.squares) || !candidate.admits(fitted.coefficients)) return;
+      law = fitted;
+    }
+  }
+
   /// Squared residuals that the free force leaves, in standard deviations.
   double left_by_force(FrameHalf half) const {
     double sum = 0;
@@ -370,10 +288,13 @@ class LawSearch {
     return forces;
   }
 
-  FittedForm fit(std::size_t number, const std::vector<int>& form) const {
+  /// `first`: coefficients to begin with, or none.
+  FittedForm fit(std::size_t number, const std::vector<int>& form,
+                 const VectorXd& first = {}) const {
     FittedForm fitted;
     fitted.candidate = number;
     fitted.form = form;
+    fitted.coefficients = first;
     const auto terms = static_cast<Index>(form.size());
     for (int loop = 0; loop <= kClosedLoops; ++loop) {
       const LawPart part = law_part(
@@ -388,12 +309,15 @@ class LawSearch {
       fitted.freedom = static_cast<double>(part.seen - laws.cols());
       const MatrixXd covariance = inverse(laws.transpose() * laws);
       fitted.covariance = covariance.topLeftCorner(terms, terms);
-      if (covariance.cols() > terms) fitted.place_variance = covariance(terms, terms);
+      if (covariance.cols() > terms) {
+        fitted.place_variance = covariance(terms, terms);
+        fitted.shift = all[terms];
+      }
     }
     return fitted;
   }
 
-  void read_formula(std::size_t number, ForceLaw& law) const {
+  void read_formula(std::size_t number, ForceLaw& law) {
     std::vector<FittedForm> fits;
     double least = HUGE_VAL, inflation = 1;
     for (std::size_t c = 0; c < candidates_.size(); ++c)
@@ -429,19 +353,26 @@ class LawSearch {
       return candidates_[fitted.candidate].formula(fitted.form, fitted.coefficients,
                                                    inflation * fitted.covariance);
     };
-    law.formula = formula_of(*best);
-    law.place_deviation = std::sqrt(inflation * best->place_variance);
     for (const FittedForm& fitted : fits)
       if (&fitted != best && criterion(fitted) < criterion(*best) + kThresholds.undecided)
         law.rivals.push_back(with_constants(formula_of(fitted)));
+    FittedForm found = *best;
+    follow(found);
+    inflation = std::max(1.0, found.squares / found.freedom);
+    law.formula = formula_of(found);
+    if (at_end(arc_length_, lengths_.sum())) return;  // the end is a place of its own
+    law.place_shift = found.shift;
+    law.place_deviation = std::sqrt(inflation * found.place_variance);
   }
 
+  ForcePaths& paths_;
   const std::vector<MatrixXd>& found_;
-  const LinearProblem& linear_;
-  double apart_;
+  LinearProblem linear_;
+  const VectorXd& lengths_;
+  Index coordinates_;
+  double arc_length_, apart_;
   std::vector<std::vector<PlaceKinematics>> places_;
   std::vector<std::vector<PlaceMotion>> beside_;
-  std::vector<PlaceMotion> visited_;
   std::vector<PlaceLaw> candidates_;
 };
 
@@ -482,9 +413,10 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const VectorXd& lengths,
       patterns.push_back(point_pattern(direction, arc_length + apart, lengths));
   }
   paths.act(std::move(patterns));
-  const std::optional<LinearProblem> linear = paths.linearise();
+  std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
-  ForceLaw law = LawSearch(paths, found, *linear, lengths, coordinates, arc_length, apart).run();
+  ForceLaw law =
+      LawSearch(paths, found, std::move(*linear), lengths, coordinates, arc_length, apart).run();
   describe_law(law);
   return law;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "runtime/status.hpp"
 
@@ -26,13 +28,18 @@ constexpr double kStartDeviation = 0.2;
 /// Of the admissible range of any other.
 constexpr double kRangeDeviation = 0.25;
 
-constexpr int kMostLinearisations = 9;
-/// Root mean square change of what the sensors would see, in standard deviations, and of the
-/// logarithm of the variances, from which on nothing is iterated.
+constexpr int kMostLinearisations = 12;
+/// Root mean square change of what the sensors would see, in standard deviations, and gain of log
+/// evidence, from which on nothing is iterated.
 constexpr double kSettled = 0.02;
-constexpr double kSettledVariance = 0.3;
+constexpr double kSettledEvidence = 1;
 /// Bounds of one change of a variance.
 constexpr double kLeastGrowth = 0.02, kMostGrowth = 100;
+/// The evidence is compared at the prior's time scale and at it times and over this; one change is
+/// at most so many of these steps.
+constexpr double kScaleStep = 1.5, kMostScaleSteps = 2;
+/// s: some frames; longer than the pendulum swings of any recording that was tried.
+constexpr double kShortestScale = 0.02, kLongestScale = 5;
 
 }  // namespace
 
@@ -117,6 +124,26 @@ ForcePaths::ForcePaths(const Problem& problem, const LatentUnknowns& unknowns,
   }
 }
 
+const Recording& ForcePaths::recording(std::size_t path) const {
+  return problem_.experiments()[static_cast<std::size_t>(paths_[path].experiment)].recording;
+}
+
+double ForcePaths::sigma(std::size_t path) const {
+  return sigmas_[static_cast<std::size_t>(paths_[path].experiment)];
+}
+
+std::vector<std::vector<ForcePaths::SeenValue>> ForcePaths::seen_values(std::size_t path) const {
+  const FrameClock& clock = clocks_[path];
+  const Eigen::MatrixXd& measured = recording(path).measured;
+  std::vector<std::vector<SeenValue>> values(clock.times.size());
+  for (Index k = 0; k < recording(path).fit_frames; ++k)
+    for (Index c = 0; c < measured.rows(); ++c)
+      if (!std::isnan(measured(c, k)))
+        values[static_cast<std::size_t>(clock.column[static_cast<std::size_t>(k)])].push_back(
+            {k, static_cast<std::size_t>(c)});
+  return values;
+}
+
 void ForcePaths::act(std::vector<ForcePattern> patterns) {
   patterns_ = std::move(patterns);
   for (ForcePath& path : paths_)
@@ -150,14 +177,10 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
   change.z.setZero(model.states(), 1);
 
   const FrameClock& clock = clocks_[number];
-  std::vector<std::vector<Index>> frames(clock.times.size());
-  for (Index k = 0; k < recording.fit_frames; ++k)
-    frames[static_cast<std::size_t>(clock.column[static_cast<std::size_t>(k)])].push_back(k);
-  std::vector<LinearRecording::Seen> seen(clock.times.size());
-  for (std::size_t node = 0; node < frames.size(); ++node) {
-    Index count = 0;
-    for (const Index k : frames[node])
-      count += (recording.measured.col(k).array() == recording.measured.col(k).array()).count();
+  const std::vector<std::vector<SeenValue>> values = seen_values(number);
+  std::vector<LinearRecording::Seen> seen(values.size());
+  for (std::size_t node = 0; node < values.size(); ++node) {
+    const auto count = static_cast<Index>(values[node].size());
     LinearRecording::Seen& out = seen[node];
     out.value.resize(count);
     out.by_state.setZero(count, ny);
@@ -166,19 +189,18 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
     here.q = path.state.col(static_cast<Index>(node)).head(n);
     here.v = path.state.col(static_cast<Index>(node)).segment(n, n);
     here.z = path.state.col(static_cast<Index>(node)).tail(model.states());
-    Index first = 0;
-    for (const Index k : frames[node]) {
+    for (Index first = 0, next = 0; first < count; first = next) {
+      const Index k = values[node][static_cast<std::size_t>(first)].frame;
+      while (next < count && values[node][static_cast<std::size_t>(next)].frame == k) ++next;
       const auto frame = static_cast<std::size_t>(k);
       observer.move_to(here, 0, recording.time[frame]);
       const auto each = [&](const auto& act) {
-        Index row = first;
-        for (std::size_t c = 0; c < recording.channels.size(); ++c)
-          if (!std::isnan(recording.measured(static_cast<Index>(c), k)))
-            act(row++, observer(recording.channels[c]),
-                recording.measured(static_cast<Index>(c), k));
-        return row;
+        for (Index row = first; row < next; ++row) {
+          const std::size_t c = values[node][static_cast<std::size_t>(row)].channel;
+          act(row, observer(recording.channels[c]), recording.measured(static_cast<Index>(c), k));
+        }
       };
-      const Index next = each([&](Index row, double simulated, double measured) {
+      each([&](Index row, double simulated, double measured) {
         out.value[row] = (measured - simulated) / sigma;
       });
       for (std::size_t j = 0; j < along.size(); ++j) {
@@ -190,13 +212,12 @@ std::vector<LinearRecording::Seen> ForcePaths::observe(std::size_t number,
           (column < n ? out.by_state(row, column) : out.by_parameter(row, column - n)) = by / sigma;
         });
       }
-      first = next;
     }
   }
   return seen;
 }
 
-std::optional<LinearProblem> ForcePaths::linearise() const {
+std::optional<LinearProblem> ForcePaths::linearise(int finer) const {
   const Model& model = problem_.model();
   const Index n = model.coordinates();
   LinearProblem linear;
@@ -232,8 +253,8 @@ std::optional<LinearProblem> ForcePaths::linearise() const {
       if (direction.parameters.size() > 0) along.back().parameters = slope * direction.parameters;
     }
 
-    IntervalIntegrator integrate(model, parameters, experiment.signals, patterns_, prior, along,
-                                 kStep);
+    IntervalIntegrator integrate(model, parameters, experiment.signals, patterns_, along,
+                                 kStep / finer);
     const std::vector<double>& times = clocks_[number].times;
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
       if (keep_going_ && !keep_going_()) return std::nullopt;
@@ -246,15 +267,13 @@ std::optional<LinearProblem> ForcePaths::linearise() const {
       step.by_state = std::move(map->by_state);
       step.by_force = std::move(map->by_force);
       step.by_parameter = std::move(map->by_parameter);
-      step.transition = prior.transition(times[k + 1] - times[k]);
+      step.duration = times[k + 1] - times[k];
     }
     recording.seen = observe(number, unknowns);
   }
   return linear;
 }
 
-/// Moves path, forces and unknowns there. Returns the root mean square change of what the sensors
-/// would see, in standard deviations.
 double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
   double sum = 0, count = 0;
   for (std::size_t number = 0; number < paths_.size(); ++number) {
@@ -281,7 +300,50 @@ double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
   return std::sqrt(sum / std::max(1.0, count));
 }
 
-std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance) {
+void ForcePaths::take_forces(const std::vector<MatrixXd>& forces) {
+  for (std::size_t number = 0; number < paths_.size(); ++number) {
+    const MatrixXd& taken = forces[number];
+    MatrixXd& force = paths_[number].force;
+    force.setZero(2 * taken.rows(), taken.cols());
+    for (Index k = 0; k < taken.cols(); ++k) {
+      const auto node = static_cast<std::size_t>(k);
+      for (Index m = 0; m < taken.rows(); ++m) {
+        force(2 * m, k) = taken(m, k);
+        if (k + 1 < taken.cols())
+          force(2 * m + 1, k) = (taken(m, k + 1) - taken(m, k)) /
+                                (clocks_[number].times[node + 1] - clocks_[number].times[node]);
+      }
+    }
+  }
+}
+
+/// Moves the prior's time scale towards the largest evidence, and the variances so that the prior
+/// of fast forces stays: variance / time scale^3.
+void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
+                         std::vector<double>& variance) {
+  const auto scaled = [&](double factor) {
+    ForcePrior other = prior;
+    other.time_scale *= factor;
+    std::vector<double> variances = variance;
+    for (double& of : variances) of *= factor * factor * factor;
+    return std::pair(other, variances);
+  };
+  const auto evidence = [&](double factor) {
+    const auto [other, variances] = scaled(factor);
+    return smooth_forces(linear, acting, variances, other, false).log_evidence;
+  };
+  const double less = evidence(1 / kScaleStep), here = evidence(1), more = evidence(kScaleStep);
+  if (!std::isfinite(less + here + more)) return;
+  const double slope = 0.5 * (more - less), bend = more - 2 * here + less;
+  double steps = slope > 0 ? 1 : -1;
+  if (bend < 0) steps = std::clamp(-slope / bend, -kMostScaleSteps, kMostScaleSteps);
+  const double factor =
+      std::clamp(prior.time_scale * std::pow(kScaleStep, steps), kShortestScale, kLongestScale) /
+      prior.time_scale;
+  std::tie(prior, variance) = scaled(factor);
+}
+
+std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance, bool with_time_scale) {
   std::vector<ActingForce> acting;
   for (std::size_t m = 0; m < patterns_.size(); ++m)
     acting.push_back({static_cast<Index>(m), patterns_[m].group});
@@ -289,18 +351,15 @@ std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance) {
   for (int iteration = 0; iteration < kMostLinearisations; ++iteration) {
     const std::optional<LinearProblem> linear = linearise();
     if (!linear) return std::nullopt;
-    smoothed = smooth_forces(*linear, acting, variance, true);
+    const double before = smoothed ? smoothed->log_evidence : -HUGE_VAL;
+    smoothed = smooth_forces(*linear, acting, variance, prior, true);
     if (!std::isfinite(smoothed->log_evidence)) return std::nullopt;
     const double moved = move(*linear, *smoothed);
-    double change = 0;
-    for (std::size_t g = 0; g < variance.size(); ++g) {
-      const double growth = std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth);
-      // A variance that vanishes has no scale to settle on.
-      if (growth > kLeastGrowth && variance[g] > 1e-12)
-        change = std::max(change, std::abs(std::log(growth)));
-      variance[g] = std::max(1e-16, variance[g] * growth);
-    }
-    if (moved < kSettled && change < kSettledVariance) break;
+    if (moved < kSettled && smoothed->log_evidence - before < kSettledEvidence) break;
+    for (std::size_t g = 0; g < variance.size(); ++g)
+      variance[g] =
+          std::max(1e-16, variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth));
+    if (with_time_scale) rescale(*linear, acting, variance);
   }
   return smoothed;
 }

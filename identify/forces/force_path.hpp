@@ -44,7 +44,7 @@ class LatentUnknowns {
 struct ForcePath {
   int experiment = 0;
   Eigen::MatrixXd state;  ///< (q, v, z), one column per node
-  Eigen::MatrixXd force;  ///< (w, w' / rate) of each pattern, one column per node
+  Eigen::MatrixXd force;  ///< (w, dw/dt) of each pattern, one column per node
 };
 
 /// A motion of all recordings, forces and the values of the unknowns, iterated until it is the most
@@ -56,6 +56,17 @@ class ForcePaths {
              const std::vector<double>& sigmas, const Eigen::VectorXd& x,
              const std::function<bool()>& keep_going);
 
+  /// The recording of a path, and its noise, m or rad.
+  const Recording& recording(std::size_t path) const;
+  double sigma(std::size_t path) const;
+  /// A number that was measured, by its frame and channel.
+  struct SeenValue {
+    Eigen::Index frame = 0;
+    std::size_t channel = 0;
+  };
+  /// Of each node, in the order of LinearRecording::Seen.
+  std::vector<std::vector<SeenValue>> seen_values(std::size_t path) const;
+
   /// Whether there is a motion: the simulation at x succeeded.
   bool ok() const { return !paths_.empty(); }
   const Eigen::VectorXd& x() const { return x_; }
@@ -66,12 +77,22 @@ class ForcePaths {
   void act(std::vector<ForcePattern> patterns);
   const std::vector<ForcePattern>& patterns() const { return patterns_; }
 
-  /// Nothing where the equations cannot be followed or the work is to end.
-  std::optional<LinearProblem> linearise() const;
+  /// With steps so many times finer than the estimate needs. Nothing where the equations cannot be
+  /// followed or the work is to end.
+  std::optional<LinearProblem> linearise(int finer = 1) const;
 
   /// Relinearises and smooths until nothing moves by more than a small part of the noise, and the
-  /// variances (of the groups, updated) are those of the largest evidence. Nothing as linearise.
-  std::optional<Smoothed> settle(std::vector<double>& variance);
+  /// variances (of the groups, updated) are those of the largest evidence; `with_time_scale`: the
+  /// prior's time scale, too. Nothing as linearise.
+  std::optional<Smoothed> settle(std::vector<double>& variance, bool with_time_scale);
+
+  /// Moves motion and unknowns to what was smoothed about them; `linear` may have more shared
+  /// parameters behind those of the problem. The forces are those smoothed, none where none acted.
+  /// Returns the root mean square change of what the sensors would see, in standard deviations.
+  double move(const LinearProblem& linear, const Smoothed& smoothed);
+
+  /// Takes forces that go straight from node to node: patterns x nodes, of each recording.
+  void take_forces(const std::vector<Eigen::MatrixXd>& forces);
 
   /// Sum of the squared residuals, in units of the noise.
   double squares() const;
@@ -81,7 +102,8 @@ class ForcePaths {
  private:
   std::vector<LinearRecording::Seen> observe(std::size_t path,
                                              const std::vector<Eigen::Index>& unknowns) const;
-  double move(const LinearProblem& linear, const Smoothed& smoothed);
+  void rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
+               std::vector<double>& variance);
 
   const Problem& problem_;
   const LatentUnknowns& unknowns_;

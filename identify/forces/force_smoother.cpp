@@ -33,8 +33,8 @@ struct Node {
 class ChainFilter {
  public:
   ChainFilter(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-              const std::vector<double>& variance)
-      : problem_(problem), forces_(forces), variance_(variance) {}
+              const std::vector<double>& variance, const ForcePrior& prior)
+      : problem_(problem), forces_(forces), variance_(variance), prior_(prior) {}
 
   Smoothed run(bool smooth) {
     Smoothed out;
@@ -62,12 +62,14 @@ class ChainFilter {
     return variance_[static_cast<std::size_t>(forces_[force].group)];
   }
 
-  /// The columns of the acting patterns.
+  /// The columns of the acting patterns, by (w, w' / rate).
   MatrixXd by_force(const LinearRecording::Step& step) const {
     MatrixXd columns(step.by_force.rows(), static_cast<Index>(2 * forces_.size()));
-    for (std::size_t f = 0; f < forces_.size(); ++f)
-      columns.middleCols(static_cast<Index>(2 * f), 2) =
-          step.by_force.middleCols(2 * forces_[f].pattern, 2);
+    for (std::size_t f = 0; f < forces_.size(); ++f) {
+      const auto column = static_cast<Index>(2 * f);
+      columns.col(column) = step.by_force.col(2 * forces_[f].pattern);
+      columns.col(column + 1) = prior_.rate() * step.by_force.col(2 * forces_[f].pattern + 1);
+    }
     return columns;
   }
 
@@ -117,7 +119,7 @@ class ChainFilter {
     moved.noalias() = rows * covariance;
     MatrixXd yy(size.y, size.y);
     yy.noalias() = moved * rows.transpose();
-    const Matrix2d& a = step.transition;
+    const Matrix2d a = prior_.transition(step.duration);
     const Matrix2d added = Matrix2d::Identity() - a * a.transpose();
     // w: A on both sides of its blocks, on one side of those with y and p.
     for (std::size_t f = 0; f < forces_.size(); ++f) {
@@ -210,10 +212,11 @@ class ChainFilter {
         }
         read_off(node, size, lambda, information, k, result);
         const bool first = k == 0;
-        const Matrix2d added = first ? Matrix2d::Identity()
-                                     : Matrix2d(Matrix2d::Identity() -
-                                                recording.steps[k - 1].transition *
-                                                    recording.steps[k - 1].transition.transpose());
+        Matrix2d added = Matrix2d::Identity();
+        if (!first) {
+          const Matrix2d a = prior_.transition(recording.steps[k - 1].duration);
+          added -= a * a.transpose();
+        }
         for (std::size_t f = 0; f < forces_.size(); ++f) {
           const Index i = size.y + static_cast<Index>(2 * f);
           const auto group = static_cast<std::size_t>(forces_[f].group);
@@ -246,6 +249,7 @@ class ChainFilter {
     result.state.col(column) = mean.head(size.y);
     result.force.col(column) = mean.segment(size.y, size.w);
     const auto count = static_cast<Index>(forces_.size());
+    for (Index f = 0; f < count; ++f) result.force(2 * f + 1, column) *= prior_.rate();
     MatrixXd of_force(count, size.all()), prior(count, count);
     for (Index f = 0; f < count; ++f) of_force.row(f) = node.covariance.row(size.y + 2 * f);
     for (Index f = 0; f < count; ++f) prior.col(f) = of_force.col(size.y + 2 * f);
@@ -258,12 +262,13 @@ class ChainFilter {
   void go_back(const LinearRecording::Step& step, const Sizes& size, VectorXd& lambda,
                MatrixXd& information) const {
     const MatrixXd rows = rows_of_y(step, size);
+    const Matrix2d a = prior_.transition(step.duration);
     // Transition T: the rows of y, then A of w and 1 of p. T' = rows' [y] + rest.
     const auto transposed = [&](const auto& values) {
       MatrixXd out = rows.transpose() * values.topRows(size.y);
       for (std::size_t f = 0; f < forces_.size(); ++f) {
         const Index i = size.y + static_cast<Index>(2 * f);
-        out.middleRows(i, 2) += step.transition.transpose() * values.middleRows(i, 2);
+        out.middleRows(i, 2) += a.transpose() * values.middleRows(i, 2);
       }
       out.bottomRows(size.p()) += values.bottomRows(size.p());
       return out;
@@ -276,14 +281,22 @@ class ChainFilter {
   const LinearProblem& problem_;
   const std::vector<ActingForce>& forces_;
   const std::vector<double>& variance_;
+  const ForcePrior& prior_;
   std::vector<std::vector<Node>> nodes_;
 };
 
 }  // namespace
 
+Matrix2d ForcePrior::transition(double step) const {
+  const double x = rate() * step;
+  Matrix2d a;
+  a << 1 + x, x, -x, 1 - x;
+  return std::exp(-x) * a;
+}
+
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, bool smooth) {
-  return ChainFilter(problem, forces, variance).run(smooth);
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth) {
+  return ChainFilter(problem, forces, variance, prior).run(smooth);
 }
 
 }  // namespace catena

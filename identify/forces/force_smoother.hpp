@@ -2,25 +2,37 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "identify/forces/interval_map.hpp"
 
 namespace catena {
 
+/// The smooth random forces of a prior: each is a Matern process of smoothness 3/2, so that
+/// (w, w' / rate) is a Markov chain with equal, independent variances.
+struct ForcePrior {
+  double time_scale = 0.15;  ///< s
+
+  double rate() const { return std::sqrt(3.0) / time_scale; }  ///< 1/s
+  /// From (w, w' / rate) to its expectation after `step` s. What is added has the covariance
+  /// variance * (1 - A A').
+  Eigen::Matrix2d transition(double step) const;
+};
+
 /// The equations of one recording, linearised about a path of nodes, and what was measured at them.
-/// y: (q, v, z) minus the path; w: (w, w' / rate) of every pattern; p: the shared parameters, then
+/// y: (q, v, z) minus the path; w: (w, dw/dt) of every pattern; p: the shared parameters, then
 /// the recording's own, minus those of the path.
 ///
 ///     y(0)   = start_offset + start_by_parameter p
 ///     y(k+1) = by_state y(k) + by_force w(k) + by_parameter p + offset
-///     w(k+1) = A w(k) + noise
+///     w(k+1): what a prior makes of w(k)
 ///     seen   = observed_by_state y + observed_by_parameter p + noise
 struct LinearRecording {
   struct Step {
     Eigen::MatrixXd by_state, by_force, by_parameter;
     Eigen::VectorXd offset;
-    Eigen::Matrix2d transition;  ///< A of each pattern
+    double duration = 0;  ///< s
   };
   struct Seen {
     Eigen::VectorXd value;  ///< measured minus what the path gives, in standard deviations
@@ -49,7 +61,7 @@ struct Smoothed {
   double log_evidence = 0;  ///< up to a constant of the data
   struct Recording {
     Eigen::MatrixXd state;  ///< y, one column per node
-    Eigen::MatrixXd force;  ///< (w, w' / rate) of each acting pattern, one column per node
+    Eigen::MatrixXd force;  ///< (w, dw/dt) of each acting pattern, one column per node
     std::vector<Eigen::MatrixXd> covariance;  ///< of w alone, acting patterns squared, per node
     Eigen::VectorXd own;
   };
@@ -65,6 +77,6 @@ struct Smoothed {
 /// group. Without `smooth` the evidence alone. References: Bierman, Automatica 9 (1973) 503;
 /// MacKay, Neural Computation 4 (1992) 415, for the growth.
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, bool smooth);
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth);
 
 }  // namespace catena

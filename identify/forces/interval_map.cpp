@@ -26,23 +26,14 @@ std::vector<std::vector<DirectionBatch>> zeros(std::size_t batches, std::size_t 
 
 }  // namespace
 
-Eigen::Matrix2d ForcePrior::transition(double step) const {
-  const double x = std::sqrt(3.0) / time_scale * step;
-  Eigen::Matrix2d a;
-  a << 1 + x, x, -x, 1 - x;
-  return std::exp(-x) * a;
-}
-
 IntervalIntegrator::IntervalIntegrator(const Model& model, const VectorXd& parameters,
                                        const Signals& signals,
                                        const std::vector<ForcePattern>& patterns,
-                                       const ForcePrior& prior,
                                        const std::vector<SensitivityDirection>& directions,
                                        double step)
     : model_(model),
       dynamics_(model, parameters, signals),
       patterns_(patterns),
-      prior_(prior),
       step_(step),
       n_(model.coordinates()),
       states_(model.states()),
@@ -131,12 +122,11 @@ bool IntervalIntegrator::step_on(double t, double step, const VectorXd& force, d
   const auto n = static_cast<std::size_t>(n_), states = static_cast<std::size_t>(states_);
   const double gamma = 0.5 * step;
   for (std::size_t i = 0; i < n; ++i) predicted_q_[i] = q_[i] + gamma * v_[i];
-  const Eigen::Matrix2d a = prior_.transition(since);
   std::fill(force_.begin(), force_.end(), 0.0);
   std::fill(turning_.begin(), turning_.end(), 0.0);
   for (std::size_t m = 0; m < patterns_.size(); ++m) {
     const auto row = static_cast<Index>(2 * m);
-    const double size = a(0, 0) * force[row] + a(0, 1) * force[row + 1];
+    const double size = force[row] + since * force[row + 1];
     std::fill(unit_force_[m].begin(), unit_force_[m].end(), 0.0);
     add_generalised_force(patterns_[m], lengths_, predicted_q_.data(), 1.0, unit_force_[m].data());
     const ForcePattern& p = patterns_[m];
@@ -196,7 +186,6 @@ bool IntervalIntegrator::step_on(double t, double step, const VectorXd& force, d
 void IntervalIntegrator::differentiate(double t, double gamma, double since) {
   const auto n = static_cast<std::size_t>(n_), states = static_cast<std::size_t>(states_);
   const auto first = static_cast<std::size_t>(2 * n_ + states_);
-  const Eigen::Matrix2d a = prior_.transition(since);
   const catena_point at =
       dynamics_.at(t, middle_q_.data(), middle_v_.data(), a_.data(), middle_z_.data());
   for (std::size_t b = 0; b < batches_; ++b) {
@@ -215,7 +204,7 @@ void IntervalIntegrator::differentiate(double t, double gamma, double since) {
       const std::size_t column = b * kWidth + k;
       if (column < first || column >= first + static_cast<std::size_t>(forces_)) continue;
       const std::size_t m = (column - first) / 2;
-      const double size = a(0, static_cast<Index>((column - first) % 2));
+      const double size = (column - first) % 2 == 0 ? 1.0 : since;
       for (std::size_t i = 0; i < n; ++i) change_[i].of[k] -= size * unit_force_[m][i];
     }
     for (std::size_t i = 0; i < n; ++i)

@@ -21,19 +21,9 @@ struct IntervalMap {
   Eigen::MatrixXd by_state, by_force, by_parameter;
 };
 
-/// The smooth random forces of a prior: each is a Matern process of smoothness 3/2, so that
-/// (w, w' / rate), rate = sqrt(3) / time scale, is a Markov chain with equal, independent variances.
-struct ForcePrior {
-  double time_scale = 0.15;  ///< s
-
-  /// From (w, w' / rate) to its expectation after `step` s. What is added has the covariance
-  /// variance * (1 - A A').
-  Eigen::Matrix2d transition(double step) const;
-};
-
 /// Integrates the equations of a model with forces over an interval by the implicit midpoint rule,
 /// with steps of at most `step` s, and differentiates what it does. Within the interval the forces
-/// are what their prior expects from those at its beginning. They turn with the angles that the
+/// go on straight, as they begin. They turn with the angles that the
 /// rates at the beginning of a step predict at its middle: a difference of second order in the
 /// step, as the rule itself has.
 class IntervalIntegrator {
@@ -41,10 +31,10 @@ class IntervalIntegrator {
   /// `parameters`: the model's array. `directions`: by which derivatives are wanted; only their
   /// parameters are read. References must outlive this object.
   IntervalIntegrator(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals,
-                     const std::vector<ForcePattern>& patterns, const ForcePrior& prior,
+                     const std::vector<ForcePattern>& patterns,
                      const std::vector<SensitivityDirection>& directions, double step);
 
-  /// From `begin` to `end` (s). `state`: (q, v, z). `force`: (w, w' / rate) of each pattern. Nothing
+  /// From `begin` to `end` (s). `state`: (q, v, z). `force`: (w, dw/dt) of each pattern. Nothing
   /// where Newton's iteration fails.
   std::optional<IntervalMap> operator()(double begin, double end, const Eigen::VectorXd& state,
                                         const Eigen::VectorXd& force);
@@ -56,7 +46,6 @@ class IntervalIntegrator {
   const Model model_;
   Dynamics dynamics_;
   const std::vector<ForcePattern>& patterns_;
-  ForcePrior prior_;
   double step_;
   Eigen::Index n_, states_, forces_, parameters_;
   Eigen::VectorXd lengths_;

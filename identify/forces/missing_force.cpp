@@ -8,6 +8,7 @@
 
 #include "common/cpu_seconds.hpp"
 #include "identify/forces/force_path.hpp"
+#include "identify/forces/sensor_error.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/parameter_map.hpp"
 
@@ -90,8 +91,10 @@ std::vector<ForcePattern> point_patterns(const std::vector<double>& places,
                                          const ChainMeasures& chain) {
   std::vector<ForcePattern> patterns;
   for (const double s : places)
-    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown})
+    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown}) {
       patterns.push_back(point_pattern(direction, s, chain.lengths));
+      patterns.back().group = direction == ForceDirection::kDown;
+    }
   return patterns;
 }
 
@@ -123,12 +126,13 @@ struct Peak {
   double log_evidence = 0, variance = 0;
 };
 
-Peak peak_of(const LinearProblem& linear, const std::vector<ActingForce>& acting, double size) {
+Peak peak_of(const LinearProblem& linear, const std::vector<ActingForce>& acting,
+             const ForcePrior& prior, double size) {
   Peak best;
   std::vector<double> evidence;
   for (const double factor : kSizes) {
     const double variance = factor * size * factor * size;
-    evidence.push_back(smooth_forces(linear, acting, {variance}, false).log_evidence);
+    evidence.push_back(smooth_forces(linear, acting, {variance}, prior, false).log_evidence);
     if (evidence.size() == 1 || evidence.back() > best.log_evidence)
       best = {evidence.back(), variance};
   }
@@ -201,9 +205,9 @@ class PlaceSearch {
     std::vector<ForcePattern> patterns = point_patterns(at, chain_);
     patterns.push_back(torque_pattern(chain_.lengths.size()));
     if (!linearise(std::move(patterns))) return false;
-    none_ = smooth_forces(*linear_, {}, {}, false).log_evidence;
-    const Peak torque =
-        peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, size_ * chain_.length);
+    none_ = smooth_forces(*linear_, {}, {}, paths_.prior, false).log_evidence;
+    const Peak torque = peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, paths_.prior,
+                                size_ * chain_.length);
     missing.places.push_back({"torque at the support", 0, torque.log_evidence - none_});
     variance_.push_back(torque.variance);
     add(at, missing.places);
@@ -246,6 +250,16 @@ class PlaceSearch {
     return true;
   }
 
+  /// The error of the camera that explains most about the motion last linearised.
+  std::optional<MissingForce::Sensor> best_sensor() const {
+    std::optional<MissingForce::Sensor> best;
+    for (const SensorError& error : sensor_errors(paths_, chain_.lengths)) {
+      const double evidence = log_evidence_of(error, *linear_) - none_;
+      if (!best || evidence > best->log_evidence) best = {error.name, evidence};
+    }
+    return best;
+  }
+
   double best_variance() const { return best_variance_; }
   double none() const { return none_; }
 
@@ -260,7 +274,7 @@ class PlaceSearch {
   void add(const std::vector<double>& at, std::vector<MissingForce::Place>& places) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto pattern = static_cast<Index>(2 * i);
-      const Peak peak = peak_of(*linear_, {{pattern, 0}, {pattern + 1, 0}}, size_);
+      const Peak peak = peak_of(*linear_, {{pattern, 0}, {pattern + 1, 0}}, paths_.prior, size_);
       places.push_back(
           {fmt::format("force at arc length {:.3g} m", at[i]), at[i], peak.log_evidence - none_});
       variance_.push_back(peak.variance);
@@ -369,6 +383,13 @@ void describe_everywhere(MissingForce& missing) {
 }
 
 void describe(MissingForce& missing) {
+  if (!missing.found && missing.sensor) {
+    missing.words.push_back(fmt::format(
+        "no force on the chain: an error of the camera explains the recordings as well: {} "
+        "(log evidence {:.4g}, of forces {:.4g})",
+        missing.sensor->name, missing.sensor->log_evidence, missing.log_evidence));
+    return;
+  }
   if (!missing.found) {
     missing.words.push_back(
         fmt::format("no force on the chain: one would explain {:.1f} % of the squared residuals "
@@ -426,7 +447,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   const double squares_without = paths.squares();
   paths.act(all_patterns(chain));
   std::vector<double> variance = first_variances(chain);
-  std::optional<Smoothed> everywhere = paths.settle(variance);
+  std::optional<Smoothed> everywhere = paths.settle(variance, false);
   if (!everywhere) return false;
   missing.share = 1 - paths.squares() / squares_without;
   // A force may be zero, so it leaves no more than none does: else the iterations went astray.
@@ -453,14 +474,20 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.places.clear();
     return true;
   }
+  missing.sensor = search.best_sensor();
   if (!search.look_closer(missing)) return false;
+  if (missing.sensor &&
+      missing.sensor->log_evidence >= std::max(missing.log_evidence, missing.best->log_evidence)) {
+    missing.found = false;
+    return true;
+  }
 
   // What acts there if it acts nowhere else.
   const bool torque = missing.best->arc_length == 0;
   paths.act(torque ? std::vector{torque_pattern(chain.lengths.size())}
                    : point_patterns({missing.best->arc_length}, chain));
-  std::vector<double> at_place = {search.best_variance()};
-  const std::optional<Smoothed> there = paths.settle(at_place);
+  std::vector<double> at_place(torque ? 1 : 2, search.best_variance());
+  const std::optional<Smoothed> there = paths.settle(at_place, true);
   if (!there) return false;
   missing.best->log_evidence = there->log_evidence - search.none();
   missing.one_place = there->log_evidence >= everywhere->log_evidence;

@@ -53,6 +53,13 @@ struct MissingForce {
     double log_evidence = 0;  ///< against no force
   };
   std::vector<Place> places;  ///< along the cable, the torque first
+  /// The error of the camera that explains most, without any force. Where its evidence is not below that
+  /// of every force, no force is found.
+  struct Sensor {
+    std::string name;
+    double log_evidence = 0;  ///< against none
+  };
+  std::optional<Sensor> sensor;
   /// The best place of all, refined, and what acts there if it acts nowhere else: one pattern for
   /// the torque, else side and down, N.
   std::optional<Place> best;

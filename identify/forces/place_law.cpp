@@ -40,9 +40,10 @@ constexpr PairNames kPairNames[] = {
     {ConjugatePair::kTangentialVelocity, "force along the cable", "tangential velocity", "N", "m/s",
      "velocity_tangential"},
     {ConjugatePair::kSpeed, "force along the velocity", "speed", "N", "m/s", nullptr},
-    {ConjugatePair::kAngle, "torque at the support", "angle of link 1", "N m", "rad", "angle"},
+    {ConjugatePair::kAngle, "torque at the support", "angle of link 1", "N m", "rad",
+     "joint_angle"},
     {ConjugatePair::kAngularVelocity, "torque at the support", "rate of link 1", "N m", "rad/s",
-     "rate"},
+     "joint_rate"},
 };
 
 const PairNames& names_of(ConjugatePair pair) {

@@ -21,6 +21,9 @@ struct PlaceKinematics {
 PlaceKinematics place_kinematics(const Eigen::VectorXd& state, Eigen::Index coordinates,
                                  const Eigen::VectorXd& lengths, double s);
 
+/// Whether a place is the end of the cable, but for rounding.
+inline bool at_end(double s, double length) { return s > length * (1 - 1e-6); }
+
 /// A force of a place and the variable that it goes with.
 enum class ConjugatePair {
   kSidePosition,
@@ -71,7 +74,7 @@ class PlaceLaw {
     std::vector<Constant> constants;
     bool dissipation = false;  ///< `energy` is one, else a potential
     /// The integral of -force over the variable in the language of effects (docs/effects.md). The
-    /// place is `offset` past the middle of a link.
+    /// place is `offset` past the middle of a link; the torque is at the pivot.
     std::string energy;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };

@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
   app.add_option("--duration", film.camera.duration, "s");
   app.add_option("--noise", film.camera.noise, "m");
   app.add_option("--seed", film.camera.seed, "of the noise");
+  app.add_option("--lens", film.camera.lens, "as of make_recording");
+  app.add_option("--shutter", film.camera.shutter, "s");
+  app.add_option("--drift", film.camera.drift, "m");
+  app.add_option("--slip", film.camera.slip, "m");
   testing::Gusts gusts;
   app.add_option("--gusts", gusts.size,
                  "N, of a force at mid-cable that follows no law; no effects");
@@ -52,11 +56,15 @@ int main(int argc, char** argv) {
   for (const auto& place : found.places)
     fmt::print("  {:34} log evidence {:.1f}\n", place.name, place.log_evidence);
   if (found.best) fmt::print("  best: {} {:.4f}\n", found.best->name, found.best->log_evidence);
+  if (found.sensor)
+    fmt::print("camera: {}, log evidence {:.1f}\n", found.sensor->name, found.sensor->log_evidence);
   fmt::print("found {}, share {:.4f}, log evidence {:.1f}, CPU {:.1f} s (asked: at most 30)\n",
              found.found, found.share, found.log_evidence, found.seconds);
   if (found.law) {
     fmt::print("law found {}: {} against {}, confirmed {:.3f}, chance {:.3f}\n", found.law->found,
                found.law->force, found.law->variable, found.law->confirmed, found.law->chance);
+    fmt::print("  place        {:.6g} +- {:.2g} m\n",
+               found.best->arc_length + found.law->place_shift, found.law->place_deviation);
     for (const PlaceLaw::Constant& c : found.law->formula.constants)
       fmt::print("  {:12} {:.6g} +- {:.2g} {}\n", c.name, c.value, c.deviation, c.unit);
   }

@@ -127,9 +127,8 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
   const Eigen::VectorXd lengths = link_lengths(problem.model(), parameters);
   const std::vector<ForcePattern> patterns = {
       point_pattern(ForceDirection::kSide, 0.5 * lengths.sum(), lengths)};
-  const ForcePrior prior;
   IntervalIntegrator integrate(problem.model(), parameters, problem.experiments()[0].signals,
-                               patterns, prior, {}, 1.0 / 960);
+                               patterns, {}, 1.0 / 960);
   const std::vector<double> start = filmed.film.start();
   Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * lengths.size());
   for (Eigen::Index k = 0; k < lengths.size(); ++k) state[k] = start[static_cast<std::size_t>(k)];
@@ -149,7 +148,7 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
     }
     if (frame + 1 == recording.time.size()) break;
     const double t = recording.time[frame];
-    const Eigen::Vector2d force(gusts(t), gusts.rate(t) * prior.time_scale / std::sqrt(3.0));
+    const Eigen::Vector2d force(gusts(t), gusts.rate(t));
     const auto next = integrate(t, recording.time[frame + 1], state, force);
     if (!next) throw std::runtime_error("the gusts cannot be followed");
     state = next->end;

@@ -104,6 +104,29 @@ void check_constant(const PlaceLaw::Constant& constant, double truth, const char
 
 }  // namespace
 
+TEST_CASE("a lens, a shutter that rolls, a drift and a slipping marker are no force") {
+  struct Wrong {
+    const char* name;
+    double truth::Camera::*error;
+    double size;
+  };
+  for (const Wrong& wrong :
+       {Wrong{"the lens bends lines, or the camera looks at a slant", &truth::Camera::lens, 0.02},
+        Wrong{"the picture is read line by line (rolling shutter)", &truth::Camera::shutter, 0.004},
+        Wrong{"the camera drifts", &truth::Camera::drift, 0.02},
+        Wrong{"marker 3 slips along the cable", &truth::Camera::slip, 0.02}}) {
+    CAPTURE(wrong.name);
+    testing::Film film = short_film();
+    film.camera.*wrong.error = wrong.size;
+    const MissingForce found = force_in(testing::film(film, {}));
+    CHECK_FALSE(found.found);
+    REQUIRE(found.sensor.has_value());
+    CHECK(found.sensor->name == wrong.name);
+    REQUIRE(found.words.size() == 1);
+    CHECK(found.words[0].starts_with("no force on the chain: an error of the camera"));
+  }
+}
+
 TEST_CASE("the law of a spring to a wall: stiffness and rest position") {
   testing::Film film = short_film();
   film.camera.duration = 4;
@@ -116,6 +139,9 @@ TEST_CASE("the law of a spring to a wall: stiffness and rest position") {
   CHECK(found.law->force == "side force");
   CHECK(found.law->variable == "side position");
   CHECK(found.law->confirmed == doctest::Approx(1).epsilon(0.02));
+  CHECK(found.sensor->log_evidence < found.log_evidence);
+  CHECK(std::abs(found.best->arc_length + found.law->place_shift - testing::true_place(film)) <
+        3 * found.law->place_deviation);
   REQUIRE(found.law->formula.constants.size() == 2);
   check_constant(found.law->formula.constants[0], 0.3, "N/m");
   check_constant(found.law->formula.constants[1], 0.3, "m");

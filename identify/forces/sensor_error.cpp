@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/sensor_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "identify/forces/place_law.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Knots of what changes in time; it is zero at the first frame and straight between them.
+constexpr Index kKnots = 6;
+/// Deviations of the priors; three sizes of each are tried. Chosen: what cameras do.
+constexpr double kBending = 0.1;    // 1, of the scale at a cable's length from the middle
+constexpr double kReading = 0.01;   // s, from the support to a cable's length below it
+constexpr double kDrifting = 0.01;  // m
+constexpr double kSlipping = 0.01;  // m
+constexpr double kSizes[] = {0.1, 1, 10};
+
+/// A marker at a frame.
+struct Sight {
+  std::size_t point = 0;
+  double time = 0;  ///< from 0 at the first frame to 1 at the last
+  PlaceMotion motion;
+};
+
+/// What the error adds to a marker's position, side and down, by each of its numbers.
+using Added = std::function<Eigen::Matrix2Xd(const Sight&)>;
+
+double arc_length_of(const PointSpec& point, const VectorXd& lengths) {
+  if (point.load) return lengths.sum();
+  if (point.joint > 0) return lengths.head(point.joint).sum();
+  return point.arc_length;
+}
+
+/// At a time, of each knot but the first.
+Eigen::RowVectorXd hats(double time) {
+  Eigen::RowVectorXd values(kKnots);
+  for (Index j = 0; j < kKnots; ++j)
+    values[j] =
+        std::max(0.0, 1 - std::abs(time * static_cast<double>(kKnots) - static_cast<double>(j + 1)));
+  return values;
+}
+
+SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::string name,
+                       double deviation, const Added& added) {
+  SensorError error{std::move(name), deviation, {}};
+  for (std::size_t r = 0; r < paths.paths().size(); ++r) {
+    const ForcePath& path = paths.paths()[r];
+    const Recording& recording = paths.recording(r);
+    const double begin = recording.time.front();
+    const double span = recording.time[static_cast<std::size_t>(recording.fit_frames - 1)] - begin;
+    std::vector<MatrixXd>& nodes = error.columns.emplace_back();
+    const auto values = paths.seen_values(r);
+    for (std::size_t node = 0; node < values.size(); ++node) {
+      MatrixXd& columns = nodes.emplace_back();
+      for (std::size_t i = 0; i < values[node].size(); ++i) {
+        const Channel& channel = recording.channels[values[node][i].channel];
+        const auto point = static_cast<std::size_t>(channel.point);
+        const Sight sight{
+            point,
+            (recording.time[static_cast<std::size_t>(values[node][i].frame)] - begin) / span,
+            place_kinematics(path.state.col(static_cast<Index>(node)), lengths.size(), lengths,
+                             arc_length_of(recording.points[point], lengths))
+                .motion};
+        const Eigen::Matrix2Xd both = added(sight) / paths.sigma(r);
+        if (columns.size() == 0)
+          columns.setZero(static_cast<Index>(values[node].size()), both.cols());
+        columns.row(static_cast<Index>(i)) = both.row(channel.component == Component::kDown);
+      }
+    }
+  }
+  return error;
+}
+
+}  // namespace
+
+std::vector<SensorError> sensor_errors(const ForcePaths& paths, const VectorXd& lengths) {
+  std::size_t markers = 0;
+  for (std::size_t r = 0; r < paths.paths().size(); ++r) {
+    for (const Channel& channel : paths.recording(r).channels)
+      if (channel.component != Component::kSide && channel.component != Component::kDown) return {};
+    markers = std::max(markers, paths.recording(r).points.size());
+  }
+  const double length = lengths.sum();
+  std::vector<SensorError> errors;
+  const auto add = [&](std::string name, double deviation, const Added& added) {
+    errors.push_back(make_error(paths, lengths, std::move(name), deviation, added));
+  };
+  add("the lens bends lines, or the camera looks at a slant", kBending, [&](const Sight& sight) {
+    const Vector2d at = sight.motion.head<2>() / length, from = at - Vector2d(0, 0.5);
+    Eigen::Matrix2Xd by(2, 3);
+    by << at * at[0], at * at[1], from * from.squaredNorm();
+    return Eigen::Matrix2Xd(length * by);
+  });
+  add("the picture is read line by line (rolling shutter)", kReading, [&](const Sight& sight) {
+    return Eigen::Matrix2Xd(sight.motion.segment<2>(2) * sight.motion[1] / length);
+  });
+  add("the camera drifts", kDrifting, [&](const Sight& sight) {
+    Eigen::Matrix2Xd by = Eigen::Matrix2Xd::Zero(2, 2 * kKnots);
+    by.row(0).head(kKnots) = by.row(1).tail(kKnots) = hats(sight.time);
+    return by;
+  });
+  for (std::size_t point = 0; point < markers; ++point)
+    add(fmt::format("{} slips along the cable", paths.recording(0).points[point].name), kSlipping,
+        [&](const Sight& sight) {
+          if (sight.point != point) return Eigen::Matrix2Xd(Eigen::Matrix2Xd::Zero(2, kKnots));
+          const Vector2d along(std::sin(sight.motion[4]), std::cos(sight.motion[4]));
+          return Eigen::Matrix2Xd(along * hats(sight.time));
+        });
+  return errors;
+}
+
+double log_evidence_of(const SensorError& error, const LinearProblem& linear) {
+  LinearProblem with = linear;
+  Index numbers = 0;
+  for (const auto& nodes : error.columns)
+    for (const MatrixXd& columns : nodes) numbers = std::max(numbers, columns.cols());
+  const auto widen = [&](MatrixXd& by_parameter) {
+    by_parameter.conservativeResizeLike(
+        MatrixXd::Zero(by_parameter.rows(), by_parameter.cols() + numbers));
+  };
+  for (std::size_t r = 0; r < with.recordings.size(); ++r) {
+    LinearRecording& recording = with.recordings[r];
+    const Index own = recording.own_mean.size() + numbers;
+    recording.own_mean.conservativeResizeLike(VectorXd::Zero(own));
+    recording.own_deviation.conservativeResize(own);
+    widen(recording.start_by_parameter);
+    for (LinearRecording::Step& step : recording.steps) widen(step.by_parameter);
+    for (std::size_t node = 0; node < recording.seen.size(); ++node) {
+      widen(recording.seen[node].by_parameter);
+      const MatrixXd& columns = error.columns[r][node];
+      if (columns.size() > 0) recording.seen[node].by_parameter.rightCols(numbers) = columns;
+    }
+  }
+  double best = -HUGE_VAL;
+  for (const double size : kSizes) {
+    for (LinearRecording& recording : with.recordings)
+      recording.own_deviation.tail(numbers).setConstant(size * error.deviation);
+    best = std::max(best, smooth_forces(with, {}, {}, {}, false).log_evidence);
+  }
+  return best;
+}
+
+}  // namespace catena
