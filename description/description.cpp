@@ -132,10 +132,12 @@ Description parse_description(const std::string& text, const std::string& name) 
 std::vector<std::string> space_words() { return {"plane", "3d"}; }
 
 std::string conflict_in(const Description& description) {
-  bool clamped = false;
+  bool clamped = false, held = false;
   for (const Effect& effect : description.effects) {
     const bool of_space = effect.support.across.given() || effect.support.turns();
     if (description.space == Space::kPlane) {
+      if (effect.held_end.holds())
+        return in_quotes(effect.id) + " holds the far end, which needs space = \"3d\"";
       if (of_space)
         return in_quotes(effect.id) +
                " moves the support across the plane or turns its clamp, which needs "
@@ -150,6 +152,9 @@ std::string conflict_in(const Description& description) {
              " is the second effect that gives the direction of the clamp; leave "
              "one away";
     clamped = clamped || effect.support.turns();
+    if (effect.held_end.holds() && held)
+      return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
+    held = held || effect.held_end.holds();
   }
   return conflict_between(description.effects);
 }

@@ -29,6 +29,13 @@ struct Description {
   std::vector<Effect> effects;
   std::string source_file;
   Space space = Space::kPlane;
+
+  /// The effect that holds the far end; null: the end is free.
+  const Effect* holding() const {
+    for (const Effect& effect : effects)
+      if (effect.held_end.holds()) return &effect;
+    return nullptr;
+  }
 };
 
 /// The chain without any effect, id "chain".
@@ -50,7 +57,7 @@ Description parse_description(const std::string& text, const std::string& name);
 std::string conflict_between(const std::vector<Effect>& effects);
 
 /// The same for the effects of a description. In the plane no effect moves the support across or turns its
-/// clamp. In space one may turn the clamp, and none has what only the plane gives a meaning: torques, states,
+/// clamp, or holds the far end. In space one may turn the clamp, one may hold the end, and none has what only the plane gives a meaning: torques, states,
 /// coordinates, sensors, rest angles, the angle of a link.
 std::string conflict_in(const Description& description);
 

@@ -32,7 +32,7 @@ Motion simulate_motion(const Model& model, const Eigen::VectorXd& parameters, co
   Motion motion;
   motion.simulation = simulate(model, parameters, initial, times, options, signals);
   Trajectory& path = motion.simulation.trajectory;
-  if (model.in_space()) normalise_directions(path);
+  if (model.in_space()) normalise_directions(path, model.links());
   const auto count = static_cast<Eigen::Index>(path.time.size());
   motion.side.resize(model.links() + 2, count);
   motion.down.resize(model.links() + 2, count);
