@@ -35,8 +35,9 @@ Gap gap_of(const Model& model, const VectorXd& parameters, const State& state, d
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
   Gap gap;
-  model.gap({t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
-            gap.apart.data(), gap.rate.data());
+  model.gap(
+      {t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
+      gap.apart.data(), gap.rate.data());
   return gap;
 }
 
@@ -103,8 +104,7 @@ State closed_end(const Model& model, const VectorXd& parameters, const State& op
   const Vector3d eta =
       -mobility.partialPivLu().solve(gap_of(model, parameters, closed, t, signals).rate);
   for (Index i = 0; i < n; ++i)
-    put(closed.v, n, i,
-        vector_of(closed.v, n, i) + across(vector_of(closed.q, n, i)) * eta);
+    put(closed.v, n, i, vector_of(closed.v, n, i) + across(vector_of(closed.q, n, i)) * eta);
   return closed;
 }
 

@@ -17,11 +17,12 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMostSteps = 1000;
-constexpr double kLongestStep = 0.3;   // of a vector of length one: farther the linearisation says little
-constexpr double kFirstStep = 0.05;    // likewise, of the first, by inertia alone
-constexpr double kNear = 1e-8;         // likewise, where Newton's method may take over
-constexpr double kDone = 1e-12;        // likewise, of the last
-constexpr double kFastest = 10.0;      // by which 1 / tau^2 changes from step to step
+constexpr double kLongestStep =
+    0.3;  // of a vector of length one: farther the linearisation says little
+constexpr double kFirstStep = 0.05;  // likewise, of the first, by inertia alone
+constexpr double kNear = 1e-8;       // likewise, where Newton's method may take over
+constexpr double kDone = 1e-12;      // likewise, of the last
+constexpr double kFastest = 10.0;    // by which 1 / tau^2 changes from step to step
 
 /// A cable between its ends as a catenary; plumb if the end is free.
 State first_guess(const Model& model, const VectorXd& parameters, double t,
@@ -32,8 +33,9 @@ State first_guess(const Model& model, const VectorXd& parameters, double t,
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
   Vector3d apart, rate;
-  model.gap({t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
-            apart.data(), rate.data());
+  model.gap(
+      {t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
+      apart.data(), rate.data());
   const Vector3d end = lengths.sum() * Vector3d::UnitY() - apart;
   const CablePoint held{std::hypot(end[0], end[2]), end[1]};
   if (end.norm() < lengths.sum()) {
@@ -117,7 +119,7 @@ class Search {
       if (weight <= slowest && (moved <= kDone || (moved <= kNear && next <= kDone * first)))
         return Status::kSuccess;
       // Near the end the residual is rounding and says nothing.
-      const double change = moved < kNear               ? 1 / kFastest
+      const double change = moved < kNear            ? 1 / kFastest
                             : longest > kLongestStep ? kFastest
                                                      : next / size;
       weight = std::max(slowest, weight * std::clamp(change, 1 / kFastest, kFastest));
@@ -129,13 +131,12 @@ class Search {
   }
 
   catena_point at(const VectorXd& a) const {
-    return {t_,           state_.q.data(), zero_.data(),       a.data(),
+    return {t_,           state_.q.data(), zero_.data(),      a.data(),
             zero_.data(), u_.data(),       parameters_.data()};
   }
 
   void normalise() {
-    for (Index i = 0; i < links_; ++i)
-      state_.q(Eigen::seqN(i, 3, links_)).normalize();
+    for (Index i = 0; i < links_; ++i) state_.q(Eigen::seqN(i, 3, links_)).normalize();
   }
 
   const Model& model_;

@@ -53,17 +53,19 @@ State closed(const Model& model, const VectorXd& p, const State& open) {
   return closed_end(model, p, open, 0, {});
 }
 
-Vector3d gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v, double t) {
+Vector3d gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
+             double t) {
   Vector3d apart, rate;
-  model.gap({t, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(), rate.data());
+  model.gap({t, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
+            rate.data());
   return apart;
 }
 
 VectorXd accelerations(const Model& model, const VectorXd& p, const State& state, double t) {
   VectorXd a = VectorXd::Zero(model.coordinates());
-  REQUIRE(model.acceleration(
-              {t, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()}, a.data()) ==
-          0);
+  REQUIRE(
+      model.acceleration({t, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()},
+                         a.data()) == 0);
   return a;
 }
 
@@ -115,10 +117,12 @@ TEST_CASE("accelerations and Newton's steps solve the equations with the constra
   for (int j = 0; j < n; ++j) {
     const VectorXd da = ca * VectorXd::Unit(n, j), dv = cv * VectorXd::Unit(n, j),
                    dq = cq * VectorXd::Unit(n, j);
-    model.residual_tangent(at, {0, dq.data(), dv.data(), da.data(), zero.data(), zero.data(), zero.data()},
-                           newton.col(j).data());
-    model.residual_tangent(at, {0, zero.data(), zero.data(), da.data(), zero.data(), zero.data(), zero.data()},
-                           by_a.col(j).data());
+    model.residual_tangent(
+        at, {0, dq.data(), dv.data(), da.data(), zero.data(), zero.data(), zero.data()},
+        newton.col(j).data());
+    model.residual_tangent(
+        at, {0, zero.data(), zero.data(), da.data(), zero.data(), zero.data(), zero.data()},
+        by_a.col(j).data());
   }
   Eigen::MatrixXd rows(n, n);
   model.table().mass_matrix(model.table().context, &at, rows.data());
@@ -148,8 +152,9 @@ TEST_CASE("the gap stays closed, the energy balances, and reactions change the m
   const catena::Trajectory& path = motion.trajectory;
   double widest = 0;
   for (Eigen::Index k = 0; k < path.q.cols(); ++k)
-    widest = std::max(widest, gap(model, p, path.q.col(k), path.v.col(k),
-                                  times[static_cast<std::size_t>(k)]).norm());
+    widest = std::max(
+        widest,
+        gap(model, p, path.q.col(k), path.v.col(k), times[static_cast<std::size_t>(k)]).norm());
   CHECK(widest < 1e-8);  // m; 1e-6 are asked
   CHECK(motion.energy_imbalance < 1e-9 * path.energy.cwiseAbs().maxCoeff());
 
@@ -171,14 +176,16 @@ TEST_CASE("the gap stays closed, the energy balances, and reactions change the m
   REQUIRE(usual.status == catena::Status::kSuccess);
   for (Eigen::Index k = 0; k < usual.trajectory.q.cols(); ++k)
     CHECK(gap(model, p, usual.trajectory.q.col(k), usual.trajectory.v.col(k),
-              times[static_cast<std::size_t>(k)]).norm() < 1e-6);
+              times[static_cast<std::size_t>(k)])
+              .norm() < 1e-6);
 }
 
 // Two links between two points are a rigid body that swings about the line between them.
 TEST_CASE("two links between two points swing as a pendulum") {
   const Model model = Model::load(HELD_END_2);
   VectorXd p = cable(model, 0, 0);
-  const double apart = 0.9, length = p[0], mass = p[2], load = p[model.parameter_index("load_mass")];
+  const double apart = 0.9, length = p[0], mass = p[2],
+               load = p[model.parameter_index("load_mass")];
   set(model, p, "holds_end.to_side", apart);
   const double amplitude = 1.2, down = std::sqrt(length * length - apart * apart / 4);
   // Moments about the line; the load sits on it. Of a link: m h^2 / 3 with a uniform inertia.
@@ -268,8 +275,8 @@ TEST_CASE("reactions of clamped ends balance the weight and its moment") {
   CHECK((joint - Vector3d(0.5, 0.4, 0)).norm() < 1e-12);
   CHECK(moment.norm() < 1e-9);
   // The clamp bends with 1.7 times the stiffness of half a link.
-  const double angle = std::acos(vector_of(state.q, n, n - 1).dot(
-      Vector3d(std::sin(2.0), std::cos(2.0), 0)));
+  const double angle =
+      std::acos(vector_of(state.q, n, n - 1).dot(Vector3d(std::sin(2.0), std::cos(2.0), 0)));
   CHECK(forces.end.moment.col(0).norm() == doctest::Approx(1.7 * 2 * 0.3 * angle).epsilon(1e-9));
   CHECK(forces.support.moment.col(0).norm() == doctest::Approx(forces.moment(0, 0)).epsilon(1e-12));
 }
@@ -288,7 +295,8 @@ TEST_CASE("clamped ends that move: energy, sensitivities and the adjoint") {
   const catena::Simulation motion = run(model, p, start, times);
   CHECK(motion.energy_imbalance < 1e-9 * motion.trajectory.energy.cwiseAbs().maxCoeff());
 
-  const auto damping = model.parameter_index("damping_3"), firmness = model.parameter_index("grips.firmness"),
+  const auto damping = model.parameter_index("damping_3"),
+             firmness = model.parameter_index("grips.firmness"),
              amplitude = model.parameter_index("grips.amplitude");
   std::vector<catena::SensitivityDirection> directions;
   for (const int index : {damping, firmness, amplitude})
@@ -354,8 +362,9 @@ TEST_CASE("ends farther apart than the cable") {
   const Model model = Model::load(HELD_END_5);
   VectorXd p = swung(model);
   set(model, p, "holds_end.to_side", 1.3);
-  CHECK_THROWS_WITH_AS(hanging_equilibrium(model, p),
-                       "the end is held 1.31909 m from the support, and the cable is 1.2 m long; it must be "
-                       "longer than its ends are apart",
-                       catena::ImpossibleValue);
+  CHECK_THROWS_WITH_AS(
+      hanging_equilibrium(model, p),
+      "the end is held 1.31909 m from the support, and the cable is 1.2 m long; it must be "
+      "longer than its ends are apart",
+      catena::ImpossibleValue);
 }
