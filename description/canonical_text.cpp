@@ -126,6 +126,14 @@ class CanonicalText {
     line("support.clamp_side", effect.support.clamp_side);
     line("support.clamp_down", effect.support.clamp_down);
     line("support.clamp_across", effect.support.clamp_across);
+    line("held_end.side", effect.held_end.side);
+    line("held_end.down", effect.held_end.down);
+    line("held_end.across", effect.held_end.across);
+    line("held_end.clamp_side", effect.held_end.clamp_side);
+    line("held_end.clamp_down", effect.held_end.clamp_down);
+    line("held_end.clamp_across", effect.held_end.clamp_across);
+    line("held_end.clamp_stiffness", effect.held_end.clamp_stiffness);
+    line("held_end.clamp_damping", effect.held_end.clamp_damping);
     line("centre_offset", effect.kinematics.centre_offset);
     line("load_offset", effect.kinematics.load_offset);
     line("load_inertia", effect.kinematics.load_inertia);

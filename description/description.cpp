@@ -132,10 +132,12 @@ Description parse_description(const std::string& text, const std::string& name) 
 std::vector<std::string> space_words() { return {"plane", "3d"}; }
 
 std::string why_not_in(Space space, const Effect& effect) {
-  if (space == Space::kPlane)
-    return effect.support.across.given() || effect.support.turns()
-               ? "moves the support across the plane or turns its clamp, which needs space = \"3d\""
-               : "";
+  if (space == Space::kPlane) {
+    if (effect.held_end.holds()) return "holds the far end, which needs space = \"3d\"";
+    if (effect.support.across.given() || effect.support.turns())
+      return "moves the support across the plane or turns its clamp, which needs space = \"3d\"";
+    return "";
+  }
   const std::string why = plane_alone(effect);
   return why.empty()
              ? ""
@@ -143,7 +145,7 @@ std::string why_not_in(Space space, const Effect& effect) {
 }
 
 std::string conflict_in(const Description& description) {
-  bool clamped = false;
+  bool clamped = false, held = false;
   for (const Effect& effect : description.effects) {
     if (const std::string why = why_not_in(description.space, effect); !why.empty())
       return in_quotes(effect.id) + " " + why;
@@ -152,6 +154,9 @@ std::string conflict_in(const Description& description) {
              " is the second effect that gives the direction of the clamp; leave "
              "one away";
     clamped = clamped || effect.support.turns();
+    if (effect.held_end.holds() && held)
+      return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
+    held = held || effect.held_end.holds();
   }
   return conflict_between(description.effects);
 }

@@ -29,6 +29,13 @@ struct Description {
   std::vector<Effect> effects;
   std::string source_file;
   Space space = Space::kPlane;
+
+  /// The effect that holds the far end; null: the end is free.
+  const Effect* holding() const {
+    for (const Effect& effect : effects)
+      if (effect.held_end.holds()) return &effect;
+    return nullptr;
+  }
 };
 
 /// The chain without any effect, id "chain".
@@ -50,12 +57,12 @@ Description parse_description(const std::string& text, const std::string& name);
 std::string conflict_between(const std::vector<Effect>& effects);
 
 /// Why an effect has no meaning in this space; empty: it has one. In the plane no effect moves the
-/// support across or turns its clamp. In space none has what only the plane gives a meaning: torques,
-/// states, coordinates, sensors, rest angles, the angle of a link.
+/// support across or turns its clamp, or holds the far end. In space none has what only the plane gives
+/// a meaning: torques, states, coordinates, sensors, rest angles, the angle of a link.
 std::string why_not_in(Space space, const Effect& effect);
 
 /// The same for the effects of a description: each has a meaning in its space, and no two give the
-/// direction of the clamp.
+/// direction of the clamp or hold the far end.
 std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical

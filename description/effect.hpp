@@ -115,6 +115,24 @@ struct Support {
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
 };
 
+/// In space: where the far end of the last link is held, m, by a constraint: a vector of time, parameters,
+/// constants and signals. A component that is not given is zero. It may be clamped there, too, in a
+/// direction in which the last link ends without bending: a vector of any length but zero.
+struct HeldEnd {
+  Expression side, down, across;
+  Expression clamp_side, clamp_down, clamp_across;  ///< of no unit
+  /// N m/rad and N m s/rad, of the clamp; if not given, those of a joint between the middle of the last
+  /// link and its end. As functions of parameters, constants, and of these: `stiffness`, `damping`.
+  Expression clamp_stiffness, clamp_damping;
+
+  bool holds() const { return side.given() || down.given() || across.given(); }
+  bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
+  std::array<const Expression*, 8> all() const {
+    return {&side,       &down,         &across,          &clamp_side,
+            &clamp_down, &clamp_across, &clamp_stiffness, &clamp_damping};
+  }
+};
+
 /// Changes of the kinematics. Changes by several effects are added.
 struct Kinematics {
   Expression centre_offset;     ///< m, mass centre of link i past its middle, away from the support
@@ -182,6 +200,7 @@ struct Effect {
   std::vector<ForceTerm> forces;
   std::vector<ScalarTerm> scalars;
   Support support;
+  HeldEnd held_end;
   Kinematics kinematics;
   std::vector<Coordinate> coordinates;
   std::vector<ExtraState> states;

@@ -19,10 +19,11 @@ class Checks {
     bool changes_kinematics = false;
     each_kinematic([&](const Expression&) { changes_kinematics = true; });
     if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.moves() &&
-        !effect_.support.turns() && !changes_kinematics && !effect_.sensor.given()) {
+        !effect_.support.turns() && !effect_.held_end.holds() && !changes_kinematics &&
+        !effect_.sensor.given()) {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
-          "support, kinematics or sensor");
+          "support, held_end, kinematics or sensor");
     }
     if (effect_.flow.given() && effect_.forces.empty()) {
       fail(
@@ -92,6 +93,11 @@ class Checks {
                "cannot stand in a potential: it depends on the motion" + instead);
       }
     }
+    for (const Expression* expression :
+         {&effect_.held_end.clamp_stiffness, &effect_.held_end.clamp_damping}) {
+      if (expression->given())
+        refuse(*expression, times, "cannot stand here: the clamp would change with time");
+    }
     each_kinematic([&](const Expression& expression) {
       refuse(expression, times, "cannot stand here: the shape of the chain would change with time");
     });
@@ -115,6 +121,7 @@ class Checks {
           &effect_.sensor.down, &effect_.sensor.angle, &effect_.sensor.clock}) {
       use(*expression);
     }
+    for (const Expression* expression : effect_.held_end.all()) use(*expression);
     each_kinematic(use);
     if (effect_.flow.given() && std::none_of(used.begin(), used.end(), [](const std::string& name) {
           return name.starts_with("relative_");

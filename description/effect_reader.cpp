@@ -351,6 +351,23 @@ class EffectReader {
         table->fail("has neither side nor down; give one or leave the table out");
       }
     }
+    if (const auto table = file_.optional_table("held_end")) {
+      HeldEnd& end = effect_.held_end;
+      end = {expression(*table, "side"),
+             expression(*table, "down"),
+             expression(*table, "across"),
+             expression(*table, "clamp_side"),
+             expression(*table, "clamp_down"),
+             expression(*table, "clamp_across"),
+             expression(*table, "clamp_stiffness"),
+             expression(*table, "clamp_damping")};
+      if (!end.holds())
+        table->fail(
+            "has none of side, down and across, which say where the end is held; give them");
+      if (!end.turns() && (end.clamp_stiffness.given() || end.clamp_damping.given()))
+        table->fail(
+            "has a clamp without a direction; give clamp_side, clamp_down and clamp_across");
+    }
     if (const auto table = file_.optional_table("kinematics")) {
       Kinematics& kinematics = effect_.kinematics;
       kinematics.centre_offset = expression(*table, "centre_offset");

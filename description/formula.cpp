@@ -371,6 +371,15 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add(clamp + "side", subscripted("e", "s"), effect.support.clamp_side);
   all.add(clamp + "down", subscripted("e", "d"), effect.support.clamp_down);
   all.add(clamp + "across", subscripted("e", "a"), effect.support.clamp_across);
+  const std::string end = "Held end, ", end_clamp = "Direction of the clamp at the held end, ";
+  all.add(end + "side", subscripted("h", "s"), effect.held_end.side);
+  all.add(end + "down", subscripted("h", "d"), effect.held_end.down);
+  all.add(end + "across", subscripted("h", "a"), effect.held_end.across);
+  all.add(end_clamp + "side", subscripted("c", "s"), effect.held_end.clamp_side);
+  all.add(end_clamp + "down", subscripted("c", "d"), effect.held_end.clamp_down);
+  all.add(end_clamp + "across", subscripted("c", "a"), effect.held_end.clamp_across);
+  all.add("Stiffness of the clamp at the held end", "k", effect.held_end.clamp_stiffness);
+  all.add("Damping of the clamp at the held end", "c", effect.held_end.clamp_damping);
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);

@@ -1431,6 +1431,76 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   }
 }
 
+/// What holds the support, then a held end: forces (N) and moments (N m).
+/// 106 additions, 148 multiplications, 0 divisions, 0 functions
+template <class T>
+void reactions(const Point<T>& at, T* force, T* moment) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 12);
+  const FromOne<T> stiffness(at.p + 36);
+  const FromOne<T> damping(at.p + 48);
+  const T load_mass = at.p[72];
+  const T gravity = at.p[73];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[13], cosine[13];
+  sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
+  T span_side_acceleration[13];
+  T span_down_acceleration[13];
+  T joint_moment[2];
+  {
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]);
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+        + theta_ddot[1] * sine[1]);
+    const T joint_angle = theta[1];
+    const T joint_rate = theta_dot[1];
+    joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
+  }
+  for (int i = 2; i <= 12; ++i) {
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
+        - theta_dot[i] * theta_dot[i] * sine[i]);
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+        + theta_ddot[i] * sine[i]);
+  }
+  T joint_side_acceleration[13];
+  T joint_down_acceleration[13];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  for (int i = 2; i <= 12; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+  }
+  T centre_down_force[13];
+  T centre_side_force[13];
+  {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+  }
+  for (int i = 2; i <= 12; ++i) {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
+        + joint_side_acceleration[i - 1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
+        + joint_down_acceleration[i - 1];
+    centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
+    centre_side_force[i] = mass[i] * centre_side_acceleration;
+  }
+  moment[0] = -joint_moment[1];
+  T cut_force_down[14];
+  T cut_force_side[14];
+  cut_force_down[13] = load_mass * (joint_down_acceleration[12] - gravity);
+  cut_force_side[13] = load_mass * joint_side_acceleration[12];
+  for (int i = 12; i >= 1; --i) {
+    cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
+    cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+  }
+  force[0] = cut_force_side[1];
+  force[1] = cut_force_down[1];
+}
+
 /// Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.
 /// 466 additions, 715 multiplications, 0 divisions, 0 functions
 template <class T>

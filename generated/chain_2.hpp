@@ -861,6 +861,57 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   curvature[1] = T(2) * (theta[2] - theta[1]) / arc_2;
 }
 
+/// What holds the support, then a held end: forces (N) and moments (N m).
+/// 16 additions, 28 multiplications, 0 divisions, 0 functions
+template <class T>
+void reactions(const Point<T>& at, T* force, T* moment) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 2);
+  const FromOne<T> stiffness(at.p + 6);
+  const FromOne<T> damping(at.p + 8);
+  const T load_mass = at.p[12];
+  const T gravity = at.p[13];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[3], cosine[3];
+  sines_and_cosines<2>(at.q, sine + 1, cosine + 1);
+  const T span_side_acceleration_1 = length[1] * (theta_ddot[1] * cosine[1]
+      - theta_dot[1] * theta_dot[1] * sine[1]);
+  const T span_down_acceleration_1 = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+      + theta_ddot[1] * sine[1]);
+  const T centre_side_acceleration_1 = ratio<T>(1, 2) * span_side_acceleration_1;
+  const T centre_down_acceleration_1 = ratio<T>(1, 2) * span_down_acceleration_1;
+  const T joint_side_acceleration_1 = span_side_acceleration_1;
+  const T joint_down_acceleration_1 = span_down_acceleration_1;
+  const T joint_angle_1 = theta[1];
+  const T joint_rate_1 = theta_dot[1];
+  const T span_side_acceleration_2 = length[2] * (theta_ddot[2] * cosine[2]
+      - theta_dot[2] * theta_dot[2] * sine[2]);
+  const T span_down_acceleration_2 = -length[2] * (theta_dot[2] * theta_dot[2] * cosine[2]
+      + theta_ddot[2] * sine[2]);
+  const T centre_side_acceleration_2 = ratio<T>(1, 2) * span_side_acceleration_2
+      + joint_side_acceleration_1;
+  const T centre_down_acceleration_2 = ratio<T>(1, 2) * span_down_acceleration_2
+      + joint_down_acceleration_1;
+  const T joint_side_acceleration_2 = span_side_acceleration_2 + joint_side_acceleration_1;
+  const T joint_down_acceleration_2 = span_down_acceleration_2 + joint_down_acceleration_1;
+  const T cut_force_down_3 = load_mass * (joint_down_acceleration_2 - gravity);
+  const T cut_force_side_3 = load_mass * joint_side_acceleration_2;
+  const T centre_down_force_2 = mass[2] * (centre_down_acceleration_2 - gravity);
+  const T centre_side_force_2 = mass[2] * centre_side_acceleration_2;
+  const T joint_moment_1 = stiffness[1] * joint_angle_1 + damping[1] * joint_rate_1;
+  const T cut_force_down_2 = cut_force_down_3 + centre_down_force_2;
+  const T cut_force_side_2 = cut_force_side_3 + centre_side_force_2;
+  const T centre_down_force_1 = mass[1] * (centre_down_acceleration_1 - gravity);
+  const T centre_side_force_1 = mass[1] * centre_side_acceleration_1;
+  const T cut_force_down_1 = cut_force_down_2 + centre_down_force_1;
+  const T cut_force_side_1 = cut_force_side_2 + centre_side_force_1;
+  force[0] = cut_force_side_1;
+  force[1] = cut_force_down_1;
+  moment[0] = -joint_moment_1;
+}
+
 /// Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.
 /// 66 additions, 125 multiplications, 0 divisions, 0 functions
 template <class T>

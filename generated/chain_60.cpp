@@ -530,6 +530,10 @@ void c_internal_forces(const void*, const catena_point* at, double* moment, doub
   internal_forces(point(at), moment, tension, curvature);
 }
 CATENA_EACH_PROCESSOR
+void c_reactions(const void*, const catena_point* at, double* force, double* moment) {
+  reactions(point(at), force, moment);
+}
+CATENA_EACH_PROCESSOR
 void c_residual_adjoint(const void*, const catena_point* at, const double* weights,
                         const double* rate_weights, double* dq, double* dv, double* dz,
                         double* dp) {
@@ -660,6 +664,9 @@ const ::catena_model& table() {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      c_reactions,
       nullptr,
       nullptr,
   };

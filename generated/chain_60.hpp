@@ -1431,6 +1431,76 @@ void internal_forces(const Point<T>& at, T* moment, T* tension, T* curvature) {
   }
 }
 
+/// What holds the support, then a held end: forces (N) and moments (N m).
+/// 538 additions, 724 multiplications, 0 divisions, 0 functions
+template <class T>
+void reactions(const Point<T>& at, T* force, T* moment) {
+  const FromOne<T> length(at.p);
+  const FromOne<T> mass(at.p + 60);
+  const FromOne<T> stiffness(at.p + 180);
+  const FromOne<T> damping(at.p + 240);
+  const T load_mass = at.p[360];
+  const T gravity = at.p[361];
+  const FromOne<T> theta(at.q);
+  const FromOne<T> theta_dot(at.v);
+  const FromOne<T> theta_ddot(at.a);
+  T sine[61], cosine[61];
+  sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
+  T span_side_acceleration[61];
+  T span_down_acceleration[61];
+  T joint_moment[2];
+  {
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]);
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+        + theta_ddot[1] * sine[1]);
+    const T joint_angle = theta[1];
+    const T joint_rate = theta_dot[1];
+    joint_moment[1] = stiffness[1] * joint_angle + damping[1] * joint_rate;
+  }
+  for (int i = 2; i <= 60; ++i) {
+    span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
+        - theta_dot[i] * theta_dot[i] * sine[i]);
+    span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
+        + theta_ddot[i] * sine[i]);
+  }
+  T joint_side_acceleration[61];
+  T joint_down_acceleration[61];
+  joint_side_acceleration[1] = span_side_acceleration[1];
+  joint_down_acceleration[1] = span_down_acceleration[1];
+  for (int i = 2; i <= 60; ++i) {
+    joint_side_acceleration[i] = span_side_acceleration[i] + joint_side_acceleration[i - 1];
+    joint_down_acceleration[i] = span_down_acceleration[i] + joint_down_acceleration[i - 1];
+  }
+  T centre_down_force[61];
+  T centre_side_force[61];
+  {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[1];
+    centre_down_force[1] = mass[1] * (centre_down_acceleration - gravity);
+    centre_side_force[1] = mass[1] * centre_side_acceleration;
+  }
+  for (int i = 2; i <= 60; ++i) {
+    const T centre_side_acceleration = ratio<T>(1, 2) * span_side_acceleration[i]
+        + joint_side_acceleration[i - 1];
+    const T centre_down_acceleration = ratio<T>(1, 2) * span_down_acceleration[i]
+        + joint_down_acceleration[i - 1];
+    centre_down_force[i] = mass[i] * (centre_down_acceleration - gravity);
+    centre_side_force[i] = mass[i] * centre_side_acceleration;
+  }
+  moment[0] = -joint_moment[1];
+  T cut_force_down[62];
+  T cut_force_side[62];
+  cut_force_down[61] = load_mass * (joint_down_acceleration[60] - gravity);
+  cut_force_side[61] = load_mass * joint_side_acceleration[60];
+  for (int i = 60; i >= 1; --i) {
+    cut_force_down[i] = cut_force_down[i + 1] + centre_down_force[i];
+    cut_force_side[i] = cut_force_side[i + 1] + centre_side_force[i];
+  }
+  force[0] = cut_force_side[1];
+  force[1] = cut_force_down[1];
+}
+
 /// Gradient of weights . r + rate_weights . zdot with respect to q, v, z and p.
 /// 2386 additions, 3547 multiplications, 0 divisions, 0 functions
 template <class T>

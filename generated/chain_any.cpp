@@ -98,6 +98,10 @@ void c_internal_forces(const void* context, const catena_point* at, double* mome
   chain(context).internal_forces(point(at), moment, tension, curvature);
 }
 CATENA_EACH_PROCESSOR
+void c_reactions(const void* context, const catena_point* at, double* force, double* moment) {
+  chain(context).reactions(point(at), force, moment);
+}
+CATENA_EACH_PROCESSOR
 void c_residual_adjoint(const void* context, const catena_point* at, const double* weights,
                         const double* rate_weights, double* dq, double* dv, double* dz,
                         double* dp) {
@@ -231,6 +235,9 @@ catena_model table(const Chain& chain) {
       nullptr,
       nullptr,
       nullptr,
+      nullptr,
+      nullptr,
+      c_reactions,
       nullptr,
       nullptr,
   };

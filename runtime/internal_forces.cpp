@@ -14,7 +14,10 @@ InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parame
   Dynamics dynamics(model, parameters, signals);
   const Eigen::Index times = trajectory.q.cols();
   const Eigen::MatrixXd empty(model.links(), times);
-  InternalForces result{empty, empty, empty};
+  const Eigen::Index axes = model.in_space() ? 3 : 2, moments = model.in_space() ? 3 : 1;
+  const Eigen::Index ends = model.held() ? 2 : 1;
+  InternalForces result{empty, empty, empty, {}, {}};
+  Eigen::MatrixXd force(axes * ends, times), moment(moments * ends, times);
   Eigen::VectorXd a(model.coordinates());
   for (Eigen::Index k = 0; k < times; ++k) {
     const double t = trajectory.time[static_cast<std::size_t>(k)];
@@ -27,7 +30,10 @@ InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parame
                                " at t = " + number_text(t) + " s");
     model.internal_forces(at, result.moment.col(k).data(), result.tension.col(k).data(),
                           result.curvature.col(k).data());
+    model.reactions(at, force.col(k).data(), moment.col(k).data());
   }
+  result.support = {force.topRows(axes), moment.topRows(moments)};
+  if (model.held()) result.end = {force.bottomRows(axes), moment.bottomRows(moments)};
   return result;
 }
 

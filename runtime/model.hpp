@@ -110,6 +110,18 @@ class Model {
                        double* curvature) const {
     table_->internal_forces(table_->context, &at, moment, tension, curvature);
   }
+  void reactions(const catena_point& at, double* force, double* moment) const {
+    table_->reactions(table_->context, &at, force, moment);
+  }
+  /// Whether a constraint holds the far end; else the next two are not there.
+  bool held() const { return table_->gap != nullptr; }
+  void gap(const catena_point& at, double* apart, double* rate) const {
+    table_->gap(table_->context, &at, apart, rate);
+  }
+  void gap_tangent(const catena_point& at, const catena_point& along, double* dapart,
+                   double* drate) const {
+    table_->gap_tangent(table_->context, &at, &along, dapart, drate);
+  }
   void observe(double t, const double* p, const double in[3], double out[3]) const {
     table_->observe(table_->context, t, p, in, out);
   }

@@ -11,6 +11,7 @@
 #include "common/number_text.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "runtime/link_frame.hpp"
+#include "runtime/space_equilibrium.hpp"
 
 namespace catena {
 namespace {
@@ -225,9 +226,10 @@ State catenary(const Model& model, const Eigen::VectorXd& parameters, const Cabl
                                                      : catenary_angles(end, lengths));
 }
 
-Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& parameters, double t,
-                                const Signals& signals) {
-  model.check_parameters(parameters);
+namespace {
+
+Equilibrium plane_equilibrium(const Model& model, const Eigen::VectorXd& parameters, double t,
+                              const Signals& signals) {
   const int n = model.coordinates();
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
@@ -244,11 +246,6 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
                            zero.data(), zero.data(),      zero.data()};
   for (int iteration = 0; iteration < 100; ++iteration) {
     model.residual(at, residual.data());
-    // In space nothing holds the lengths of q, so the stiffness is singular; what hangs plumb is done.
-    if (residual.isZero(0.0)) {
-      result.status = Status::kSuccess;
-      return result;
-    }
     for (int j = 0; j < n; ++j) {
       direction[j] = 1.0;
       model.residual_tangent(at, along, stiffness.col(j).data());
@@ -271,6 +268,15 @@ Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& param
   result.status = Status::kNoConvergence;
   result.message = "no equilibrium was found in 100 steps of Newton's method";
   return result;
+}
+
+}  // namespace
+
+Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& parameters, double t,
+                                const Signals& signals) {
+  model.check_parameters(parameters);
+  return model.in_space() ? space_equilibrium(model, parameters, t, signals)
+                          : plane_equilibrium(model, parameters, t, signals);
 }
 
 }  // namespace catena

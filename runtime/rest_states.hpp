@@ -73,7 +73,8 @@ struct Equilibrium {
 };
 
 /// The equilibrium at time t (s): r = 0 with v = a = 0 and extra states zero, by Newton's method
-/// from the chain that hangs straight down. `parameters`: one entry per parameter of the model;
+/// from the chain that hangs straight down; in space by implicit steps (space_equilibrium.hpp), also in a
+/// current and between two ends. `parameters`: one entry per parameter of the model;
 /// `signals`: the channels that the model asks for. Whether the equilibrium is stable is not
 /// examined. Throws std::invalid_argument on parameters that the model refuses
 /// (Model::check_parameters).

@@ -3,8 +3,7 @@
 
 namespace catena {
 
-void normalise_directions(Trajectory& trajectory) {
-  const Eigen::Index links = trajectory.q.rows() / 3;
+void normalise_directions(Trajectory& trajectory, int links) {
   for (Eigen::Index k = 0; k < trajectory.q.cols(); ++k) {
     for (Eigen::Index i = 0; i < links; ++i) {
       auto q = trajectory.q.col(k)(Eigen::seqN(i, 3, links));

@@ -18,8 +18,8 @@ struct Trajectory {
   Eigen::MatrixXd energy;
 };
 
-/// Of a model in space: gives the vectors q along the links the length one and their rates v no part
+/// Of a model in space: gives the vectors q along its links the length one and their rates v no part
 /// along them. Lengths drift by the error of the steps; nothing else depends on them.
-void normalise_directions(Trajectory& trajectory);
+void normalise_directions(Trajectory& trajectory, int links);
 
 }  // namespace catena

@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 
+#include "common/in_quotes.hpp"
+#include "common/input_error.hpp"
+
 namespace catena {
 
 using GiNaC::ex;
@@ -11,6 +14,10 @@ using GiNaC::numeric;
 namespace {
 
 const ex kHalf = numeric(1, 2);
+
+// 1/s: a gap at a held end closes as exp(-kClosing t). Faster than cables of metres swing; steps may be
+// longer, as they are implicit.
+const ex kClosing = 100;
 
 std::string rate_family(const std::string& family) {
   if (family.ends_with("_momentum")) return family + "_rate";
@@ -82,16 +89,22 @@ Chain::Chain(const Description& description, int links, const std::string& only_
       forces_(effect_forces) {
   if (const std::string conflict = conflict_in(description_); !in_plane() && !conflict.empty())
     throw std::invalid_argument(conflict);
+  if (const Effect* holding = description_.holding(); holding && links_ < 2)
+    throw InputError(
+        in_quotes(holding->id) +
+        " holds the far end: one link between two fixed points cannot move; ask for 2 links "
+        "or more");
   make_inputs();
   make_kinematics();
   add_chain_terms();
+  if (description_.holding()) hold_end();
   for (const Effect& effect : description_.effects) {
     if (forces_ == EffectForces::kApart) apart_ = effect.id;
     add_effect_terms(effect);
   }
   apart_.clear();
   pull_back();
-  add_support_power();
+  add_power_of_ends();
   add_sensors();
 }
 
@@ -99,7 +112,8 @@ std::vector<std::string> Chain::term_names(const Description& description) {
   std::vector<std::string> names{"kinetic", "gravity", "elastic", "friction"};
   if (description.space == Space::kPlane) names.emplace_back("torque");
   for (const Effect& effect : description.effects) {
-    if (!effect.forces.empty() || !effect.scalars.empty()) names.push_back(effect.id);
+    if (!effect.forces.empty() || !effect.scalars.empty() || effect.held_end.holds())
+      names.push_back(effect.id);
   }
   return names;
 }
@@ -162,26 +176,82 @@ void Chain::add_directions() {
   }
 }
 
-// The direction of the clamp, made a unit vector as those of links are.
+// The direction of a clamp, made a unit vector as those of links are.
+std::vector<ex> Chain::unit_vector(const Effect& effect,
+                                   const std::vector<const Expression*>& components,
+                                   const std::string& name, int index) {
+  std::vector<ex> vector, unit;
+  ex square = 0;
+  for (const Axis axis : axes()) {
+    vector.push_back(
+        define_variable(name + ending(axis), kNoIndex,
+                        evaluate(effect, *components[axis], kShape, Place::kLoad, 0, "1")));
+    square += vector.back() * vector.back();
+  }
+  const ex scale =
+      definitions_.define(name + "_scale", kNoIndex,
+                          inverse_square_root(define_variable(name + "_square", kNoIndex, square)));
+  for (const Axis axis : axes())
+    unit.push_back(define_variable("unit" + ending(axis), index, scale * vector[axis]));
+  return unit;
+}
+
 void Chain::turn_clamp() {
   for (const Effect& effect : description_.effects) {
     const Support& support = effect.support;
     if (!support.turns()) continue;
-    const Expression* const components[] = {&support.clamp_side, &support.clamp_down,
-                                            &support.clamp_across};
-    std::vector<ex> clamp;
-    ex square = 0;
-    for (const Axis axis : axes()) {
-      clamp.push_back(
-          define_variable("clamp" + ending(axis), kNoIndex,
-                          evaluate(effect, *components[axis], kShape, Place::kLoad, 0, "1")));
-      square += clamp.back() * clamp.back();
+    const std::vector<ex> clamp = unit_vector(
+        effect, {&support.clamp_side, &support.clamp_down, &support.clamp_across}, "clamp", 0);
+    for (const Axis axis : axes()) direction_[axis][0] = clamp[axis];
+  }
+}
+
+// Where the end is held, and the joint beyond the last link that clamps it there.
+void Chain::place_held_end() {
+  const Effect& effect = *description_.holding();
+  const HeldEnd& held = effect.held_end;
+  const Expression* const place[] = {&held.side, &held.down, &held.across};
+  for (const Axis axis : axes())
+    end_.push_back(define_variable("end" + ending(axis), kNoIndex,
+                                   evaluate(effect, *place[axis], kShape, Place::kLoad, 0, "m")));
+  for (const Axis axis : axes())
+    gap_.push_back(
+        define_variable("gap" + ending(axis), kNoIndex, joint_[axis][links_] - end_[axis]));
+  if (!held.turns()) return;
+  end_is_clamped_ = true;
+  const Link last = links_ + 1;
+  const std::vector<ex> clamp = unit_vector(
+      effect, {&held.clamp_side, &held.clamp_down, &held.clamp_across}, "end_clamp", last);
+  for (const Axis axis : axes()) direction_[axis].push_back(clamp[axis]);
+  // What is given of joint n, of the length of cable from the middle of the last link to its end.
+  const ex shorter = spacing(links_) / (length_[links_] / 2);
+  const auto add = [&](std::vector<ex>& of_joints, const char* name, const Expression& given,
+                       const char* unit) {
+    const ex usual = of_joints[links_] * shorter;
+    ex value = usual;
+    if (given.given()) {
+      Surroundings here = surroundings(effect, kShape, Place::kLoad, 0);
+      here.known.add("stiffness", stiffness_[links_] * shorter, Unit::parse("N m/rad"));
+      here.known.add("damping", damping_[links_] * shorter, Unit::parse("N m s/rad"));
+      add_definitions(effect, kShape, Place::kLoad, here.known);
+      value = parse_expression(given, here.known, Unit::parse(unit));
     }
-    const ex scale =
-        definitions_.define("clamp_scale", kNoIndex,
-                            inverse_square_root(define_variable("clamp_square", kNoIndex, square)));
-    for (const Axis axis : axes())
-      direction_[axis][0] = define_variable("unit" + ending(axis), 0, scale * clamp[axis]);
+    of_joints.push_back(definitions_.define(name, kNoIndex, value));
+  };
+  std::vector<ex> stiffness = stiffness_, damping = damping_;
+  add(stiffness, "end_stiffness", held.clamp_stiffness, "N m/rad");
+  add(damping, "end_damping", held.clamp_damping, "N m s/rad");
+  stiffness_ = stiffness, damping_ = damping;
+}
+
+// The constraint, and the clamp.
+void Chain::hold_end() {
+  if (end_is_clamped_) add_joint_terms(links_ + 1);
+  if (!wanted(description_.holding()->id)) return;
+  for (const Axis axis : axes()) {
+    const ex rate = time_.of(gap_[axis]);
+    add_momenta(time_.of(hold_[axis]) * rate);
+    add_generalised_force(hold_[axis], 2 * kClosing * rate + kClosing * kClosing * gap_[axis]);
   }
 }
 
@@ -224,6 +294,14 @@ void Chain::make_inputs() {
       const Link last = state.at == Place::kPivot ? 1 : links_;
       for (Link i = 1; i <= last; ++i) {
         symbols.push_back(definitions_.input(effect.id + "_" + state.name, i));
+      }
+    }
+    if (effect.held_end.holds()) {
+      for (const Axis axis : axes()) {
+        const std::string name = "hold" + ending(axis);
+        hold_.push_back(definitions_.input(name));
+        add_coordinate(hold_.back(), definitions_.input(name + "_dot"),
+                       definitions_.input(name + "_ddot"));
       }
     }
     for (const SignalChannel& signal : effect.signals) {
@@ -312,6 +390,7 @@ void Chain::make_kinematics() {
       tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
 
+  if (description_.holding()) place_held_end();
   point_ = joint_;
   for (const Axis axis : axes()) point_[axis].push_back(load_[axis]);
 }
@@ -348,10 +427,14 @@ void Chain::add_energy(const std::string& item, EnergyItem::Kind kind, const ex&
   energies_.push_back({item, kind, {part}});
 }
 
-// d/dt(dT/dydot) - dT/dy
 void Chain::add_kinetic(const std::string& item, const ex& energy) {
   energy_functions_.kinetic.push_back(energy);
   add_energy(item, EnergyItem::kStored, energy);
+  add_momenta(energy);
+}
+
+// d/dt(dT/dydot) - dT/dy
+void Chain::add_momenta(const ex& energy) {
   for (const int number : definitions_.symbols_of(energy)) {
     const Symbol symbol = definitions_[number];
     const ex derivative = energy.diff(GiNaC::ex_to<GiNaC::symbol>(symbol.symbol));
@@ -514,7 +597,8 @@ void Chain::add_joint_terms(Link k) {
       joint_cross_[about].push_back(cross(k - 1, direction_[b][k], direction_[c][k]));
       rate_squared += rate * rate;
     }
-    curvatures_.push_back(definitions_.named(GiNaC::sqrt(squared) / spacing(k), "curvature", k));
+    if (k <= links_)
+      curvatures_.push_back(definitions_.named(GiNaC::sqrt(squared) / spacing(k), "curvature", k));
   }
   if (wanted("elastic")) add_potential("joint_elastic", kHalf * stiffness_[k] * squared);
   if (wanted("friction")) add_dissipation("joint_damping", kHalf * damping_[k] * rate_squared);
@@ -578,7 +662,7 @@ void Chain::pull_back() {
   if (!in_plane()) {
     direction_force_ = Points(direction_.size(), moment);
     for (const Axis axis : axes())
-      for (Link i = 0; i <= links_; ++i)
+      for (Link i = 0; i < static_cast<Link>(direction_[axis].size()); ++i)
         if (GiNaC::is_a<GiNaC::symbol>(direction_[axis][i]))
           keep(direction_force_[axis], direction_[axis][i], i);
   }
@@ -590,7 +674,9 @@ void Chain::pull_back() {
     }
     tensions_.push_back(definitions_.named(-tension, "tension", i));
     if (!in_plane()) {
-      moments_.push_back(definitions_.named(moment_of_joint(i), "moment", i));
+      ex squared = 0;
+      for (const ex& component : moment_of_joint(i)) squared += component * component;
+      moments_.push_back(definitions_.named(GiNaC::sqrt(squared), "moment", i));
       continue;
     }
     keep(moment, joint_angle_[i], i);
@@ -598,35 +684,54 @@ void Chain::pull_back() {
     curvatures_.push_back(definitions_.named((theta_[i] - above) / spacing(i), "curvature", i));
     moments_.push_back(definitions_.named(-moment[i], "moment", i));
   }
-  for (const Axis axis : axes()) support_force_.push_back(cut[axis][1]);
+  Reaction support;
+  for (const Axis axis : axes()) support.force.push_back(cut[axis][1]);
+  if (in_plane()) {
+    support.moment = {moments_[0]};
+  } else {
+    for (const ex& moment : moment_of_joint(1)) support.moment.push_back(-moment);
+  }
+  reactions_.push_back(support);
+  if (hold_.empty()) return;
+  Reaction end;
+  for (const ex& mu : hold_) end.force.push_back(-time_.of(time_.of(mu)));
+  end.moment = end_is_clamped_ ? moment_of_joint(links_ + 1) : std::vector<ex>(hold_.size());
+  reactions_.push_back(end);
 }
 
-// In space: the size of the moment of joint i, which bending and damping make, with the effects on them.
-ex Chain::moment_of_joint(Link i) {
+// In space: the moment that link i exerts on what is above joint i by bending and damping, with the effects
+// on them.
+std::vector<ex> Chain::moment_of_joint(Link i) {
   const auto force_of = [&](const ex& variable) {
     if (!GiNaC::is_a<GiNaC::symbol>(variable)) return ex(0);
     const auto found = generalised_force_.find(definitions_.number_of(variable));
     return found == generalised_force_.end() ? ex(0) : found->second;
   };
   const ex bending = -force_of(joint_cosine_[i]);
-  ex squared = 0;
-  for (const Axis axis : axes()) {
-    const ex moment =
+  std::vector<ex> moment;
+  for (const Axis axis : axes())
+    moment.push_back(
         definitions_.define("joint_moment" + ending(axis), i,
-                            bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i]));
-    squared += moment * moment;
-  }
-  return GiNaC::sqrt(squared);
+                            bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i])));
+  return moment;
 }
 
-// The force that moves the support does work, and the moment that turns the clamp.
-void Chain::add_support_power() {
-  ex power = 0;
+// The forces that move the ends do work, and the moments that turn their clamps. Where the end is held, the
+// work is that at the end of the chain: what a gap takes of it is in the balance.
+void Chain::add_power_of_ends() {
+  const auto turning = [&](Axis axis, Link i) {
+    return in_plane() ? ex(0) : direction_force_[axis][i] * time_.of(direction_[axis][i]);
+  };
+  ex of_support = 0, of_end = 0;
+  for (const Axis axis : axes())
+    of_support += reactions_[0].force[axis] * time_.of(joint_[axis][0]) + turning(axis, 0);
+  if (!of_support.is_zero()) add_energy("support", EnergyItem::kSupplied, of_support);
+  if (hold_.empty()) return;
   for (const Axis axis : axes()) {
-    power += support_force_[axis] * time_.of(joint_[axis][0]);
-    if (!in_plane()) power += direction_force_[axis][0] * time_.of(direction_[axis][0]);
+    of_end += reactions_[1].force[axis] * time_.of(joint_[axis][links_]);
+    if (end_is_clamped_) of_end += turning(axis, links_ + 1);
   }
-  if (!power.is_zero()) add_energy("support", EnergyItem::kSupplied, power);
+  add_energy("end", EnergyItem::kSupplied, of_end);
 }
 
 }  // namespace catena

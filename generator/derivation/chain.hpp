@@ -32,6 +32,15 @@
 // with the constraints |q_i| = 1 and their multipliers, and what is along q_i says that |q_i|^2 has no
 // acceleration. |q_i| may drift by rounding and errors of steps; the motion does not see it.
 //
+// A held end: the constraint g = (far end of link n) - (where it is held) = 0 enters as a kinetic energy
+// mu'. g', bilinear in the rates, with three further coordinates mu. Euler-Lagrange makes of it
+//
+//     ... + (dg/dq)' mu'' in the equations of q,      g'' = 0 in those of mu:
+//
+// -mu'' is the multiplier, the force that holds the end, and the constraint has lost two indices. Neither
+// mu nor mu' enters the equations. A force on mu, -(2 a g' + a^2 g), lets a gap close as
+// exp(-a t) (Baumgarte), so that errors of steps do not add up.
+//
 // The velocity v of a point, normal to its link, is a vector in space. Effects are written in its size,
 // which is that of v x e, and the force along it is (a number) e x (v x e). In the plane v x e has one
 // component, across, which is the velocity along the normal (cos a, -sin a).
@@ -95,6 +104,16 @@ class Chain {
   const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
   /// In space: the generalised force of the unit vector of link i, [axis][i], i = 1 ... n.
   const std::vector<std::vector<GiNaC::ex>>& direction_forces() const { return direction_force_; }
+  /// Of the last coordinates, how many belong to the constraint of a held end: three, or none.
+  int constraints() const { return static_cast<int>(hold_.size()); }
+  /// The gap of that constraint, m, by axis: empty where the end is free.
+  const std::vector<GiNaC::ex>& gap() const { return gap_; }
+  /// What holds an end exerts on the chain, by axis: force, N, and moment, N m (in the plane one).
+  struct Reaction {
+    std::vector<GiNaC::ex> force, moment;
+  };
+  /// At the support, and where the end is held.
+  const std::vector<Reaction>& reactions() const { return reactions_; }
   /// Extra states of effects and their rates, in the same order.
   const std::vector<GiNaC::ex>& states() const { return states_; }
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
@@ -140,16 +159,22 @@ class Chain {
   void add_angles();
   void add_directions();
   void turn_clamp();
+  void place_held_end();
+  void hold_end();
+  std::vector<ex> unit_vector(const Effect& effect,
+                              const std::vector<const Expression*>& components,
+                              const std::string& name, int index);
   void add_coordinate(const ex& q, const ex& v, const ex& a);
   void add_chain_terms();
   void add_joint_terms(Link k);
   void add_effect_terms(const Effect& effect);
   void add_sensors();
-  void add_support_power();
+  void add_power_of_ends();
   void pull_back();
 
   bool wanted(const std::string& term) const { return only_term_.empty() || only_term_ == term; }
   void add_kinetic(const std::string& item, const ex& energy);
+  void add_momenta(const ex& energy);
   void add_momentum(int rate, const ex& momentum);
   void add_potential(const std::string& item, const ex& energy);
   void add_dissipation(const std::string& item, const ex& function);
@@ -162,7 +187,7 @@ class Chain {
   void add_generalised_force(int variable, const ex& force);
   ex generalised_force_of(int variable);
   ex spacing(Link i) const;
-  ex moment_of_joint(Link i);
+  std::vector<ex> moment_of_joint(Link i);
   ex define_variable(const std::string& family, int index, const ex& value);
   ex define_quasi_velocity(const std::string& family, int index, const ex& value);
 
@@ -234,7 +259,9 @@ class Chain {
   std::vector<EnergyItem> energies_;
   EnergyFunctions energy_functions_;
   Sensor sensor_;
-  std::vector<ex> support_force_;  ///< what the support exerts on the chain, N, by axis
+  std::vector<ex> hold_, end_, gap_;  ///< by axis: mu, where the end is held, what is between
+  bool end_is_clamped_ = false;
+  std::vector<Reaction> reactions_;
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included
   std::map<int, int> variable_of_rate_;  ///< number of ydot -> number of y

@@ -74,7 +74,7 @@ NeutralProofs prove_neutral(const Description& description, int links) {
       }
       own = own || !std::isnan(parameter.neutral);
     }
-    if (!effect.coordinates.empty()) {
+    if (!effect.coordinates.empty() || effect.held_end.holds()) {
       result.why_not = effect.id + " has coordinates that the plain chain does not have";
     } else if (!own) {
       result.why_not = effect.id + " has no parameter with a neutral value";

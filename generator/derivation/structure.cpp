@@ -111,7 +111,9 @@ class Linearisation {
   }
 
   /// Of u at one link.
-  int components() const { return static_cast<int>(chain_.coordinates().size()) / links_; }
+  int components() const {
+    return (static_cast<int>(chain_.coordinates().size()) - chain_.constraints()) / links_;
+  }
 
   const std::set<std::string>& down() const { return down_; }
   const std::set<std::string>& up() const { return up_; }
@@ -327,7 +329,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   Definitions& definitions = chain.definitions();
   const int n = chain.links(), before = definitions.size();
   const size_t block = chain.axes().size() == 2 ? 1 : 3;
-  if (chain.coordinates().size() != block * static_cast<size_t>(n)) {
+  const size_t inner = block * static_cast<size_t>(n), border = chain.constraints();
+  if (chain.coordinates().size() != inner + border) {
     throw NotOfThisForm("there are coordinates besides one angle a link");
   }
   Linearisation linearisation(chain, weights);
@@ -385,6 +388,31 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       for (size_t g = 0; g < up.size(); ++g)
         Hy[i][a][g] = entry(r, {Basis::kCarriedUp, up[g], i + 1});
     }
+  }
+  result.border = static_cast<int>(border);
+  result.border_column = result.border_row = table(border);
+  for (size_t k = 0; k < border; ++k) {
+    Differential along_hold(definitions,
+                            [](const std::string& family) { return family + "_held"; });
+    along_hold.set(chain.accelerations()[inner + k], weights.acceleration);
+    const Form constraint = linearisation.at_link(chain.residual()[inner + k], n + 1);
+    for (const auto& [basis, coefficient] : constraint)
+      if (basis.kind != Basis::kCarriedDown) throw NotOfThisForm("a constraint is not of the end");
+    for (int i = 1; i <= n; ++i) {
+      for (size_t a = 0; a < block; ++a) {
+        const ex& r = chain.residual()[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
+        result.border_column[i][a][k] =
+            definitions.named(along_hold.of(r), joined({"border_column", ending(a), ending(k)}), i);
+        ex by_link = 0;
+        for (size_t f = 0; f < down.size(); ++f)
+          by_link += entry(constraint, {Basis::kCarriedDown, down[f], n}) * B[i][a][f];
+        result.border_row[i][a][k] =
+            definitions.named(by_link, joined({"border_row", ending(a), ending(k)}), i);
+      }
+    }
+    for (size_t l = 0; l < border; ++l)
+      if (!along_hold.of(chain.residual()[inner + l]).is_zero())
+        throw NotOfThisForm("a constraint depends on what holds the end");
   }
   std::set<int> sums;
   for (int i = n; i >= 1; --i) {

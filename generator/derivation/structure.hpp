@@ -22,6 +22,11 @@
 // Whether the definitions have this form is decided exactly, coefficient by coefficient, for each
 // link. In space u_i has three components, and what has the index i above are blocks.
 //
+// The constraints of a held end have coordinates mu of their own, which border N by their columns and rows,
+// one each for a component of mu. Their accelerations are in the residual where the definitions that are
+// carried up begin, so that columns are derivatives along mu''; the rows are Hx of the constraint times the
+// B_j of what is carried down. No constraint depends on mu.
+//
 // Extra states have rates f(q, v, z); the rate of a state must not depend on another state. In an
 // implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
 // 1. They are eliminated, and N is the rest.
@@ -47,6 +52,9 @@ struct Quasiseparable {
   using Entries = std::vector<std::vector<std::vector<GiNaC::ex>>>;
   Entries upper_row, upper_column, lower_row, lower_column;
   Entries diagonal, below, above;  ///< T_{i,i} with all of N_ii; e_i; f_i
+  int border = 0;                  ///< rows and columns of constraints beyond N
+  Entries border_column,
+      border_row;  ///< [i][a][k]: of residual a of link i by mu_k, and of constraint k
 };
 
 /// Weights of accelerations, velocities and coordinates in N.

@@ -5,6 +5,8 @@
 #include <map>
 #include <sstream>
 
+#include "common/in_quotes.hpp"
+#include "common/input_error.hpp"
 #include "generator/emission/c_block_matrices.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/model_text.hpp"
@@ -484,6 +486,9 @@ std::string c_header_text(const ModelSummary& s) {
 }  // namespace
 
 EmittedModel emit_c_model(const Description& description, int links, Layout layout) {
+  if (const Effect* holding = description.holding())
+    throw InputError(in_quotes(holding->id) +
+                     " holds the far end, for which there is no C99; derive C++ instead");
   const ModelFunctions functions = model_functions(description, links, layout);
   const std::string name = functions.summary.name;
   return {functions.summary,

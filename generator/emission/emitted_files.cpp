@@ -38,6 +38,7 @@ std::string summary_text(const Description& description, const ModelSummary& s) 
                                 {"rank_above", s.newton_upper_rank},
                                 {"rank_below", s.newton_lower_rank}};
   if (s.block > 1) structure["rows_of_a_block"] = s.block;
+  if (s.constraints > 0) structure["rows_of_constraints"] = s.constraints;
   structure["stiffness_matrix"] = {{"constant_symmetric_tridiagonal", s.stiffness_tridiagonal}};
   structure["damping_matrix"] = {{"constant_symmetric_tridiagonal", s.damping_tridiagonal}};
   structure["obstacle"] = s.why_not;
@@ -91,8 +92,8 @@ std::string cmake_list(const std::vector<std::string>& names) {
 EmittedFiles support_for(const Description& description) {
   EmittedFiles files = support_text();
   if (description.space == Space::kPlane) {
-    for (const char* name :
-         {"angle_over_sine.hpp", "block_quasiseparable.hpp", "block_semiseparable.hpp"})
+    for (const char* name : {"angle_over_sine.hpp", "block_quasiseparable.hpp",
+                             "block_semiseparable.hpp", "bordered.hpp"})
       files.erase(name);
   }
   return files;

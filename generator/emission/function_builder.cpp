@@ -16,6 +16,7 @@ std::vector<Switch> switches_of(const Description& description) {
   std::vector<Switch> switches;
   for (const Effect& effect : description.effects) {
     Switch off;
+    if (effect.held_end.holds()) continue;  // it holds at all values
     for (const EffectParameter& parameter : effect.parameters)
       if (parameter.neutral == 0 && parameter.scope == Scope::kModel)
         off.families.insert(effect.id + "_" + parameter.name);
@@ -50,6 +51,7 @@ ModelFunctions FunctionBuilder::build() {
   s.links = links_;
   s.layout = layout_;
   s.coordinates = static_cast<int>(table.coordinates.size());
+  s.constraints = chain_.constraints();
   s.states = static_cast<int>(table.states.size());
   s.signals = static_cast<int>(table.signals.size());
   s.parameters = static_cast<int>(table.parameters.size());
@@ -62,6 +64,8 @@ ModelFunctions FunctionBuilder::build() {
   if (has_all()) energy();
   positions();
   if (has_all()) internal_forces();
+  if (has_all()) reactions();
+  if (chain_.constraints() > 0) gap();
   if (chain_.sensor().given) sensor();
   if (has_all()) adjoint();
   const std::vector<int> used = all_symbols();

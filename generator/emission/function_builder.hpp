@@ -38,6 +38,8 @@ class FunctionBuilder {
   void energy();
   void positions();
   void internal_forces();
+  void reactions();
+  void gap();
   void sensor();
 
   // what they share
@@ -104,12 +106,14 @@ class FunctionBuilder {
   std::vector<Output> from_coordinates(const std::string& array,
                                        const std::vector<GiNaC::ex>& values) const {
     std::vector<Output> outputs;
+    const int of_links = static_cast<int>(values.size()) - chain_.constraints();
     for (int i = 0; i < static_cast<int>(values.size()); ++i) {
       const int link = i % links_ + 1;
       const long family = i / links_;
+      const bool of_link = i < of_links;
       outputs.push_back({{"", array, {}},
-                         link,
-                         ArrayPlace{family * links_, true, -1},
+                         of_link ? link : kNoIndex,
+                         of_link ? ArrayPlace{family * links_, true, -1} : ArrayPlace{{}, false, i},
                          values[static_cast<size_t>(i)]});
     }
     return outputs;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/input_error.hpp"
 #include "generator/derivation/structure.hpp"
 #include "generator/emission/function_builder.hpp"
 
@@ -30,6 +31,10 @@ void add_entries(std::vector<Output>& outputs, const std::string& array,
 std::vector<Output> all_entries(const Quasiseparable& q, bool symmetric) {
   std::vector<Output> outputs;
   const bool blocks = q.block > 1;
+  if (q.border > 0) {
+    add_entries(outputs, "border_column", q.border_column, true);
+    add_entries(outputs, "border_row", q.border_row, true);
+  }
   if (symmetric) {
     add_entries(outputs, "row", q.lower_row, true);
     add_entries(outputs, "column", q.lower_column, true);
@@ -66,6 +71,10 @@ void FunctionBuilder::mass_and_acceleration() {
   const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
   s.why_not = mass.reason;
+  if (!mass.found && s.constraints > 0)
+    throw InputError(
+        "a chain whose far end is held needs a mass matrix of the form of the plain chain's: " +
+        mass.reason);
   const std::string acceleration_comment =
       "a such that r = 0. Returns 0, or the 1-based coordinate whose pivot is not positive.";
   if (!mass.found) {
@@ -80,12 +89,14 @@ void FunctionBuilder::mass_and_acceleration() {
     add("acceleration", acceleration_comment, {at(), result("a")}, {}, Frame::kDenseAcceleration);
     return;
   }
-  const bool symmetric = mass.symmetric && !any_nonzero(mass.below) && !any_nonzero(mass.above);
+  // A border needs factors with which to solve more than once.
+  const bool symmetric =
+      mass.symmetric && mass.border == 0 && !any_nonzero(mass.below) && !any_nonzero(mass.above);
   s.mass_symmetric = mass.symmetric;
   s.mass_rank = mass.lower_rank;
   s.block = mass.block;
   result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
-                  mass.upper_rank, mass.lower_rank, mass.block};
+                  mass.upper_rank, mass.lower_rank, mass.block, mass.border};
   const std::vector<Output> entries = all_entries(mass, symmetric);
   add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
              Frame::kMassMatrix);
@@ -115,8 +126,8 @@ void FunctionBuilder::newton() {
   }
   s.newton_upper_rank = newton.upper_rank;
   s.newton_lower_rank = newton.lower_rank;
-  result_.newton = {MatrixForm::kQuasiseparable, newton.upper_rank, newton.lower_rank,
-                    newton.block};
+  result_.newton = {MatrixForm::kQuasiseparable, newton.upper_rank, newton.lower_rank, newton.block,
+                    newton.border};
   add_inner("newton_matrix", "ca dr/da + cv dr/dv + cq dr/dq at the point (at.a is read).",
             {at(), number("ca"), number("cv"), number("cq"), {ParameterKind::kMatrix, "matrix"}},
             body(all_entries(newton, false), at_));

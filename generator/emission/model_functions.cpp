@@ -48,7 +48,10 @@ std::vector<TableEntry> ModelFunctions::table_entries() const {
           {"clock_tangent", observes},
           {"positions_across", in_space},
           {"positions_across_tangent", in_space},
-          {"velocities_across", in_space}};
+          {"velocities_across", in_space},
+          {"reactions", all},
+          {"gap", summary.constraints > 0},
+          {"gap_tangent", summary.constraints > 0}};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -59,6 +59,7 @@ struct MatrixForm {
   enum Kind { kDense, kSymmetricSemiseparable, kQuasiseparable } kind = kDense;
   int upper_rank = 0, lower_rank = 0;  ///< of the semiseparable parts
   int block = 1;                       ///< rows of the blocks that are its entries
+  int border = 0;                      ///< rows and columns beyond them, of constraints
   bool operator==(const MatrixForm&) const = default;
 };
 

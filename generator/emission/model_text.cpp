@@ -41,6 +41,10 @@ std::string matrix_type(const MatrixForm& form, NumberOfLinks links) {
   const std::string block = form.block > 1 ? "Block" : "";
   const std::string lower = std::to_string(form.lower_rank) +
                             (form.block > 1 ? ", " + std::to_string(form.block) : "") + ">";
+  if (form.border > 0)
+    return "Bordered<T, " + size + std::to_string(form.upper_rank) + ", " +
+           std::to_string(form.lower_rank) + ", " + std::to_string(form.block) + ", " +
+           std::to_string(form.border) + ">";
   return form.kind == MatrixForm::kSymmetricSemiseparable
              ? "Symmetric" + block + "Semiseparable<T, " + size + lower
              : block + "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
@@ -419,10 +423,13 @@ std::string in_lines(std::string head, const std::vector<std::string>& arguments
 }
 
 std::string space_include(const ModelFunctions& functions) {
-  return functions.space == Space::kPlane ? ""
-                                          : "#include \"angle_over_sine.hpp\"\n"
-                                            "#include \"block_quasiseparable.hpp\"\n"
-                                            "#include \"block_semiseparable.hpp\"\n";
+  if (functions.space == Space::kPlane) return "";
+  std::string text =
+      "#include \"angle_over_sine.hpp\"\n"
+      "#include \"block_quasiseparable.hpp\"\n"
+      "#include \"block_semiseparable.hpp\"\n";
+  if (functions.summary.constraints > 0) text += "#include \"bordered.hpp\"\n";
+  return text;
 }
 
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {

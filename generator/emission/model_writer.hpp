@@ -25,7 +25,8 @@ struct ModelSummary {
   bool mass_structured = false;  ///< mass matrix: semiseparable
   bool mass_symmetric = false;   ///< proved from its rows and columns
   int mass_rank = 0, newton_upper_rank = 0, newton_lower_rank = 0;
-  int block = 1;  ///< both are of blocks of so many rows
+  int block = 1;        ///< both are of blocks of so many rows
+  int constraints = 0;  ///< of a held end, which border both
   bool stiffness_tridiagonal = false, damping_tridiagonal = false;
   std::string why_not;  ///< what stands in the way of a structure
   Layout layout = Layout::kLoops;

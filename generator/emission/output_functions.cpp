@@ -73,6 +73,37 @@ void FunctionBuilder::internal_forces() {
       {at(), result("moment"), result("tension"), result("curvature")}, body(outputs, at_));
 }
 
+void FunctionBuilder::reactions() {
+  std::vector<Output> outputs;
+  const auto add_all = [&](const std::string& array, std::vector<ex> Chain::Reaction::*what) {
+    int place = 0;
+    for (const Chain::Reaction& reaction : chain_.reactions())
+      for (const ex& component : reaction.*what)
+        outputs.push_back({{"", array, {}}, kNoIndex, ArrayPlace{{}, false, place++}, component});
+  };
+  add_all("force", &Chain::Reaction::force);
+  add_all("moment", &Chain::Reaction::moment);
+  add("reactions", "What holds the support, then a held end: forces (N) and moments (N m).",
+      {at(), result("force"), result("moment")}, body(outputs, at_));
+}
+
+void FunctionBuilder::gap() {
+  std::vector<Output> outputs;
+  const auto add_all = [&](const std::string& array, const auto& act) {
+    int place = 0;
+    for (const ex& component : chain_.gap())
+      outputs.push_back(
+          {{"", array, {}}, kNoIndex, ArrayPlace{{}, false, place++}, act(component)});
+  };
+  add_all("apart", [](const ex& e) { return e; });
+  add_all("rate", [&](const ex& e) { return chain_.rate(e); });
+  add("gap", "From where the end is held to the end of the last link, m, and its rate, m/s.",
+      {at(), result("apart"), result("rate")}, body(outputs, at_));
+  add("gap_tangent", "Derivative of the gap along `along`.",
+      {at(), along(), change("dapart"), change("drate")},
+      body(tangents_of(outputs), at_and_along_));
+}
+
 void FunctionBuilder::sensor() {
   result_.observes = true;
   const Chain::Sensor& sensor = chain_.sensor();

@@ -29,6 +29,10 @@ constexpr ChainFamily kShared[] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, -kInfinity},
 };
 
+// The coordinates of the constraint of a held end: twice integrated, the force that holds it, with the
+// opposite sign.
+constexpr const char* kHold[] = {"hold_side", "hold_down", "hold_across"};
+
 // Torques act on the angles of the plane.
 bool has_family(const Description& description, const ChainFamily& row) {
   return description.space == Space::kPlane || std::string_view(row.family) != "torque";
@@ -73,6 +77,8 @@ TableFamilies table_families(const Description& description) {
     }
     for (const Coordinate& coordinate : effect.coordinates)
       table.coordinates.push_back({{id + coordinate.name, coordinate.unit}, true});
+    if (effect.held_end.holds())
+      for (const char* name : kHold) table.coordinates.push_back({{name, "N s^2"}});
     for (const ExtraState& state : effect.states) {
       const bool of_each_link = state.at != Place::kPivot;
       table.states.push_back(
@@ -112,22 +118,25 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
     places.push_back({family, 'p', p, count, indexed});
     p += count;
   };
-  const auto coordinate = [&](const std::string& family) {
-    places.push_back({family, 'q', q, links, true});
-    places.push_back({family + "_dot", 'v', q, links, true});
-    places.push_back({family + "_ddot", 'a', q, links, true});
-    q += links;
+  const auto coordinate = [&](const std::string& family, bool of_each_link) {
+    const int count = of_each_link ? links : 1;
+    places.push_back({family, 'q', q, count, of_each_link});
+    places.push_back({family + "_dot", 'v', q, count, of_each_link});
+    places.push_back({family + "_ddot", 'a', q, count, of_each_link});
+    q += count;
   };
   for (const ChainFamily& row : kPerLink)
     if (has_family(description, row)) parameter(row.family, links, true);
   for (const ChainFamily& row : kShared) parameter(row.family, 1, false);
-  for (const QuantityRow& row : chain_coordinates(description)) coordinate(row.name);
+  for (const QuantityRow& row : chain_coordinates(description)) coordinate(row.name, true);
   for (const Effect& effect : description.effects) {
     const auto name = [&](const auto& what) { return effect.id + "_" + what.name; };
     for (const EffectParameter& row : effect.parameters) {
       parameter(name(row), copies(row, links), row.scope != Scope::kModel);
     }
-    for (const Coordinate& row : effect.coordinates) coordinate(name(row));
+    for (const Coordinate& row : effect.coordinates) coordinate(name(row), true);
+    if (effect.held_end.holds())
+      for (const char* hold : kHold) coordinate(hold, false);
     for (const ExtraState& state : effect.states) {
       places.push_back({name(state), 'z', z, copies(state, links), true});
       z += copies(state, links);

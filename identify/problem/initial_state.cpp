@@ -8,6 +8,7 @@
 #include "common/input_error.hpp"
 #include "identify/problem/parameter_map.hpp"
 #include "linear_algebra/decompositions.hpp"
+#include "runtime/held_end.hpp"
 #include "runtime/link_frame.hpp"
 #include "runtime/rest_states.hpp"
 
@@ -143,8 +144,9 @@ State shape_at_start(const Model& model, const Eigen::VectorXd& parameters,
   return from_angles(model, initial_angles(initial, link_lengths(model, parameters)));
 }
 
-/// What a start in space says of the links. `in_plane`: its shape, in the plane of side and down.
-LinkDirections directions_at_start(const Model& model, const State& in_plane,
+/// What a start in space says of the links. `shape`: in the plane of side and down, or an equilibrium, whose
+/// links have azimuths of their own.
+LinkDirections directions_at_start(const Model& model, const State& shape,
                                    const InitialSpec& initial, const Eigen::VectorXd& lengths) {
   const Eigen::Index n = model.links();
   const auto or_zero = [&](const std::vector<double>& values) -> Eigen::VectorXd {
@@ -152,9 +154,12 @@ LinkDirections directions_at_start(const Model& model, const State& in_plane,
   };
   LinkDirections links;
   links.angle.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    links.angle[i] = std::atan2(in_plane.q[i], in_plane.q[n + i]);
   links.azimuth = or_zero(initial.azimuths);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double side = shape.q[i], down = shape.q[n + i], across = shape.q[2 * n + i];
+    links.angle[i] = std::atan2(across == 0 ? side : std::hypot(side, across), down);
+    if (across != 0) links.azimuth[i] = std::atan2(across, side);
+  }
   links.angle_rate = initial_rates(initial, lengths);
   links.azimuth_rate = or_zero(initial.azimuth_rates);
   if (!initial.out_of_plane.empty())
@@ -217,8 +222,10 @@ State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
                      const InitialSpec& initial, const Signals& signals, double time) {
   const Eigen::VectorXd lengths = link_lengths(model, parameters);
   State state = shape_at_start(model, parameters, initial, signals, time);
-  if (model.in_space())
-    return from_directions(model, directions_at_start(model, state, initial, lengths));
+  if (model.in_space()) {
+    state = from_directions(model, directions_at_start(model, state, initial, lengths));
+    return model.held() ? closed_end(model, parameters, state, time, signals) : state;
+  }
   state.v.head(model.links()) = initial_rates(initial, lengths);
   return state;
 }
@@ -243,10 +250,15 @@ SensitivityDirection start_along(const Model& model, const Eigen::VectorXd& para
                                       &along.out_of_plane_rate};
     *moved[list] = column;
     const State in_plane = shape_at_start(model, parameters, initial, signals, time);
-    State state = from_directions_tangent(
-        model, directions_at_start(model, in_plane, initial, lengths), along);
+    const LinkDirections links = directions_at_start(model, in_plane, initial, lengths);
+    State state = from_directions_tangent(model, links, along);
     direction.q = std::move(state.q);
     direction.v = std::move(state.v);
+    if (model.held()) {
+      const State open = from_directions(model, links);
+      close_direction(model, parameters, open, closed_end(model, parameters, open, time, signals),
+                      direction);
+    }
   } else {
     Eigen::VectorXd& moved = rate ? direction.v : direction.q;
     moved = Eigen::VectorXd::Zero(model.coordinates());

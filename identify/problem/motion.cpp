@@ -33,7 +33,7 @@ Motion motion_at(const std::vector<double>& times, const Problem& problem, const
   motion.simulation =
       simulate(model, parameters, problem.initial_state(x, experiment), times, options, signals);
   Trajectory& path = motion.simulation.trajectory;
-  if (model.in_space()) normalise_directions(path);
+  if (model.in_space()) normalise_directions(path, model.links());
   const auto count = static_cast<Eigen::Index>(path.time.size());
   motion.side.resize(model.links() + 2, count);
   motion.down.resize(model.links() + 2, count);

@@ -121,8 +121,9 @@ std::vector<SensitivityDirection> Problem::directions(const Eigen::VectorXd& x,
     if (unknown.experiment >= 0 && unknown.experiment != experiment) continue;
     if (unknown.parameter >= 0) {
       direction.parameters = by_value.col(unknown.parameter);
-      // A catenary and a hanging shape follow from the parameters: central differences.
-      if (initial.shape == Shape::kCatenary || initial.shape == Shape::kHanging) {
+      // A catenary, a hanging shape and one between two ends follow from the parameters: central
+      // differences.
+      if (initial.shape == Shape::kCatenary || initial.shape == Shape::kHanging || model_.held()) {
         const double h = 1e-6 * (1 + std::abs(values[unknown.parameter])) *
                          (unknown.scale == Scale::kLogarithmic ? 1e-3 : 1);
         const State more = state_of(experiment, initial, parameters + h * direction.parameters);

@@ -69,9 +69,11 @@ std::string angles_csv(const Model& model, const Motion& motion) {
   const Trajectory& path = motion.simulation.trajectory;
   Csv csv;
   csv.name("time_s");
-  for (int i = 0; i < table.coordinates; ++i)
+  const int coordinates =
+      table.coordinates - (model.held() ? 3 : 0);  // without integrals of a force
+  for (int i = 0; i < coordinates; ++i)
     csv.name(table.coordinate[i].name + unit_suffix(table.coordinate[i].unit));
-  for (int i = 0; i < table.coordinates; ++i)
+  for (int i = 0; i < coordinates; ++i)
     csv.name(std::string(table.coordinate[i].name) + "_rate" +
              unit_suffix(std::string(table.coordinate[i].unit) + "/s"));
   for (int i = 0; i < table.states; ++i)
@@ -79,8 +81,8 @@ std::string angles_csv(const Model& model, const Motion& motion) {
   csv.end_line();
   for (Eigen::Index k = 0; k < path.q.cols(); ++k) {
     csv.number(path.time[static_cast<std::size_t>(k)]);
-    for (const double value : path.q.col(k)) csv.number(value);
-    for (const double value : path.v.col(k)) csv.number(value);
+    for (const double value : path.q.col(k).head(coordinates)) csv.number(value);
+    for (const double value : path.v.col(k).head(coordinates)) csv.number(value);
     for (const double value : path.z.col(k)) csv.number(value);
     csv.end_line();
   }
@@ -89,19 +91,31 @@ std::string angles_csv(const Model& model, const Motion& motion) {
 
 std::string forces_csv(const Motion& motion) {
   const InternalForces& forces = motion.forces;
+  const char* const axes[] = {"side", "down", "across"};
   const std::tuple<const char*, const char*, const Eigen::MatrixXd&> kinds[] = {
       {"moment_", "_N_m", forces.moment},
       {"tension_", "_N", forces.tension},
       {"curvature_", "_rad_m", forces.curvature}};
+  const std::tuple<const char*, const char*, const Eigen::MatrixXd&> reactions[] = {
+      {"support_force", "_N", forces.support.force},
+      {"support_moment", "_N_m", forces.support.moment},
+      {"end_force", "_N", forces.end.force},
+      {"end_moment", "_N_m", forces.end.moment}};
   Csv csv;
   csv.name("time_s");
   for (const auto& [name, unit, values] : kinds)
     for (Eigen::Index i = 1; i <= values.rows(); ++i) csv.name(name + std::to_string(i) + unit);
+  for (const auto& [name, unit, values] : reactions)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      csv.name(name + (values.rows() == 1 ? std::string() : std::string("_") + axes[i]) + unit);
   csv.end_line();
   for (Eigen::Index k = 0; k < forces.moment.cols(); ++k) {
     csv.number(motion.simulation.trajectory.time[static_cast<std::size_t>(k)]);
     for (const auto& [name, unit, values] : kinds)
       for (const double value : values.col(k)) csv.number(value);
+    for (const auto& [name, unit, values] : reactions)
+      if (values.size())
+        for (const double value : values.col(k)) csv.number(value);
     csv.end_line();
   }
   return csv.take();

@@ -95,7 +95,7 @@ TEST_CASE("the motion does not depend on the lengths of the vectors along the li
   CHECK((here.across - there.across).cwiseAbs().maxCoeff() < 1e-8);
   CHECK(other.trajectory.q.col(1).norm() > 1.5 * one.trajectory.q.col(1).norm());
   catena::Trajectory normal = other.trajectory;
-  normalise_directions(normal);
+  normalise_directions(normal, model.links());
   CHECK(normal.q.col(1).norm() == doctest::Approx(std::sqrt(12.0)).epsilon(1e-14));
   CHECK(normal.q.col(1)(Eigen::seqN(3, 3, 12)).dot(normal.v.col(1)(Eigen::seqN(3, 3, 12))) ==
         doctest::Approx(0).epsilon(1e-12));

@@ -203,7 +203,7 @@ struct BlockQuasiseparable {
     }
   }
 
- private:
+ protected:
   template <int rows, int columns>
   struct Matrix {
     T at[rows][columns];
@@ -260,27 +260,28 @@ struct BlockQuasiseparable {
   }
 
   /// By elimination without exchanges. Returns 0, or the 1-based row whose pivot vanished.
-  static int invert(Matrix<block, block> matrix, Matrix<block, block>& inverse) {
-    T(&m)[block][block] = matrix.at;
-    T(&x)[block][block] = inverse.at;
+  template <int size>
+  static int invert(Matrix<size, size> matrix, Matrix<size, size>& inverse) {
+    T(&m)[size][size] = matrix.at;
+    T(&x)[size][size] = inverse.at;
     CATENA_UNROLLED
-    for (int a = 0; a < block; ++a) {
+    for (int a = 0; a < size; ++a) {
       CATENA_UNROLLED
-      for (int b = 0; b < block; ++b) x[a][b] = T(a == b ? 1 : 0);
+      for (int b = 0; b < size; ++b) x[a][b] = T(a == b ? 1 : 0);
     }
     CATENA_UNROLLED
-    for (int k = 0; k < block; ++k) {
+    for (int k = 0; k < size; ++k) {
       if (!usable_pivot(m[k][k])) return k + 1;
       const T reciprocal = T(1) / m[k][k];
       CATENA_UNROLLED
-      for (int b = k + 1; b < block; ++b) m[k][b] *= reciprocal;
+      for (int b = k + 1; b < size; ++b) m[k][b] *= reciprocal;
       CATENA_UNROLLED
       for (int b = 0; b <= k; ++b) x[k][b] *= reciprocal;
       CATENA_UNROLLED
-      for (int a = 0; a < block; ++a) {
+      for (int a = 0; a < size; ++a) {
         if (a == k) continue;
         CATENA_UNROLLED
-        for (int b = k + 1; b < block; ++b)
+        for (int b = k + 1; b < size; ++b)
           m[a][b] = negative_multiply_add(m[a][k], m[k][b], m[a][b]);
         CATENA_UNROLLED
         for (int b = 0; b <= k; ++b) x[a][b] = negative_multiply_add(m[a][k], x[k][b], x[a][b]);

@@ -180,6 +180,17 @@ typedef struct catena_model {
   void (*positions_across_tangent)(const void* context, const catena_point* at,
                                    const catena_point* along, double* dacross);
   void (*velocities_across)(const void* context, const catena_point* at, double* across_rate);
+  /* What holds the support exerts on the chain, then what holds the far end, where it is held: forces (N)
+     and moments (N m) by components side, down, across, force[3 or 6] and moment[3 or 6]. In the plane
+     force[2] and moment[1], positive towards +theta. at->a is read. */
+  void (*reactions)(const void* context, const catena_point* at, double* force, double* moment);
+  /* Where the far end is held, null elsewhere. The last three coordinates are then those of the
+     constraint: their second derivatives are the force that the end exerts on what holds it, their
+     values and rates enter no equation. apart[3]: from where it is held to the far end of the last link, m;
+     rate[3]: its time derivative. */
+  void (*gap)(const void* context, const catena_point* at, double* apart, double* rate);
+  void (*gap_tangent)(const void* context, const catena_point* at, const catena_point* along,
+                      double* dapart, double* drate);
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runtime/rest_states.hpp"
+
+namespace catena {
+
+/// hanging_equilibrium of a model in space (rest_states.hpp), whose far end is free or held, in time
+/// proportional to the number of links. It begins plumb, or with a catenary between the ends, and goes on by
+/// implicit steps of the motion, the velocity taken away after each (pseudo-transient continuation): the
+/// matrix of a step is M / tau^2 + dr/dq. tau grows as the residual falls, so that Newton's method is the
+/// limit, and equilibria that are not stable are left.
+/// Throws ImpossibleValue where the ends are as far apart as the cable is long, or farther.
+Equilibrium space_equilibrium(const Model& model, const Eigen::VectorXd& parameters, double t,
+                              const Signals& signals);
+
+}  // namespace catena

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Chains whose two ends are held: against closed forms, balances of momentum, and their own derivatives.
+#include "runtime/held_end.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "common/impossible_value.hpp"
+#include "linear_algebra/decompositions.hpp"
+#include "runtime/adjoint.hpp"
+#include "runtime/internal_forces.hpp"
+#include "runtime/newton_matrix.hpp"
+#include "runtime/positions.hpp"
+#include "runtime/rest_states.hpp"
+#include "runtime/sensitivity.hpp"
+#include "runtime/simulation.hpp"
+#include "tests/runtime/space_cable.hpp"
+
+namespace {
+
+using catena::Model;
+using catena::State;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using testing::askew;
+using testing::cable;
+using testing::kGravity;
+using testing::run;
+using testing::tight;
+
+void set(const Model& model, VectorXd& p, const char* name, double value) {
+  p[model.parameter_index(name)] = value;
+}
+
+/// Between the support and (0.7, 0.2, 0.1), where the end swings; m.
+VectorXd swung(const Model& model) {
+  VectorXd p = cable(model, 0.02, 1e-3);
+  set(model, p, "holds_end.to_side", 0.7);
+  set(model, p, "holds_end.to_down", 0.2);
+  set(model, p, "holds_end.to_across", 0.1);
+  set(model, p, "holds_end.amplitude", 0.15);
+  set(model, p, "holds_end.frequency", 1.3);
+  return p;
+}
+
+State closed(const Model& model, const VectorXd& p, const State& open) {
+  return closed_end(model, p, open, 0, {});
+}
+
+Vector3d gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
+             double t) {
+  Vector3d apart, rate;
+  model.gap({t, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
+            rate.data());
+  return apart;
+}
+
+VectorXd accelerations(const Model& model, const VectorXd& p, const State& state, double t) {
+  VectorXd a = VectorXd::Zero(model.coordinates());
+  REQUIRE(
+      model.acceleration({t, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()},
+                         a.data()) == 0);
+  return a;
+}
+
+Vector3d vector_of(const VectorXd& all, Eigen::Index links, Eigen::Index i) {
+  return {all[i], all[links + i], all[2 * links + i]};
+}
+
+/// Of all links and the load, kg m/s.
+Vector3d momentum(const Model& model, const VectorXd& p, const VectorXd& v) {
+  const Eigen::Index n = model.links();
+  Vector3d sum = Vector3d::Zero(), joint = Vector3d::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector3d span = p[i] * vector_of(v, n, i);
+    sum += p[n + i] * (joint + span / 2);
+    joint += span;
+  }
+  return sum + p[model.parameter_index("load_mass")] * joint;
+}
+
+double whole_mass(const Model& model, const VectorXd& p) {
+  return p.segment(model.links(), model.links()).sum() + p[model.parameter_index("load_mass")];
+}
+
+catena::InternalForces forces_at_rest(const Model& model, const VectorXd& p, const State& state) {
+  return internal_forces(model, p, {{0.0}, state.q, state.v, state.z, {}});
+}
+
+State equilibrium(const Model& model, const VectorXd& p) {
+  catena::Equilibrium found = hanging_equilibrium(model, p);
+  REQUIRE_MESSAGE(found.status == catena::Status::kSuccess, found.message);
+  return found.state;
+}
+
+}  // namespace
+
+TEST_CASE("accelerations and Newton's steps solve the equations with the constraint") {
+  const Model model = Model::load(HELD_END_5);
+  const VectorXd p = swung(model);
+  const State state = closed(model, p, askew(model));
+  const int n = model.coordinates();
+  VectorXd a = accelerations(model, p, state, 0.3), r(n);
+  const catena_point at{0.3, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()};
+  model.residual(at, r.data());
+  CHECK(r.cwiseAbs().maxCoeff() < 1e-11);
+
+  Eigen::MatrixXd newton(n, n), mass(n, n), by_a(n, n);
+  const VectorXd zero = VectorXd::Zero(std::max(n, model.parameters()));
+  const double ca = 1.0, cv = 0.02, cq = 0.0004;
+  for (int j = 0; j < n; ++j) {
+    const VectorXd da = ca * VectorXd::Unit(n, j), dv = cv * VectorXd::Unit(n, j),
+                   dq = cq * VectorXd::Unit(n, j);
+    model.residual_tangent(
+        at, {0, dq.data(), dv.data(), da.data(), zero.data(), zero.data(), zero.data()},
+        newton.col(j).data());
+    model.residual_tangent(
+        at, {0, zero.data(), zero.data(), da.data(), zero.data(), zero.data(), zero.data()},
+        by_a.col(j).data());
+  }
+  Eigen::MatrixXd rows(n, n);
+  model.table().mass_matrix(model.table().context, &at, rows.data());
+  mass = rows.transpose();
+  CHECK((mass - by_a).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK((mass - mass.transpose()).cwiseAbs().maxCoeff() < 1e-14);
+
+  std::vector<double> work(static_cast<std::size_t>(model.table().newton_work));
+  REQUIRE(model.newton_factor(at, ca, cv, cq, work.data()) == 0);
+  const VectorXd right = VectorXd::LinSpaced(n, -1, 2);
+  VectorXd x = right;
+  model.newton_solve(work.data(), x.data());
+  CHECK((newton * x - right).cwiseAbs().maxCoeff() < 1e-11);
+  VectorXd y = right;
+  model.newton_solve_transposed(work.data(), y.data());
+  CHECK((newton.transpose() * y - right).cwiseAbs().maxCoeff() < 1e-11);
+}
+
+TEST_CASE("the gap stays closed, the energy balances, and reactions change the momentum") {
+  const Model model = Model::load(HELD_END_12);
+  const VectorXd p = swung(model);
+  const State start = closed(model, p, askew(model));
+  CHECK(gap(model, p, start.q, start.v, 0).norm() < 1e-15);
+  std::vector<double> times;
+  for (int k = 0; k <= 3000; ++k) times.push_back(1e-3 * k);
+  const catena::Simulation motion = run(model, p, start, times);
+  const catena::Trajectory& path = motion.trajectory;
+  double widest = 0;
+  for (Eigen::Index k = 0; k < path.q.cols(); ++k)
+    widest = std::max(
+        widest,
+        gap(model, p, path.q.col(k), path.v.col(k), times[static_cast<std::size_t>(k)]).norm());
+  CHECK(widest < 1e-8);  // m; 1e-6 are asked
+  CHECK(motion.energy_imbalance < 1e-9 * path.energy.cwiseAbs().maxCoeff());
+
+  const catena::InternalForces forces = internal_forces(model, p, path);
+  const Vector3d weight(0, whole_mass(model, p) * kGravity, 0);
+  // Simpson's rule over the times
+  Vector3d impulse = Vector3d::Zero();
+  for (Eigen::Index k = 0; k < path.q.cols(); ++k) {
+    const double share = k == 0 || k + 1 == path.q.cols() ? 1 : k % 2 == 1 ? 4 : 2;
+    impulse += share * 1e-3 / 3 * (forces.support.force.col(k) + forces.end.force.col(k) + weight);
+  }
+  const Vector3d change =
+      momentum(model, p, path.v.col(path.v.cols() - 1)) - momentum(model, p, path.v.col(0));
+  CHECK((impulse - change).norm() < 1e-5 * change.norm());
+  CHECK(forces.end.moment.cwiseAbs().maxCoeff() == 0.0);
+
+  // A fit's usual tolerances keep it closed, too.
+  const catena::Simulation usual = simulate(model, p, start, times);
+  REQUIRE(usual.status == catena::Status::kSuccess);
+  for (Eigen::Index k = 0; k < usual.trajectory.q.cols(); ++k)
+    CHECK(gap(model, p, usual.trajectory.q.col(k), usual.trajectory.v.col(k),
+              times[static_cast<std::size_t>(k)])
+              .norm() < 1e-6);
+}
+
+// Two links between two points are a rigid body that swings about the line between them.
+TEST_CASE("two links between two points swing as a pendulum") {
+  const Model model = Model::load(HELD_END_2);
+  VectorXd p = cable(model, 0, 0);
+  const double apart = 0.9, length = p[0], mass = p[2],
+               load = p[model.parameter_index("load_mass")];
+  set(model, p, "holds_end.to_side", apart);
+  const double amplitude = 1.2, down = std::sqrt(length * length - apart * apart / 4);
+  // Moments about the line; the load sits on it. Of a link: m h^2 / 3 with a uniform inertia.
+  const double turning = 2 * mass * down * down / 3, leaning = 2 * mass * down / 2;
+  const double frequency = std::sqrt(kGravity * leaning / turning);
+  const double period = 4 / frequency * std::comp_ellint_1(std::sin(amplitude / 2));
+  CHECK(load > 0);
+  State start = State::zero(model);
+  start.q << apart / 2 / length, apart / 2 / length,  // side
+      std::cos(amplitude) * down / length, -std::cos(amplitude) * down / length,
+      std::sin(amplitude) * down / length, -std::sin(amplitude) * down / length, 0, 0, 0;
+  const auto motion = run(model, p, start, {0, period / 2, period}).trajectory;
+  CHECK(motion.q(4, 1) == doctest::Approx(-start.q[4]).epsilon(1e-8));
+  CHECK(motion.q(4, 2) == doctest::Approx(start.q[4]).epsilon(1e-8));
+  CHECK(std::abs(motion.v(4, 1)) < 1e-7);
+}
+
+// Where the direction of each link is that of the force at its middle, hinged links balance.
+TEST_CASE("a cable between two points hangs as a catenary") {
+  const Model model = Model::load(HELD_END_60);
+  VectorXd p = cable(model, 0, 0);
+  const double side = 0.6, down = 0.25, across = 0.3, length = 1.2;
+  set(model, p, "load_mass", 0);
+  set(model, p, "holds_end.to_side", side);
+  set(model, p, "holds_end.to_down", down);
+  set(model, p, "holds_end.to_across", across);
+  const State state = equilibrium(model, p);
+  const catena::InternalForces forces = forces_at_rest(model, p, state);
+  const Eigen::Index n = model.links();
+  Vector3d force = -forces.support.force.col(0);  // on what is above
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector3d weight(0, p[n + i] * kGravity, 0);
+    const Vector3d middle = force - weight / 2;
+    CHECK((middle.normalized() - vector_of(state.q, n, i)).norm() < 1e-9);
+    force -= weight;
+  }
+  CHECK((force - forces.end.force.col(0)).norm() < 1e-9);
+
+  // The force is horizontally that of a weight a w: 2 a sinh(span / 2a) = sqrt(length^2 - down^2).
+  const double span = std::hypot(side, across), chord = std::sqrt(length * length - down * down);
+  double half = std::sqrt(6 * (chord / span - 1));  // span / 2a, by Newton's method from above
+  for (int k = 0; k < 100; ++k)
+    half -= (std::sinh(half) - chord / span * half) / (std::cosh(half) - chord / span);
+  const double horizontal = 0.15 * kGravity * span / 2 / half;
+  CHECK(std::hypot(forces.support.force(0, 0), forces.support.force(2, 0)) ==
+        doctest::Approx(horizontal).epsilon(1e-3));
+}
+
+// A weightless rod with hinged ends closer together than it is long: with the modulus k of the elliptic
+// integrals K and E, apart / length = 2 E / K - 1, force = (2 K / length)^2 EI.
+TEST_CASE("a rod that is pushed together bends as the elastica") {
+  const Model model = Model::load(HELD_END_60);
+  const double bending = 0.02, modulus = 0.7, length = 1.2;
+  VectorXd p = cable(model, bending / (length / 60), 0);
+  const double K = std::comp_ellint_1(modulus), E = std::comp_ellint_2(modulus);
+  set(model, p, "stiffness_1", 0);
+  set(model, p, "gravity", 0);
+  set(model, p, "load_mass", 0);
+  set(model, p, "holds_end.to_side", length * (2 * E / K - 1));
+  const State state = equilibrium(model, p);
+  const catena::InternalForces forces = forces_at_rest(model, p, state);
+  const double expected = std::pow(2 * K / length, 2) * bending;
+  CHECK(forces.end.force(0, 0) == doctest::Approx(-expected).epsilon(1e-3));
+  CHECK(forces.support.force(0, 0) == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(std::abs(forces.support.force(1, 0)) < 1e-9 * expected);
+}
+
+TEST_CASE("reactions of clamped ends balance the weight and its moment") {
+  const Model model = Model::load(GRIPPED_8);
+  VectorXd p = cable(model, 0.3, 0);
+  set(model, p, "grips.to_side", 0.5);
+  set(model, p, "grips.to_down", 0.4);
+  set(model, p, "grips.turn", 0.8);
+  set(model, p, "grips.end_turn", 2.0);
+  set(model, p, "grips.firmness", 1.7);
+  const State state = equilibrium(model, p);
+  const catena::InternalForces forces = forces_at_rest(model, p, state);
+  const Eigen::Index n = model.links();
+  Vector3d moment = forces.support.moment.col(0) + forces.end.moment.col(0), joint(0, 0, 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector3d span = p[i] * vector_of(state.q, n, i);
+    moment += (joint + span / 2).cross(Vector3d(0, p[n + i] * kGravity, 0));
+    joint += span;
+  }
+  const double load = p[model.parameter_index("load_mass")];
+  moment += joint.cross(Vector3d(0, load * kGravity, 0) + forces.end.force.col(0));
+  CHECK((joint - Vector3d(0.5, 0.4, 0)).norm() < 1e-12);
+  CHECK(moment.norm() < 1e-9);
+  // The clamp bends with 1.7 times the stiffness of half a link.
+  const double angle =
+      std::acos(vector_of(state.q, n, n - 1).dot(Vector3d(std::sin(2.0), std::cos(2.0), 0)));
+  CHECK(forces.end.moment.col(0).norm() == doctest::Approx(1.7 * 2 * 0.3 * angle).epsilon(1e-9));
+  CHECK(forces.support.moment.col(0).norm() == doctest::Approx(forces.moment(0, 0)).epsilon(1e-12));
+}
+
+TEST_CASE("clamped ends that move: energy, sensitivities and the adjoint") {
+  const Model model = Model::load(GRIPPED_8);
+  VectorXd p = cable(model, 0.3, 5e-3);
+  set(model, p, "grips.to_side", 0.5);
+  set(model, p, "grips.to_down", 0.4);
+  set(model, p, "grips.turn", 0.8);
+  set(model, p, "grips.end_turn", 2.0);
+  set(model, p, "grips.amplitude", 0.1);
+  set(model, p, "grips.turn_across", 0.5);
+  const State start = closed(model, p, askew(model));
+  const std::vector<double> times{0, 0.2, 0.5};
+  const catena::Simulation motion = run(model, p, start, times);
+  CHECK(motion.energy_imbalance < 1e-9 * motion.trajectory.energy.cwiseAbs().maxCoeff());
+
+  const auto damping = model.parameter_index("damping_3"),
+             firmness = model.parameter_index("grips.firmness"),
+             amplitude = model.parameter_index("grips.amplitude");
+  std::vector<catena::SensitivityDirection> directions;
+  for (const int index : {damping, firmness, amplitude})
+    directions.push_back(catena::SensitivityDirection::parameter(model, index));
+  catena::SimulationOptions options = tight();
+  options.sensitivities_in_error_test = true;
+  const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);
+  REQUIRE_MESSAGE(sensitive.status == catena::Status::kSuccess, sensitive.message);
+  const Eigen::Index links = 3 * model.links();
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    CAPTURE(j);
+    Eigen::Index index = 0;
+    directions[j].parameters.maxCoeff(&index);
+    const double h = 1e-5 * std::max(1e-2, p[index]);
+    VectorXd more = p, less = p;
+    more[index] += h, less[index] -= h;
+    const VectorXd expected = (run(model, more, start, times).trajectory.q.col(2) -
+                               run(model, less, start, times).trajectory.q.col(2)) /
+                              (2 * h);
+    const VectorXd found = sensitive.sensitivity[j].q.col(2);
+    CHECK((found - expected).head(links).cwiseAbs().maxCoeff() <
+          1e-5 * expected.head(links).cwiseAbs().maxCoeff());
+  }
+  const auto objective = [&](const catena::Trajectory& at, catena::Trajectory& slope) {
+    slope.q(4, at.q.cols() - 1) = 1;
+  };
+  const auto adjoint = simulate_with_gradient(model, p, start, times, objective, options);
+  REQUIRE_MESSAGE(adjoint.status == catena::Status::kSuccess, adjoint.message);
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    Eigen::Index index = 0;
+    directions[j].parameters.maxCoeff(&index);
+    CHECK(adjoint.gradient.parameters[index] ==
+          doctest::Approx(sensitive.sensitivity[j].q(4, 2)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a start is closed, and its derivative is that of closing it") {
+  const Model model = Model::load(HELD_END_5);
+  const VectorXd p = swung(model);
+  const State open = askew(model);
+  const VectorXd dq = VectorXd::LinSpaced(model.coordinates(), -1, 2),
+                 dv = VectorXd::LinSpaced(model.coordinates(), 2, -3);
+  const auto moved = [&](double h) {
+    State state = open;
+    state.q += h * dq, state.v += h * dv;
+    return closed_end(model, p, state, 0.2, {});
+  };
+  const State shut = moved(0);
+  Vector3d apart, rate;
+  model.gap({0.2, shut.q.data(), shut.v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
+            rate.data());
+  CHECK(apart.norm() < 1e-14);
+  CHECK(rate.norm() < 1e-13);
+  catena::SensitivityDirection direction{{}, dq, dv, {}};
+  close_direction(model, p, open, shut, direction);
+  const double h = 1e-6;
+  const State more = moved(h), less = moved(-h);
+  CHECK((direction.q - (more.q - less.q) / (2 * h)).head(15).cwiseAbs().maxCoeff() < 1e-8);
+  CHECK((direction.v - (more.v - less.v) / (2 * h)).head(15).cwiseAbs().maxCoeff() < 1e-8);
+}
+
+TEST_CASE("ends farther apart than the cable") {
+  const Model model = Model::load(HELD_END_5);
+  VectorXd p = swung(model);
+  set(model, p, "holds_end.to_side", 1.3);
+  CHECK_THROWS_WITH_AS(
+      hanging_equilibrium(model, p),
+      "the end is held 1.31909 m from the support, and the cable is 1.2 m long; it must be "
+      "longer than its ends are apart",
+      catena::ImpossibleValue);
+}
