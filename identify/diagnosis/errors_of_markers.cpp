@@ -110,9 +110,8 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
                          const std::function<std::vector<MatrixXd>(const Seen&)>& of) {
       std::vector<Frames> added;
       for (const std::size_t e : members) {
-        const std::vector<MatrixXd> here =
-            of({model.predicted[e], experiments[e].recording.time,
-                experiments[e].recording.components()});
+        const std::vector<MatrixXd> here = of({model.predicted[e], experiments[e].recording.time,
+                                               experiments[e].recording.components()});
         added.resize(here.size(), Frames(experiments.size()));
         for (std::size_t i = 0; i < here.size(); ++i) added[i][e] = deviation * here[i];
       }
@@ -123,9 +122,8 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
     for (Index mark = 0; mark < marks; ++mark)
       add(plausibly.place, [&](const Seen& seen) { return misplaced(mark, seen); });
     if (components == 2) {
-      add(plausibly.shutter, [&](const Seen& seen) {
-        return std::vector<MatrixXd>{moved_until_read(seen, length)};
-      });
+      add(plausibly.shutter,
+          [&](const Seen& seen) { return std::vector<MatrixXd>{moved_until_read(seen, length)}; });
       continue;
     }
     for (int i = 0; i < 3; ++i) {
@@ -137,8 +135,7 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
         return std::vector{changed(seen, [&](const Vector3d& at) { return axis.cross(at); })};
       });
     }
-    add(plausibly.ratio,
-        [](const Seen& seen) { return std::vector<MatrixXd>{seen.positions}; });
+    add(plausibly.ratio, [](const Seen& seen) { return std::vector<MatrixXd>{seen.positions}; });
     add(plausibly.time, [](const Seen& seen) { return std::vector{rates(seen)}; });
   }
   return errors;

@@ -38,8 +38,7 @@ State scaled(const Model& model, State state, double factor) {
 
 /// Per point, the sum of the squares of all components.
 Eigen::VectorXd squared_distances(const Positions& a, const Positions& b) {
-  Eigen::VectorXd squares =
-      (a.side - b.side).array().square() + (a.down - b.down).array().square();
+  Eigen::VectorXd squares = (a.side - b.side).array().square() + (a.down - b.down).array().square();
   if (a.across.size() > 0) squares += (a.across - b.across).cwiseAbs2();
   return squares;
 }

@@ -160,8 +160,9 @@ LinearProblem with_law(const LinearProblem& linear, const std::vector<NodeForces
       const StepForces by(step);
       const MatrixXd feedback = by.feedback(of.by_state[k + 1]);
       step.by_state = feedback * (step.by_state + by.now * of.by_state[k]);
-      step.by_parameter = feedback * with_columns(step.by_parameter, by.now * of.columns[k] +
-                                                                         by.next * of.columns[k + 1]);
+      step.by_parameter =
+          feedback *
+          with_columns(step.by_parameter, by.now * of.columns[k] + by.next * of.columns[k + 1]);
       step.offset = feedback * step.offset;
     }
   }

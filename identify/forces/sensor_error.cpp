@@ -48,8 +48,8 @@ double arc_length_of(const PointSpec& point, const VectorXd& lengths) {
 Eigen::RowVectorXd hats(double time) {
   Eigen::RowVectorXd values(kKnots);
   for (Index j = 0; j < kKnots; ++j)
-    values[j] =
-        std::max(0.0, 1 - std::abs(time * static_cast<double>(kKnots) - static_cast<double>(j + 1)));
+    values[j] = std::max(
+        0.0, 1 - std::abs(time * static_cast<double>(kKnots) - static_cast<double>(j + 1)));
   return values;
 }
 
@@ -69,8 +69,7 @@ SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::st
         const Channel& channel = recording.channels[values[node][i].channel];
         const auto point = static_cast<std::size_t>(channel.point);
         const Sight sight{
-            point,
-            (recording.time[static_cast<std::size_t>(values[node][i].frame)] - begin) / span,
+            point, (recording.time[static_cast<std::size_t>(values[node][i].frame)] - begin) / span,
             place_kinematics(path.state.col(static_cast<Index>(node)), lengths.size(), lengths,
                              arc_length_of(recording.points[point], lengths))
                 .motion};

@@ -62,8 +62,9 @@ void add_simulated(const Experiment& experiment, const Coordinate& coordinate,
   const bool angles = coordinate.rows == &Channels::angle;
   for (std::size_t p = angles ? 0 : 1; p < rows.size(); ++p) {
     const bool load = !angles && p + 1 == rows.size();
-    const std::string name =
-        load ? "load" : angles ? fmt::format("link {}", p + 1) : fmt::format("joint {}", p);
+    const std::string name = load     ? "load"
+                             : angles ? fmt::format("link {}", p + 1)
+                                      : fmt::format("joint {}", p);
     Figure figure;
     figure.title = title(coordinate.name, name);
     figure.x = {"time", "s"};
@@ -108,8 +109,8 @@ std::vector<View> views_of(const Channels& motion) {
 void add_shape_figure(std::vector<ReportFigure>& figures, const Experiment& experiment,
                       const std::string& family, const View& view, Figure figure) {
   const bool in_space = !experiment.drawn().across.empty();
-  figures.push_back({std::move(figure), "motion", family, experiment.name,
-                     in_space ? "View" : "", in_space ? view.name() : ""});
+  figures.push_back({std::move(figure), "motion", family, experiment.name, in_space ? "View" : "",
+                     in_space ? view.name() : ""});
 }
 
 /// The points of a shape at one time, shifted to the right.
@@ -162,8 +163,7 @@ void add_shapes(const Experiment& experiment, const View& view,
     for (int k = 0; k <= count; ++k) {
       const double at = motion.time.front() + k * step;
       if (drawn == measured && !seen_at(*measured, at, step)) continue;
-      figure.series.push_back(
-          shape(*drawn, view, nearest(drawn->time, at), 0, drawn == measured));
+      figure.series.push_back(shape(*drawn, view, nearest(drawn->time, at), 0, drawn == measured));
     }
   }
   add_shape_figure(figures, experiment, "shapes", view, std::move(figure));

@@ -15,12 +15,12 @@ using namespace results;
 struct Coordinate {
   const char* name;
   const char* unit;
-  Rows Channels::* rows;
+  Rows Channels::*rows;
 };
 inline constexpr Coordinate kCoordinates[] = {{"side", "m", &Channels::side},
-                                           {"down", "m", &Channels::down},
-                                           {"across", "m", &Channels::across},
-                                           {"angle", "rad", &Channels::angle}};
+                                              {"down", "m", &Channels::down},
+                                              {"across", "m", &Channels::across},
+                                              {"angle", "rad", &Channels::angle}};
 
 /// A figure and its place in the report. Figures of one family are shown in one frame, a reader
 /// choosing experiment and variant; the figures of a family follow one another.

@@ -131,7 +131,8 @@ void add_spectra(const Experiment& experiment, const Coordinate& coordinate,
       figure.series.push_back(
           {"simulated", simulated.frequency, simulated.amplitude, Mark::kLine, 1});
     }
-    add_residual_figure(figures, experiment, std::string("spectrum_") + coordinate.name, name, std::move(figure));
+    add_residual_figure(figures, experiment, std::string("spectrum_") + coordinate.name, name,
+                        std::move(figure));
   }
 }
 

@@ -58,8 +58,8 @@ Residuals residuals_of(const Experiment& experiment) {
     for (std::size_t t = 0; t < residuals.time.size(); ++t) {
       residuals.size.back().push_back(
           distance(residuals.side, residuals.down, residuals.across, p, t));
-      residuals.radial.back().push_back(kMilli * (from_support(measured.values, p, t) -
-                                                  from_support(measured.predicted, p, t)));
+      residuals.radial.back().push_back(
+          kMilli * (from_support(measured.values, p, t) - from_support(measured.predicted, p, t)));
     }
   }
   return residuals;

@@ -65,9 +65,8 @@ std::string chain_with(const std::string& effects) {
 
 /// What `truth` predicts, with noise, as a file.
 std::string film(const Case& truth, const Model& model) {
-  const Recording recording =
-      testing::with_truth(truth, model,
-                          testing::empty_markers({1.0 / 3, 2.0 / 3, 1.0}, kFrames, kStep, true), kNoise);
+  const Recording recording = testing::with_truth(
+      truth, model, testing::empty_markers({1.0 / 3, 2.0 / 3, 1.0}, kFrames, kStep, true), kNoise);
   std::string text = "time_s";
   for (int marker = 1; marker <= 3; ++marker)
     text += fmt::format(",side_{0}_m,down_{0}_m,across_{0}_m", marker);
@@ -87,10 +86,10 @@ Case filmed_with(const testing::TemporaryFolder& folder, const std::string& effe
   truth.description = folder.path() / "truth.toml";
   testing::add_experiment(truth, "run");
   folder.write("markers.csv", film(truth, provide_model(truth.description, truth.links, {})));
-  return read_case(folder.write(
-      "case.toml", std::string(kChain) + kStart +
-                       "[[experiment]]\nname = \"run\"\ndata = \"markers.csv\"\n"
-                       "kind = \"markers\"\nfit_until = 4.0\n"));
+  return read_case(
+      folder.write("case.toml", std::string(kChain) + kStart +
+                                    "[[experiment]]\nname = \"run\"\ndata = \"markers.csv\"\n"
+                                    "kind = \"markers\"\nfit_until = 4.0\n"));
 }
 
 }  // namespace

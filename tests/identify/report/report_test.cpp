@@ -447,7 +447,8 @@ TEST_CASE("radial residuals are differences of the distance from the support") {
   CHECK(residuals.size[0][0] == doctest::Approx(1e3 * std::hypot(3, 0.9)));
 }
 
-TEST_CASE("in space residuals have their length, shapes three views, and the player all positions") {
+TEST_CASE(
+    "in space residuals have their length, shapes three views, and the player all positions") {
   const Document plane = read(made_identification(4, 2, 50));
   const Document space = read(made_identification_in_space(4, 2, 50));
   const Residuals flat = residuals_of(plane.result.experiments[0]);
@@ -463,8 +464,8 @@ TEST_CASE("in space residuals have their length, shapes three views, and the pla
     if (entry.family == "shapes" && entry.experiment == "run 1")
       views.push_back(entry.variant_kind + ": " + entry.figure.x.label + ", " +
                       entry.figure.y.label);
-  CHECK(views == std::vector<std::string>{"View: side, down", "View: across, down",
-                                          "View: side, across"});
+  CHECK(views ==
+        std::vector<std::string>{"View: side, down", "View: across, down", "View: side, across"});
   for (const char* family : {"position_across", "spectrum_across"})
     CHECK(families(figures).contains(family));
   for (const ReportFigure& entry : figures) CHECK_NOTHROW(check(entry.figure));
@@ -476,7 +477,8 @@ TEST_CASE("in space residuals have their length, shapes three views, and the pla
   for (const json& positions : {data["motions"][0], data["motions"][0]["measured"]})
     CHECK(last(positions["across"]) ==
           doctest::Approx(last(positions["side"]) * 0.5 / std::sqrt(0.75)));
-  CHECK_FALSE(json::parse(payload(plane, report_figures(plane), 0))["motions"][0].contains("across"));
+  CHECK_FALSE(
+      json::parse(payload(plane, report_figures(plane), 0))["motions"][0].contains("across"));
 }
 
 TEST_CASE("autocorrelation and quantiles are those of the noise in the fitted part") {
