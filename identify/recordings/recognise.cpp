@@ -134,12 +134,17 @@ struct Tracks {
   Vector2d at(std::size_t point, std::size_t row) const {
     return {(*sides[point])[row], (*downs[point])[row]};
   }
-  /// The median over the rows of a function of the row, NaN left out.
+  /// The median over the rows of a function of the row, NaN left out. Throws InputError if all are.
   template <class Value>
   double typical(Value value) const {
     std::vector<double> values;
     for (std::size_t row = 0; row < table.rows(); ++row)
       if (const double v = value(row); !std::isnan(v)) values.push_back(v);
+    if (values.empty())
+      throw InputError(
+          table.file +
+          ": no frame shows a marker, or two that are neighbours together; every "
+          "marker needs a frame with both of its numbers, and one with its neighbour's");
     return median(std::move(values));
   }
 };

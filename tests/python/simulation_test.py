@@ -248,7 +248,7 @@ class Motion(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "parameters: 1 values given"):
                 call(model, np.zeros(1), motion)
             with self.assertRaisesRegex(ValueError, "coordinates and 0 states; the model has 2"):
-                call(other, other.parameters(length=1, mass=1, inertia=1, stiffness=1, damping=1), motion)
+                call(other, np.ones(len(other.parameter_names)), motion)
         for index in (-1, len(model.parameter_names)):
             with self.assertRaisesRegex(ValueError, "counted from 0"):
                 catena.SensitivityDirection.parameter(model, index)

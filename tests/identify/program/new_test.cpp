@@ -90,6 +90,14 @@ TEST_CASE("new draws markers that hardly differ, and refuses measures that canno
   const ProcessResult short_one =
       run_catena({"new", moment, "--length", "1", "--density", "0.1", "--load-mass", "0"});
   CHECK_MESSAGE(short_one.output.find("stod") == std::string::npos, short_one.output);
+  for (const char* rows :
+       {"0,1,,,\n1,2,,,\n", "0,1,1,,\n1,,,2,2\n"}) {  // never seen, never together
+    const auto data = folder.write("unseen.csv", std::string("time_s,x1,y1,x2,y2\n") + rows);
+    const ProcessResult run =
+        run_catena({"new", data, "--length", "1", "--density", "0.1", "--load-mass", "0"});
+    CHECK(run.exit_status == 2);
+    CHECK_MESSAGE(run.output.find("no frame shows") != std::string::npos, run.output);
+  }
   for (const char* length : {"1e-160", "1e160", "1e308"}) {
     const ProcessResult run = made("m.csv", "0.5", length);
     CHECK(run.exit_status == 2);
