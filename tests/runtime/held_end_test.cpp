@@ -171,13 +171,17 @@ TEST_CASE("the gap stays closed, the energy balances, and reactions change the m
   CHECK((impulse - change).norm() < 1e-5 * change.norm());
   CHECK(forces.end.moment.cwiseAbs().maxCoeff() == 0.0);
 
-  // A fit's usual tolerances keep it closed, too.
-  const catena::Simulation usual = simulate(model, p, start, times);
+  // At usual tolerances the errors of steps do not add up either: without its closing the gap would be 8e-6 m.
+  std::vector<double> long_times;
+  for (int k = 0; k <= 1000; ++k) long_times.push_back(1e-2 * k);
+  const catena::Simulation usual = simulate(model, p, start, long_times);
   REQUIRE(usual.status == catena::Status::kSuccess);
+  widest = 0;
   for (Eigen::Index k = 0; k < usual.trajectory.q.cols(); ++k)
-    CHECK(gap(model, p, usual.trajectory.q.col(k), usual.trajectory.v.col(k),
-              times[static_cast<std::size_t>(k)])
-              .norm() < 1e-6);
+    widest = std::max(widest, gap(model, p, usual.trajectory.q.col(k), usual.trajectory.v.col(k),
+                                  long_times[static_cast<std::size_t>(k)])
+                                  .norm());
+  CHECK(widest < 1e-6);
 }
 
 // Two links between two points are a rigid body that swings about the line between them.
