@@ -46,8 +46,7 @@ void AdjointSolver::begin(double t, const Trajectory& slope) {
                                    slope.z.size() > 0 ? slope.z.cwiseAbs().maxCoeff() : 0.0});
   const double absolute =
       std::max(1e-2 * options_.relative_tolerance * largest, std::numeric_limits<double>::min());
-  require(CVodeCreateB(cvodes_, options_.method == Method::kBdf ? CV_BDF : CV_ADAMS, &which_),
-          "CVodeCreateB");
+  require(CVodeCreateB(cvodes_, CV_BDF, &which_), "CVodeCreateB");
   require(CVodeInitB(cvodes_, which_, &AdjointSolver::rates, t, lambda_.get()), "CVodeInitB");
   require(CVodeSetUserDataB(cvodes_, which_, this), "CVodeSetUserDataB");
   require(CVodeSStolerancesB(cvodes_, which_, options_.relative_tolerance, absolute),

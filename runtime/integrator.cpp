@@ -76,7 +76,7 @@ Integrator::Integrator(const Model& model, const Eigen::VectorXd& parameters, co
       y_(new_state_vector(dynamics_.size(), context_.get())),
       output_(new_state_vector(dynamics_.size(), context_.get())),
       energies_(static_cast<std::size_t>(model.energies())),
-      cvodes_(CVodeCreate(options.method == Method::kBdf ? CV_BDF : CV_ADAMS, context_.get())) {
+      cvodes_(CVodeCreate(CV_BDF, context_.get())) {
   if (!cvodes_) throw std::bad_alloc();
   copy_state(initial, y_.get());
   const auto silent = [](int, const char*, const char*, char*, void*) {};

@@ -20,18 +20,12 @@ enum class LinearSolver {
   kDense,       ///< LU, O(links^3)
 };
 
-enum class Method {
-  kBdf,    ///< implicit, order 1 to 5: for stiff chains
-  kAdams,  ///< implicit, order 1 to 12: for soft chains
-};
-
 struct SimulationOptions {
   double relative_tolerance = 1e-8;
   double absolute_tolerance_position = 1e-10;  ///< rad; units of the coordinates that effects add
   double absolute_tolerance_velocity = 1e-9;   ///< rad/s; also for extra states, in their units
   long max_steps = 1'000'000;
   LinearSolver linear_solver = LinearSolver::kAutomatic;
-  Method method = Method::kBdf;
   /// With sensitivities: they are in the error test too, each with the relative tolerance of its
   /// state. Steps are then shorter.
   bool sensitivities_in_error_test = false;

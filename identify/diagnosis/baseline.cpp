@@ -9,6 +9,7 @@
 
 #include "common/parallel.hpp"
 #include "identify/diagnosis/compare.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 #include "identify/fit/estimates.hpp"
 
 namespace catena {
@@ -22,9 +23,6 @@ namespace {
 constexpr int kStarts = 3, kRefits = 2;
 constexpr int kFirstEvaluations = 40;  // of each start; the best goes on
 constexpr int kEvaluations = 80;       // of every later fit
-// RMS over the scatter of the motion: a fit in step with the motion leaves less, one out of step 1.
-constexpr double kFollows = 0.3;
-constexpr double kHeldOutShare = 0.3;  // of a recording, where the case holds nothing out
 
 double squares(const FittedModel& model) {
   return sum_of_squares(model, std::vector<NoiseModel>(model.fit_residual.size(), {.level = 1}));
@@ -68,7 +66,7 @@ bool loses_the_motion(const FittedModel& model) {
       }
       if (count > 0) motion += sum_of_squares - sum * sum / count;
     }
-  return left > kFollows * kFollows * motion;
+  return left > std::pow(kThresholds.follows, 2) * motion;
 }
 
 /// From a short beginning on, each twice as long as the one before.
@@ -102,7 +100,8 @@ void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string
       begin = std::min(begin, window.recording.time.front());
       end = std::max(end, window.recording.time.back());
     }
-    if (begin < end) the_case.experiments[s].fit_until = end - kHeldOutShare * (end - begin);
+    if (begin < end)
+      the_case.experiments[s].fit_until = end - kThresholds.held_out_share * (end - begin);
   }
   notes.emplace_back("the case holds nothing out: the last 30 % of each recording were not fitted");
 }

@@ -5,14 +5,9 @@
 #include <limits>
 
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 
 namespace catena {
-namespace {
-
-// A tenth of a recording that holds out three tenths: two tenths are left to choose by.
-constexpr double kSealedShare = 1.0 / 3;
-
-}  // namespace
 
 void seal_last_part(Case& the_case, DiagnosisContext& context) {
   const Problem problem(the_case, context.model_with({}, the_case.links));
@@ -23,7 +18,7 @@ void seal_last_part(Case& the_case, DiagnosisContext& context) {
     const auto fitted =
         static_cast<std::size_t>(experiment.fitted() ? experiment.recording.fit_frames : 0);
     const auto held_out = static_cast<double>(time.size() - fitted);
-    const auto sealed = static_cast<std::size_t>(kSealedShare * held_out);
+    const auto sealed = static_cast<std::size_t>(kThresholds.sealed_share * held_out);
     if (time.size() - fitted - sealed < kFewestFramesToCompare) continue;
     the_case.experiments[static_cast<std::size_t>(experiment.source)].sealed_from =
         time[time.size() - sealed - 1];

@@ -27,6 +27,17 @@ struct PlausibleErrors {
 /// below are those of its 155 and of the 445 of the study before it, with the same limits. A change
 /// of any one needs a new power study (scripts/power_study).
 struct DiagnosisThresholds {
+  // Which part of a recording is for what? (baseline.cpp, sealed_part.cpp)
+
+  /// Share of a recording that is held out where the case holds nothing out: fits keep most of it.
+  double held_out_share = 0.3;
+  /// Share of what is held out that is sealed: a tenth of such a recording. Two tenths are left to
+  /// choose by.
+  double sealed_share = 1.0 / 3;
+  /// RMS over the scatter of the motion, below which a fit follows it: a fit in step with the motion
+  /// leaves less, one out of step about 1.
+  double follows = 0.3;
+
   // Is there a gap? (gap_test.cpp)
 
   /// Standard deviations. Two tests on each of two parts of a recording: by chance, 4.5 are passed

@@ -204,18 +204,6 @@ TEST_CASE("extra states and signals: the same as Runge-Kutta with small steps") 
   CHECK(largest_difference(run.trajectory.z.col(2), expected.z) < 1e-5);
 }
 
-TEST_CASE("a soft chain by Adams' method ends where BDF does") {
-  const Model model(reference_model<2>());
-  const auto p = cable_parameters(model, 0.1, 0.01);
-  SimulationOptions options;
-  const auto bdf = catena::simulate(model, p, catena::straight(model, 0.5), {0.0, 2.0}, options);
-  options.method = catena::Method::kAdams;
-  const auto adams = catena::simulate(model, p, catena::straight(model, 0.5), {0.0, 2.0}, options);
-  REQUIRE(bdf.status == Status::kSuccess);
-  REQUIRE(adams.status == Status::kSuccess);
-  CHECK(largest_difference(bdf.trajectory.q, adams.trajectory.q) < 1e-5);
-}
-
 TEST_CASE("the same arguments give the same bits") {
   const Model model(reference_model<4>());
   const auto p = cable_parameters(model, 5.0, 0.05);
