@@ -43,9 +43,12 @@ void require_own(const std::filesystem::path& folder, const EmittedFiles& files)
     return text.find(words) != std::string::npos;
   };
   if (has(text_of("catena_model.h"), "CATENA_MODEL_ABI")) return;
+  const auto is_own = [&](const std::string& text) {
+    return has(text, "Written by catena-derive") || has(text, R"("kind": "model_summary")");
+  };
   for (const auto& [name, text] : files)
-    if (const std::string old = text_of(name); std::filesystem::exists(folder / name) &&
-                                               old != text && !has(old, "Written by catena-derive"))
+    if (const std::string old = text_of(name);
+        std::filesystem::exists(folder / name) && old != text && !is_own(old))
       throw InputError((folder / name).string() +
                        " was not written by catena derive and would be replaced; move it away or "
                        "choose another folder (--output)");

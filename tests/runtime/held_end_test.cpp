@@ -99,6 +99,23 @@ State equilibrium(const Model& model, const VectorXd& p) {
   return found.state;
 }
 
+/// Where the direction of each link is that of the force at its middle, hinged links balance. Returns the
+/// forces.
+catena::InternalForces check_force_polygon(const Model& model, const VectorXd& p,
+                                           const State& state) {
+  catena::InternalForces forces = forces_at_rest(model, p, state);
+  const Eigen::Index n = model.links();
+  Vector3d force = -forces.support.force.col(0);  // on what is above
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector3d weight(0, p[n + i] * kGravity, 0);
+    const Vector3d middle = force - weight / 2;
+    CHECK((middle.normalized() - vector_of(state.q, n, i)).norm() < 1e-9);
+    force -= weight;
+  }
+  CHECK((force - forces.end.force.col(0)).norm() < 1e-9);
+  return forces;
+}
+
 }  // namespace
 
 TEST_CASE("accelerations and Newton's steps solve the equations with the constraint") {
@@ -207,7 +224,6 @@ TEST_CASE("two links between two points swing as a pendulum") {
   CHECK(std::abs(motion.v(4, 1)) < 1e-7);
 }
 
-// Where the direction of each link is that of the force at its middle, hinged links balance.
 TEST_CASE("a cable between two points hangs as a catenary") {
   const Model model = Model::load(HELD_END_60);
   VectorXd p = cable(model, 0, 0);
@@ -217,16 +233,7 @@ TEST_CASE("a cable between two points hangs as a catenary") {
   set(model, p, "holds_end.to_down", down);
   set(model, p, "holds_end.to_across", across);
   const State state = equilibrium(model, p);
-  const catena::InternalForces forces = forces_at_rest(model, p, state);
-  const Eigen::Index n = model.links();
-  Vector3d force = -forces.support.force.col(0);  // on what is above
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Vector3d weight(0, p[n + i] * kGravity, 0);
-    const Vector3d middle = force - weight / 2;
-    CHECK((middle.normalized() - vector_of(state.q, n, i)).norm() < 1e-9);
-    force -= weight;
-  }
-  CHECK((force - forces.end.force.col(0)).norm() < 1e-9);
+  const catena::InternalForces forces = check_force_polygon(model, p, state);
 
   // The force is horizontally that of a weight a w: 2 a sinh(span / 2a) = sqrt(length^2 - down^2).
   const double span = std::hypot(side, across), chord = std::sqrt(length * length - down * down);
@@ -236,6 +243,19 @@ TEST_CASE("a cable between two points hangs as a catenary") {
   const double horizontal = 0.15 * kGravity * span / 2 / half;
   CHECK(std::hypot(forces.support.force(0, 0), forces.support.force(2, 0)) ==
         doctest::Approx(horizontal).epsilon(1e-3));
+}
+
+TEST_CASE("a slack cable whose end is above the support hangs in a loop") {
+  const Model model = Model::load(HELD_END_60);
+  VectorXd p = cable(model, 0, 0);
+  set(model, p, "load_mass", 0);
+  set(model, p, "holds_end.to_side", 0.04);
+  set(model, p, "holds_end.to_down", -0.3);
+  const State state = equilibrium(model, p);
+  check_force_polygon(model, p, state);
+  CHECK(p.head(60).dot(state.q.segment(60, 60)) == doctest::Approx(-0.3));
+  CHECK(state.q[60] > 0.9);    // the first link points down
+  CHECK(state.q[119] < -0.9);  // the last one up
 }
 
 // A weightless rod with hinged ends closer together than it is long: with the modulus k of the elliptic

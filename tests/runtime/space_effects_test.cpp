@@ -164,6 +164,17 @@ TEST_CASE("a towed cable hangs at the angle at which drag and weight balance") {
   CHECK((comes.trajectory.q.col(0) - stays.trajectory.q.col(0)).norm() > 0.2);
 }
 
+TEST_CASE("the equilibrium in a current is found from the plumb line") {
+  const Model model = Model::load(IN_CURRENT_8);
+  const catena::Equilibrium found =
+      hanging_equilibrium(model, towed(model, kSpeed), 0, held_still());
+  REQUIRE_MESSAGE(found.status == catena::Status::kSuccess, found.message);
+  const State expected =
+      from_directions(model, {VectorXd::Constant(8, tow_angle()), VectorXd::Constant(8, kAzimuth),
+                              VectorXd::Zero(8), VectorXd::Zero(8)});
+  CHECK((found.state.q - expected.q).norm() < 1e-9);
+}
+
 TEST_CASE("a cable towed through still water moves as one held in a current") {
   const Model model = Model::load(IN_CURRENT_8);
   const State initial = askew(model);
