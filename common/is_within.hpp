@@ -12,4 +12,12 @@ inline bool is_within(const std::filesystem::path& path) {
   return path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end();
 }
 
+/// The first part of `relative` below `folder` that is a link; empty: none is.
+inline std::filesystem::path link_below(std::filesystem::path folder,
+                                        const std::filesystem::path& relative) {
+  for (const std::filesystem::path& name : relative)
+    if (std::filesystem::is_symlink(folder /= name)) return folder;
+  return {};
+}
+
 }  // namespace catena

@@ -21,7 +21,8 @@ bool is_work_folder(const fs::directory_entry& entry, const std::string& prefix)
   std::error_code error;
   const fs::file_status status = entry.symlink_status(error);
   return name.starts_with(prefix) && name.size() == (prefix + kPattern).size() &&
-         fs::is_directory(status) && status.permissions() == fs::perms::owner_all;
+         fs::is_directory(status) &&
+         (status.permissions() & fs::perms::all) == fs::perms::owner_all;  // not the set-gid bit
 }
 
 fs::path make_folder(const fs::path& parent, const std::string& prefix) {

@@ -7,6 +7,7 @@
 
 #include "common/impossible_value.hpp"
 #include "common/number_text.hpp"
+#include "runtime/link_vectors.hpp"
 
 namespace catena {
 namespace {
@@ -15,14 +16,6 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// The vector of a link from the components of all side, then down, then across.
-Vector3d vector_of(const VectorXd& all, Index links, Index i) {
-  return {all[i], all[links + i], all[2 * links + i]};
-}
-void put(VectorXd& all, Index links, Index i, const Vector3d& vector) {
-  for (Index axis = 0; axis < 3; ++axis) all[axis * links + i] = vector[axis];
-}
 
 Matrix3d across(const Vector3d& unit) { return Matrix3d::Identity() - unit * unit.transpose(); }
 

@@ -30,8 +30,9 @@ InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parame
                                " at t = " + number_text(t) + " s");
     model.internal_forces(at, result.moment.col(k).data(), result.tension.col(k).data(),
                           result.curvature.col(k).data());
-    model.reactions(at, force.col(k).data(), moment.col(k).data());
+    if (model.table().reactions) model.reactions(at, force.col(k).data(), moment.col(k).data());
   }
+  if (!model.table().reactions) return result;
   result.support = {force.topRows(axes), moment.topRows(moments)};
   if (model.held()) result.end = {force.bottomRows(axes), moment.bottomRows(moments)};
   return result;

@@ -21,7 +21,7 @@ struct InternalForces {
   Eigen::MatrixXd curvature;
   /// What the support exerts on the chain, and what holds its far end where it is held, one column a time:
   /// forces, N, by components side, down and in space across, and moments, N m: in space likewise, in the
-  /// plane one, positive towards growing theta. Empty: the end is free.
+  /// plane one, positive towards growing theta. Empty: the end is free, or the table does not tell.
   struct Reaction {
     Eigen::MatrixXd force, moment;
   };

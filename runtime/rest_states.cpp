@@ -11,6 +11,7 @@
 #include "common/number_text.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "runtime/link_frame.hpp"
+#include "runtime/link_vectors.hpp"
 #include "runtime/space_equilibrium.hpp"
 
 namespace catena {
@@ -162,10 +163,6 @@ double value_or_zero(const Eigen::VectorXd& values, Eigen::Index i) {
 
 LinkFrame frame_of(const LinkDirections& links, Eigen::Index i) {
   return {links.angle[i], value_or_zero(links.out_of_plane, i), links.azimuth[i]};
-}
-
-void put(Eigen::VectorXd& all, Eigen::Index links, Eigen::Index i, const Eigen::Vector3d& vector) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) all[axis * links + i] = vector[axis];
 }
 
 }  // namespace

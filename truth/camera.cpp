@@ -95,7 +95,7 @@ Recording film(const Cable& cable, const Hidden& hidden, const Moves& moves, con
   constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < frames; ++i) {
     std::vector<double> side(markers, kNotSeen), down(markers, kNotSeen);
-    const double passed = static_cast<double>(i) / static_cast<double>(frames - 1);
+    const double passed = frames > 1 ? static_cast<double>(i) / static_cast<double>(frames - 1) : 0;
     for (std::size_t k = 0; k < markers; ++k) {
       if (!seen[i][k]) continue;
       const double sine = std::sin(motion.angle[i][k]), cosine = std::cos(motion.angle[i][k]);

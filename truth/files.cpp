@@ -104,8 +104,8 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
       "\nlens = " + number(camera.lens) + "\nshutter = " + number(camera.shutter) +
       "\nmisplaced = " + number(camera.misplaced) + "\ndrift = " + number(camera.drift) +
-      "\nslip = " + number(camera.slip) + "\nlost = " + number(camera.lost) +
-      "\npixel = " + number(camera.pixel) +
+      "\nslip = " + number(camera.slip) + "\nslipping = " + std::to_string(camera.slipping) +
+      "\nlost = " + number(camera.lost) + "\npixel = " + number(camera.pixel) +
       "\nautocorrelation = " + number(camera.kind.autocorrelation) +
       "\nshaking = " + number(camera.kind.shaking) +
       "\nnoisy_marker = " + number(camera.kind.noisy_marker) +

@@ -15,9 +15,9 @@ namespace {
 
 const ex kHalf = numeric(1, 2);
 
-// 1/s: a gap at a held end closes as exp(-kClosing t). Faster than cables of metres swing; steps may be
+// 1/s: a gap at a held end closes as exp(-kClosingRate t). Faster than cables of metres swing; steps may be
 // longer, as they are implicit.
-const ex kClosing = 100;
+const ex kClosingRate = 100;
 
 std::string rate_family(const std::string& family) {
   if (family.ends_with("_momentum")) return family + "_rate";
@@ -251,7 +251,8 @@ void Chain::hold_end() {
   for (const Axis axis : axes()) {
     const ex rate = time_.of(gap_[axis]);
     add_momenta(time_.of(hold_[axis]) * rate);
-    add_generalised_force(hold_[axis], 2 * kClosing * rate + kClosing * kClosing * gap_[axis]);
+    add_generalised_force(hold_[axis],
+                          2 * kClosingRate * rate + kClosingRate * kClosingRate * gap_[axis]);
   }
 }
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <regex>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "description/expression_syntax.hpp"
 #include "identify/diagnosis/score.hpp"
 
 namespace catena {
@@ -24,19 +24,21 @@ ParameterRole role_of(const EffectParameter& parameter) {
   return full_turn ? ParameterRole::kPhase : ParameterRole::kShape;
 }
 
-/// Whether what acts on the chain is a function of time. Sensors do not act.
+/// Whether what acts on the chain is a function of time. Sensors do not act; a measured series has no
+/// free frequency.
 bool depends_on_time(const Effect& effect) {
-  const std::regex time("\\btime\\b");
-  const auto in = [&](const Expression& expression) {
-    return std::regex_search(expression.text, time);
+  const auto in = [](const Expression& expression) {
+    return names_in(expression).contains("time");
+  };
+  const auto in_any = [&](const auto& expressions) {
+    return std::any_of(expressions.begin(), expressions.end(),
+                       [&](const Expression* each) { return in(*each); });
   };
   const Support& support = effect.support;
-  const auto& fields = effect.kinematics.all();
   return in(support.side) || in(support.down) || in(support.across) || in(support.clamp_side) ||
          in(support.clamp_down) || in(support.clamp_across) || in(effect.flow.side) ||
-         in(effect.flow.down) || in(effect.flow.across) ||
-         std::any_of(fields.begin(), fields.end(),
-                     [&](const Expression* each) { return in(*each); }) ||
+         in(effect.flow.down) || in(effect.flow.across) || in_any(effect.kinematics.all()) ||
+         in_any(effect.held_end.all()) ||
          std::any_of(effect.definitions.begin(), effect.definitions.end(),
                      [&](const Definition& each) { return in(each.value); }) ||
          std::any_of(effect.scalars.begin(), effect.scalars.end(),

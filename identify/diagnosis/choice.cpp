@@ -107,7 +107,8 @@ bool needs_no_drive(const DiagnosisState& state, const std::string& passive, con
     const Candidate* const effect = state.context.find(id);
     return effect && effect->driven;
   };
-  return is_driven(driven) && !is_driven(passive) && left.rms <= left_driven.rms;
+  return left_driven.count > 0 && is_driven(driven) && !is_driven(passive) &&
+         left.rms <= left_driven.rms;
 }
 
 const Explanation* choose(const DiagnosisState& state,

@@ -31,7 +31,7 @@ bool acceptable(const DiagnosisState& state, const FittedModel& base,
 /// Whether `passive` is no function of time, `driven` is one, and what was held out is predicted no
 /// better with the drive. A cable that nobody drives is the default. In what was fitted a drive with
 /// its free frequency, amplitudes and phases can imitate what takes energy away; it goes on where the
-/// motion dies out, and shows there. `left`: of what was held out.
+/// motion dies out, and shows there. `left`: of what was held out; where nothing was, false.
 bool needs_no_drive(const DiagnosisState& state, const std::string& passive, const GapTest& left,
                     const std::string& driven, const GapTest& left_driven);
 

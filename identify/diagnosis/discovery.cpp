@@ -31,12 +31,12 @@ const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& ba
   const double length =
       link_lengths(base.problem->model(), base.problem->model_parameters(base.x, 0)).sum();
   const std::string id = new_id(context);
-  Candidate& candidate = context.add_effect(
-      id, effect_of(*force.law, id, force.best->arc_length + force.law->place_shift, length));
+  Candidate& candidate =
+      context.add_effect(id, effect_of(*force.law, id, force.law->place, length));
   const auto value_of = [&](const std::string& name) {
     for (const PlaceLaw::Constant& constant : force.law->formula.constants)
       if (name == constant.name) return constant.value;
-    return force.best->arc_length + force.law->place_shift;
+    return force.law->place;
   };
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     candidate.parameters[i].value = value_of(candidate.effect.parameters[i].name);

@@ -13,8 +13,9 @@ bool look_back(DiagnosisState& state);
 /// Whether the best model so far does not need an effect; `without` is fitted without it. It does
 /// not if the model without it leaves no gap, or predicts better what no fit has seen (with others
 /// in place an effect may fit what is not its own), or if what the effect explains may be chance,
-/// or a detail. It always needs an effect without which a closed gap would be open again, or what no
-/// fit has seen is predicted worse: others may imitate it in the fitted part.
+/// or a detail. It always needs an effect without which a closed gap would be open again, or a gap stays
+/// and what no fit has seen is predicted worse by more than a detail: others may imitate it in the
+/// fitted part.
 bool needless(const DiagnosisState& state, const Stage& without);
 
 }  // namespace catena

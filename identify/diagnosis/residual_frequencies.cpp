@@ -100,12 +100,14 @@ std::vector<double> strongest_frequencies(const FittedModel& model,
 
 bool told_from_motion(const FittedModel& model, double frequency) {
   std::vector<MatrixXd> motion;
+  std::vector<double> sizes;  // m or rad
   for (std::size_t e = 0; e < model.predicted.size(); ++e) {
-    motion.emplace_back(model.predicted[e].leftCols(model.fit_residual[e].cols()));
-    if (motion.back().size() > 0) motion.back().colwise() -= motion.back().rowwise().mean().eval();
+    MatrixXd& series =
+        motion.emplace_back(model.predicted[e].leftCols(model.fit_residual[e].cols()));
+    if (series.size() > 0) series.colwise() -= series.rowwise().mean().eval();
+    sizes.push_back(series.norm() > 0 ? series.norm() : 1);
   }
-  const std::vector<double> strongest =
-      strongest_lines(model, motion, std::vector<double>(motion.size(), 1), 1);
+  const std::vector<double> strongest = strongest_lines(model, motion, sizes, 1);
   return strongest.empty() ||
          std::abs(frequency - strongest.front()) * longest_sampling(model).duration > 1;
 }

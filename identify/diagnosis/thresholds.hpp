@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "identify/forces/force_law.hpp"
+#include "identify/forces/missing_force.hpp"
 
 namespace catena {
 
@@ -24,8 +24,8 @@ struct PlausibleErrors {
 ///
 /// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
 /// varied since. The rates of docs/power.md are evidence for all of them together. Numbers of trials
-/// below are those of its 155 and of the 445 of the study before it, with the same limits. A change
-/// of any one needs a new power study (scripts/power_study).
+/// below are those of its 155 and of the 445 of the study before it, with the same limits
+/// (docs/power/trials_before.csv). A change of any one needs a new power study (scripts/power_study).
 struct DiagnosisThresholds {
   // Which part of a recording is for what? (baseline.cpp, sealed_part.cpp)
 
@@ -114,7 +114,8 @@ struct DiagnosisThresholds {
   /// cable has no links and their number needs no name.
   double links_worthwhile = 0.05;
 
-  /// Does the missing force follow a law? (forces/force_law.cpp)
+  /// Is a force missing, and does it follow a law? (forces/missing_force.cpp, force_law.cpp)
+  MissingForceThresholds force;
   LawThresholds law;
 
   // How far is looked? (search.cpp, refits.cpp, pairs.cpp, look_back.cpp)

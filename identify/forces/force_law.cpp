@@ -207,7 +207,7 @@ class LawSearch {
   }
 
   /// Moves to the motion that the law gives, and fits the law about that: no force that follows noise is
-  /// left in the motion. Nothing changes where the equations cannot be followed.
+  /// left in the motion. The law stays as it was where the equations cannot be followed.
   void follow(FittedForm& law) {
     const PlaceLaw& candidate = candidates_[law.candidate];
     for (int round = 0; round < kRoundsAboutLaw; ++round) {
@@ -360,8 +360,14 @@ class LawSearch {
     follow(found);
     inflation = std::max(1.0, found.squares / found.freedom);
     law.formula = formula_of(found);
+    law.place = arc_length_;
     if (at_end(arc_length_, lengths_.sum())) return;  // the end is a place of its own
-    law.place_shift = found.shift;
+    law.place += found.shift;
+    if (!(law.place > 0 &&
+          law.place < lengths_.sum())) {  // the law does not hold where it was tried
+      law.found = false;
+      return;
+    }
     law.place_deviation = std::sqrt(inflation * found.place_variance);
   }
 

@@ -33,8 +33,8 @@ struct ForceLaw {
   bool found = false;
   std::string force, variable;  ///< of the best candidate: "side force", "side position"
   PlaceLaw::Formula formula;    ///< empty where nothing is found
-  double place_shift = 0;       ///< m, from where the force was tried, if the law is right
-  double place_deviation = 0;   ///< m, of the place then
+  double place = 0;             ///< m, arc length of the force, if the law is right
+  double place_deviation = 0;   ///< m
   int candidates = 0;
   /// What the law, chosen and fitted in the first part of the frames, explains in the second, of what
   /// the free force explains: 1 is all.

@@ -29,14 +29,7 @@ constexpr double kCloser = 3;
 /// Sizes of a force alone, as multiples of that of the forces everywhere, whose evidence is
 /// compared.
 constexpr double kSizes[] = {0.3, 1.0, 3.0};
-/// Odds of 1 to 20 000: the search takes the largest of some ten evidences.
-constexpr double kLogEvidence = 10;
-/// In recordings of some thousand numbers a force of half a per cent of the squared residuals is
-/// significant where there is none: what the parameters' priors and the rule of the integration
-/// leave. A share is asked besides significance.
-constexpr double kSmallestShare = 0.01;
-/// Log odds below which two places are not told apart.
-constexpr double kToldApart = 3;
+constexpr MissingForceThresholds kThresholds;
 /// Share of the prior variance that data must take away from a pattern that they resolve.
 constexpr double kResolved = 0.5;
 
@@ -387,7 +380,8 @@ void describe(MissingForce& missing) {
     missing.words.push_back(fmt::format(
         "no force on the chain: an error of the camera explains the recordings as well: {} "
         "(log evidence {:.4g}, of forces {:.4g})",
-        missing.sensor->name, missing.sensor->log_evidence, missing.log_evidence));
+        missing.sensor->name, missing.sensor->log_evidence,
+        std::max(missing.log_evidence, missing.best->log_evidence)));
     return;
   }
   if (!missing.found) {
@@ -403,7 +397,7 @@ void describe(MissingForce& missing) {
     describe_everywhere(missing);
   std::string others;
   for (const MissingForce::Place& place : missing.places)
-    if (place.log_evidence > missing.best->log_evidence - kToldApart &&
+    if (place.log_evidence > missing.best->log_evidence - kThresholds.told_apart &&
         place.name != missing.best->name)
       others += (others.empty() ? "" : ", ") + place.name;
   if (!others.empty()) missing.words.push_back("these data do not tell it from: " + others);
@@ -451,7 +445,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   if (!everywhere) return false;
   missing.share = 1 - paths.squares() / squares_without;
   // A force may be zero, so it leaves no more than none does: else the iterations went astray.
-  if (!(missing.share > -kSmallestShare)) return false;
+  if (!(missing.share > -kThresholds.share)) return false;
   for (std::size_t m = 0; m < paths.patterns().size(); ++m) {
     const ForcePattern& pattern = paths.patterns()[m];
     const double prior = variance[static_cast<std::size_t>(pattern.group)];
@@ -469,7 +463,8 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   PlaceSearch search(paths, chain, size_of(paths, chain));
   if (!search.look_everywhere(missing)) return false;
   missing.log_evidence = everywhere->log_evidence - search.none();
-  missing.found = missing.log_evidence > kLogEvidence && missing.share > kSmallestShare;
+  missing.found =
+      missing.log_evidence > kThresholds.log_evidence && missing.share > kThresholds.share;
   if (!missing.found) {
     missing.places.clear();
     return true;

@@ -12,6 +12,19 @@
 
 namespace catena {
 
+/// When a missing force is said (a part of the thresholds of a diagnosis,
+/// identify/diagnosis/thresholds.hpp).
+struct MissingForceThresholds {
+  /// Against no force. Odds of 1 to 20 000: the search takes the largest of some ten evidences.
+  double log_evidence = 10;
+  /// Of the squared residuals. In recordings of some thousand numbers a force of half a per cent is
+  /// significant where there is none: what the parameters' priors and the rule of the integration
+  /// leave. A share is asked besides significance.
+  double share = 0.01;
+  /// Log odds below which two places are not told apart: 1 to 20. Chosen.
+  double told_apart = 3;
+};
+
 /// Whether, where and when a force acts on the chain that the model does not have, from the
 /// recordings alone.
 ///
@@ -21,7 +34,7 @@ namespace catena {
 /// of the largest evidence. Then a force at each place alone is tried. The parts that are fitted are
 /// used, of all recordings. How: docs/diagnosis.md.
 struct MissingForce {
-  /// The forces explain more than chance does, and more than `kSmallestShare` of the squared
+  /// The forces explain more than chance does, and more than `MissingForceThresholds::share` of the squared
   /// residuals. Everything else is empty where the motion cannot be followed, which `words` says.
   bool found = false;
   double log_evidence = 0;  ///< log of the odds against no force, for even odds before

@@ -26,7 +26,7 @@ constexpr double kBending = 0.1;    // 1, of the scale at a cable's length from 
 constexpr double kReading = 0.01;   // s, from the support to a cable's length below it
 constexpr double kDrifting = 0.01;  // m
 constexpr double kSlipping = 0.01;  // m
-constexpr double kSizes[] = {0.1, 1, 10};
+constexpr double kPriorSizes[] = {0.1, 1, 10};
 
 /// A marker at a frame.
 struct Sight {
@@ -60,7 +60,8 @@ SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::st
     const ForcePath& path = paths.paths()[r];
     const Recording& recording = paths.recording(r);
     const double begin = recording.time.front();
-    const double span = recording.time[static_cast<std::size_t>(recording.fit_frames - 1)] - begin;
+    const double end = recording.time[static_cast<std::size_t>(recording.fit_frames - 1)];
+    const double span = end > begin ? end - begin : 1;  // of one frame
     std::vector<MatrixXd>& nodes = error.columns.emplace_back();
     const auto values = paths.seen_values(r);
     for (std::size_t node = 0; node < values.size(); ++node) {
@@ -86,11 +87,13 @@ SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::st
 }  // namespace
 
 std::vector<SensorError> sensor_errors(const ForcePaths& paths, const VectorXd& lengths) {
-  std::size_t markers = 0;
+  std::vector<std::string> names;  // of the markers, in the order of the recordings' columns
   for (std::size_t r = 0; r < paths.paths().size(); ++r) {
     for (const Channel& channel : paths.recording(r).channels)
       if (channel.component != Component::kSide && channel.component != Component::kDown) return {};
-    markers = std::max(markers, paths.recording(r).points.size());
+    const std::vector<PointSpec>& points = paths.recording(r).points;
+    for (std::size_t point = names.size(); point < points.size(); ++point)
+      names.push_back(points[point].name);
   }
   const double length = lengths.sum();
   std::vector<SensorError> errors;
@@ -111,13 +114,12 @@ std::vector<SensorError> sensor_errors(const ForcePaths& paths, const VectorXd& 
     by.row(0).head(kKnots) = by.row(1).tail(kKnots) = hats(sight.time);
     return by;
   });
-  for (std::size_t point = 0; point < markers; ++point)
-    add(fmt::format("{} slips along the cable", paths.recording(0).points[point].name), kSlipping,
-        [&](const Sight& sight) {
-          if (sight.point != point) return Eigen::Matrix2Xd(Eigen::Matrix2Xd::Zero(2, kKnots));
-          const Vector2d along(std::sin(sight.motion[4]), std::cos(sight.motion[4]));
-          return Eigen::Matrix2Xd(along * hats(sight.time));
-        });
+  for (std::size_t point = 0; point < names.size(); ++point)
+    add(fmt::format("{} slips along the cable", names[point]), kSlipping, [&](const Sight& sight) {
+      if (sight.point != point) return Eigen::Matrix2Xd(Eigen::Matrix2Xd::Zero(2, kKnots));
+      const Vector2d along(std::sin(sight.motion[4]), std::cos(sight.motion[4]));
+      return Eigen::Matrix2Xd(along * hats(sight.time));
+    });
   return errors;
 }
 
@@ -144,7 +146,7 @@ double log_evidence_of(const SensorError& error, const LinearProblem& linear) {
     }
   }
   double best = -HUGE_VAL;
-  for (const double size : kSizes) {
+  for (const double size : kPriorSizes) {
     for (LinearRecording& recording : with.recordings)
       recording.own_deviation.tail(numbers).setConstant(size * error.deviation);
     best = std::max(best, smooth_forces(with, {}, {}, {}, false).log_evidence);

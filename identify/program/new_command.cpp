@@ -181,7 +181,7 @@ int make_case(NewOptions options) {
   const Recording recording = read_recording(found.spec, kLinks, options.known.length);
   found.spec.keep_outliers = false;
   const double begin = recording.time.front(), end = recording.time.back();
-  found.spec.fit_until = with_digits(begin + 0.7 * (end - begin), 3);
+  found.spec.fit_until = begin + with_digits(0.7 * (end - begin), 3);
   const std::string text =
       fmt::format(
           "# Made by catena new from {}.\n# catena identify {} --check tells what the data "

@@ -138,12 +138,10 @@ OutputFolder::Manifest OutputFolder::manifest_in(const fs::path& folder) {
 
 /// Why a file may not be replaced; empty if it may, or is not there.
 std::string OutputFolder::why_in_the_way(const fs::path& file, const Manifest& manifest) const {
-  fs::path above = path_;
-  for (const fs::path& name : file.lexically_relative(path_).parent_path())
-    if (fs::is_symlink(above /= name))
-      return above.string() +
-             " is a link, through which no result is written; move it away or choose another "
-             "folder";
+  const fs::path link = link_below(path_, file.lexically_relative(path_).parent_path());
+  if (!link.empty())
+    return link.string() +
+           " is a link, through which no result is written; move it away or choose another folder";
   const fs::file_status status = fs::symlink_status(file);
   if (!fs::exists(status)) return {};
   const auto [begin, end] = manifest.equal_range(file.lexically_relative(path_).generic_string());

@@ -44,6 +44,9 @@ void fields(auto& archive, Is<Channels> auto& channels) {
   archive.rule(
       channels.side.size() == channels.down.size(), "down",
       fmt::format("it has {} rows where side has {}", channels.down.size(), channels.side.size()));
+  archive.rule(channels.across.empty() || channels.across.size() == channels.side.size(), "across",
+               fmt::format("it has {} rows where side has {}", channels.across.size(),
+                           channels.side.size()));
 }
 
 void fields(auto& archive, Is<Point> auto& point) {
@@ -116,7 +119,14 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
       const std::size_t down = channels->down.size();
       archive.rule(angles || down == rows, key,
                    fmt::format("{} has {} rows of down where side has {}", key, down, rows));
+      const std::size_t across = channels->across.size();
+      archive.rule(across == (measured.values.across.empty() ? 0 : rows), key,
+                   fmt::format("{} has {} rows of across where side has {}", key, across, rows));
     }
+    archive.rule(angles || experiment.drawn().side.empty() ||
+                     experiment.drawn().across.empty() == measured.values.across.empty(),
+                 "measured",
+                 "either the motion is in space and the markers are not, or the reverse");
   }
   archive.optional("gap", experiment.gap);
   archive.optional("gap_before", experiment.gap_before);

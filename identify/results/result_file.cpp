@@ -128,8 +128,9 @@ class Reader {
     } else {
       result.read(round.result_file);
       const std::filesystem::path file = folder_ / round.result_file;
-      if (!is_within(round.result_file) || !std::filesystem::is_regular_file(file))
-        result.fail("it must be the result of the round, a file within the folder");
+      if (!is_within(round.result_file) || !link_below(folder_, round.result_file).empty() ||
+          !std::filesystem::is_regular_file(file))
+        result.fail("it must be the result of the round, a file within the folder and no link");
       const Json json = parsed(file);
       const Reader root(json, file.string() + ": result", folder_);
       root.kind();

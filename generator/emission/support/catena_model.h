@@ -182,7 +182,7 @@ typedef struct catena_model {
   void (*velocities_across)(const void* context, const catena_point* at, double* across_rate);
   /* What holds the support exerts on the chain, then what holds the far end, where it is held: forces (N)
      and moments (N m) by components side, down, across, force[3 or 6] and moment[3 or 6]. In the plane
-     force[2] and moment[1], positive towards +theta. at->a is read. */
+     force[2] and moment[1], positive towards +theta. at->a is read. Null where nothing tells them. */
   void (*reactions)(const void* context, const catena_point* at, double* force, double* moment);
   /* Where the far end is held, null elsewhere. The last three coordinates are then those of the
      constraint: their second derivatives are the force that the end exerts on what holds it, their

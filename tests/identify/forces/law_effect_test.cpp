@@ -23,9 +23,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLength = 0.4;  // m
-/// The second is inside of a link of two links, and where one ends of three. On the first link nothing
-/// moves along it.
-constexpr double kPlaces[] = {0.0, 2 * kLength / 3, kLength};
+/// The second is inside of the last link of two links and of three. On the first link nothing moves along
+/// it; at a joint the effect is the mean of both links, whose directions differ.
+constexpr double kPlaces[] = {0.0, 0.8 * kLength, kLength};
 
 VectorXd lengths_of(int links) { return VectorXd::Constant(links, kLength / links); }
 

@@ -35,7 +35,7 @@ TEST_CASE("simulate writes what it says, the same every time") {
         0.6);
   // Two links askew, held still: joint 1 is bent by 0.6 over half a link of 0.5 m, joint 2 is not.
   const Table forces = read_table(std::filesystem::path(first) / "forces.csv");
-  CHECK(forces.names.size() == 1 + 3 * 2);
+  CHECK(forces.names.size() == 1 + 3 * 2 + 3);
   CHECK(forces.rows() == 51);
   CHECK(forces.column("moment_1_N_m").front() == doctest::Approx(-0.1 * 0.6).epsilon(1e-15));
   CHECK(forces.column("moment_2_N_m").front() == 0.0);
@@ -45,6 +45,11 @@ TEST_CASE("simulate writes what it says, the same every time") {
   const double along = 9.81 * std::cos(0.6);
   CHECK(forces.column("tension_1_N").front() == doctest::Approx(0.5 * along).epsilon(1e-12));
   CHECK(forces.column("tension_2_N").front() == doctest::Approx(0.35 * along).epsilon(1e-12));
+  // The support pulls as the first link does, and bends it back.
+  CHECK(std::sin(0.6) * forces.column("support_force_side_N").front() +
+            std::cos(0.6) * forces.column("support_force_down_N").front() ==
+        doctest::Approx(-0.5 * along).epsilon(1e-12));
+  CHECK(forces.column("support_moment_N_m").front() == doctest::Approx(-0.1 * 0.6).epsilon(1e-12));
   const ProcessResult json = run_catena({"simulate", the_case, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);

@@ -96,6 +96,19 @@ TEST_CASE("a file that cannot be read says where and why") {
       {[](json& r) { r["experiments"][0]["predicted"].erase("down"); },
        "predicted has 0 rows of down where side has 12"},
       {[](json& r) {
+         r["experiments"][0]["measured"]["across"] = {r["experiments"][0]["measured"]["side"][0]};
+       },
+       "it has 1 rows where side has 12"},
+      {[](json& r) {
+         r["experiments"][0]["measured"]["across"] = r["experiments"][0]["measured"]["side"];
+       },
+       "predicted has 0 rows of across where side has 12"},
+      {[](json& r) {
+         for (const char* const of : {"measured", "predicted"})
+           r["experiments"][0][of]["across"] = r["experiments"][0][of]["side"];
+       },
+       "either the motion is in space and the markers are not, or the reverse"},
+      {[](json& r) {
          r["experiments"][0]["forces"] = {{"tension", {{1.0, 2.0}}}, {"moment", json::array()}};
        },
        "each row of tension must have one number per time of the trajectory"},
@@ -260,10 +273,13 @@ TEST_CASE("a diagnosis names results in its folder only") {
   const testing::TemporaryFolder folder;
   write(folder.path() / "mine.json", made_pendulum());
   std::filesystem::create_directory(folder.path() / "theirs");
+  std::filesystem::create_symlink(folder.path() / "mine.json", folder.path() / "theirs/link.json");
+  std::filesystem::create_directory_symlink(folder.path(), folder.path() / "theirs/round_1");
   json diagnosis = made_diagnosis();
   for (const std::string& file :
        {std::string("../mine.json"), (folder.path() / "mine.json").string(),
-        std::string("/dev/zero"), std::string("round_0/../../mine.json"), std::string("")}) {
+        std::string("link.json"), std::string("round_1/mine.json"), std::string("/dev/zero"),
+        std::string("round_0/../../mine.json"), std::string("")}) {
     CAPTURE(file);
     diagnosis["rounds"][0]["result"] = file;
     const auto theirs = write(folder.path() / "theirs/diagnosis.json", diagnosis);

@@ -60,13 +60,12 @@ export class Player {
     this.motion = this.motions.find((motion) => motion.experiment === this.state.experiment) ?? this.motions[0];
     this.slider.max = String(this.motion.time.length - 1);
     this.turnLabel.hidden = !this.motion.across;
-    if (!this.motion.across) this.view = 0;
     const {measured, before} = this.motion;
     this.key.replaceChildren(
         ...[['simulated', 'c1', '—●'], ...(measured ? [['measured', 'c0', '○']] : []), ...(before ? [['before', 'c2', '- -']] : [])]
             .map(([words, colour, sign]) => element('span', {},
                 element('span', {style: `color: var(--${colour})`, 'aria-hidden': 'true'}, sign), ` ${words} `)));
-    this.draw();
+    this.look(this.motion.across ? Number(this.turn.value) : 0);
     this.seekFrame(0);
   }
 
@@ -144,6 +143,7 @@ export class Player {
   /** From an angle about the vertical, degrees: at 0 side is to the right, at 90 across is. */
   look(degrees) {
     this.view = degrees * Math.PI / 180;
+    this.turn.value = String(degrees);
     this.turn.setAttribute('aria-valuetext', `${degrees} degrees`);
     this.draw();
   }
