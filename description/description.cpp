@@ -158,6 +158,12 @@ std::string conflict_in(const Description& description) {
       return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
     held = held || effect.held_end.holds();
   }
+  // What a held end adds to a model has names of these kinds.
+  for (const Effect& effect : description.effects)
+    for (const char* const taken : {"end", "gap", "hold"})
+      if (held && effect.id == taken)
+        return in_quotes(effect.id) +
+               " is a name of what holds the far end; give the effect another id in its file";
   return conflict_between(description.effects);
 }
 

@@ -62,7 +62,7 @@ std::string conflict_between(const std::vector<Effect>& effects);
 std::string why_not_in(Space space, const Effect& effect);
 
 /// The same for the effects of a description: each has a meaning in its space, and no two give the
-/// direction of the clamp or hold the far end.
+/// direction of the clamp or hold the far end. None has an id that what holds the far end has.
 std::string conflict_in(const Description& description);
 
 /// The file of a description that is to be in `folder`; read_description gives the same canonical

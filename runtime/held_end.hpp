@@ -12,12 +12,14 @@ namespace catena {
 /// that is closed. Models in space with table().gap only.
 ///
 /// Of all links the same vector nu is added to the directions, and the sums are given the length one: nu is
-/// the least of sum l_i |q_i + nu| - nu . (end - support), which is convex, so that there is one wherever
-/// the cable is longer than its ends are apart. To the rates, made perpendicular to the directions, another
-/// vector is added in the same way, so that the end moves as what holds it.
+/// the least of sum l_i |q_i + nu| - nu . (end - support), which is convex. It closes the gap where it is no
+/// -q_i. Parallel links say nothing of a shape, so they are bent before: about as a cable that sags, in the
+/// plane of the links and of the line from the support to the end. To the rates, made perpendicular to the
+/// directions, another vector is added in the same way, so that the end moves as what holds it.
 ///
 /// `open`: any state; q and v need not fit. t: s. `signals`: those the model asks for.
-/// Throws ImpossibleValue where the ends are as far apart as the cable is long, or farther.
+/// Throws ImpossibleValue where the distance of the ends is not between 2 max l - sum l and sum l, and where
+/// the gap is not closed.
 State closed_end(const Model& model, const Eigen::VectorXd& parameters, const State& open, double t,
                  const Signals& signals);
 

@@ -77,7 +77,7 @@ struct Equilibrium {
 /// current and between two ends. `parameters`: one entry per parameter of the model;
 /// `signals`: the channels that the model asks for. Whether the equilibrium is stable is not
 /// examined. Throws std::invalid_argument on parameters that the model refuses
-/// (Model::check_parameters).
+/// (Model::check_parameters), and ImpossibleValue where a held end is where the cable does not reach.
 Equilibrium hanging_equilibrium(const Model& model, const Eigen::VectorXd& parameters,
                                 double t = 0.0, const Signals& signals = {});
 

@@ -78,13 +78,15 @@ void SensitivitySolver::error_weights(const double* s, const SimulationOptions& 
   // CVODES's norm divides by the whole length, filled up with zeros.
   const double fill =
       std::sqrt(static_cast<double>(batches_ * kWidth) / static_cast<double>(directions_.size()));
-  const int elements = dynamics_.size();
+  const int elements = dynamics_.size(), coordinates = dynamics_.coordinates();
+  // Integrals of the force that holds an end enter no equation.
+  const int constraints = dynamics_.model().held() ? 3 : 0;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const auto first = batch_size() * static_cast<int>(k / kWidth) + static_cast<int>(k % kWidth);
     for (int element = 0; element < elements; ++element) {
-      const double absolute = element < dynamics_.coordinates()
-                                  ? options.absolute_tolerance_position
-                                  : options.absolute_tolerance_velocity;
+      if (element < 2 * coordinates && element % coordinates >= coordinates - constraints) continue;
+      const double absolute = element < coordinates ? options.absolute_tolerance_position
+                                                    : options.absolute_tolerance_velocity;
       const int i = first + kWidth * element;
       weight[i] = fill / (options.relative_tolerance * std::abs(s[i]) + absolute * changes_[k]);
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "common/number_text.hpp"
@@ -22,6 +21,7 @@ constexpr double kLongestStep =
 constexpr double kFirstStep = 0.05;  // likewise, of the first, by inertia alone
 constexpr double kNear = 1e-8;       // likewise, where Newton's method may take over
 constexpr double kDone = 1e-12;      // likewise, of the last
+constexpr double kLeastSpan = 0.05;  // of the length of the cable, of a guess
 constexpr double kFastest = 10.0;    // by which 1 / tau^2 changes from step to step
 
 /// A cable between its ends as a catenary; plumb if the end is free.
@@ -37,8 +37,9 @@ State first_guess(const Model& model, const VectorXd& parameters, double t,
       {t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
       apart.data(), rate.data());
   const Vector3d end = lengths.sum() * Vector3d::UnitY() - apart;
-  const CablePoint held{std::hypot(end[0], end[2]), end[1]};
-  if (end.norm() < lengths.sum()) {
+  // In a catenary between points of one vertical line all links point up or down, and nothing can move.
+  const CablePoint held{std::max(std::hypot(end[0], end[2]), kLeastSpan * lengths.sum()), end[1]};
+  if (std::hypot(held.side, held.down) < lengths.sum()) {
     const State flat = catenary(model, parameters, held, CatenaryFit::kChords);
     const double azimuth = std::atan2(end[2], end[0]);
     const Index n = model.links();
@@ -154,7 +155,8 @@ class Search {
 Equilibrium space_equilibrium(const Model& model, const VectorXd& parameters, double t,
                               const Signals& signals) {
   if (model.table().structured == 0)
-    throw std::invalid_argument("an equilibrium in space needs a model with a structured matrix");
+    return {Status::kNoConvergence,
+            "an equilibrium in space needs a model with a structured matrix", State::zero(model)};
   return Search(model, parameters, t, signals).run();
 }
 

@@ -10,7 +10,8 @@ namespace catena {
 /// implicit steps of the motion, the velocity taken away after each (pseudo-transient continuation): the
 /// matrix of a step is M / tau^2 + dr/dq. tau grows as the residual falls, so that Newton's method is the
 /// limit, and equilibria that are not stable are left.
-/// Throws ImpossibleValue where the ends are as far apart as the cable is long, or farther.
+/// A model without a structured matrix gives kNoConvergence. Throws ImpossibleValue where the ends are where
+/// the cable does not reach (closed_end).
 Equilibrium space_equilibrium(const Model& model, const Eigen::VectorXd& parameters, double t,
                               const Signals& signals);
 

@@ -238,10 +238,8 @@ void Chain::place_held_end() {
     }
     of_joints.push_back(definitions_.define(name, kNoIndex, value));
   };
-  std::vector<ex> stiffness = stiffness_, damping = damping_;
-  add(stiffness, "end_stiffness", held.clamp_stiffness, "N m/rad");
-  add(damping, "end_damping", held.clamp_damping, "N m s/rad");
-  stiffness_ = stiffness, damping_ = damping;
+  add(stiffness_, "end_stiffness", held.clamp_stiffness, "N m/rad");
+  add(damping_, "end_damping", held.clamp_damping, "N m s/rad");
 }
 
 // The constraint, and the clamp.

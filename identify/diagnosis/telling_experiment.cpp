@@ -6,7 +6,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "common/impossible_value.hpp"
 #include "identify/problem/prediction.hpp"
+#include "runtime/held_end.hpp"
 #include "runtime/positions.hpp"
 #include "runtime/simulation.hpp"
 
@@ -68,13 +70,19 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
       bool ok = true;
       for (int m = 0; m < 2; ++m) {
         const FittedModel& model = m ? b : a;
-        const State state = scaled(model.problem->model(),
-                                   model.problem->initial_state(model.x, index), start.factor);
+        const Model& chain = model.problem->model();
+        const Eigen::VectorXd parameters = model.problem->model_parameters(model.x, index);
+        State state = scaled(chain, model.problem->initial_state(model.x, index), start.factor);
+        try {
+          if (chain.held())
+            state = closed_end(chain, parameters, state, times.front(), experiment.signals);
+        } catch (const ImpossibleValue&) {  // not a start between these ends
+          ok = false;
+          break;
+        }
         SimulationOptions options = simulation_options(model.problem->the_case().simulation);
         options.energy = false;
-        motions[m] =
-            simulate(model.problem->model(), model.problem->model_parameters(model.x, index), state,
-                     times, options, experiment.signals);
+        motions[m] = simulate(chain, parameters, state, times, options, experiment.signals);
         ok = ok && motions[m].status == Status::kSuccess;
       }
       if (!ok) continue;

@@ -157,8 +157,10 @@ LinkDirections directions_at_start(const Model& model, const State& shape,
   links.azimuth = or_zero(initial.azimuths);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double side = shape.q[i], down = shape.q[n + i], across = shape.q[2 * n + i];
-    links.angle[i] = std::atan2(across == 0 ? side : std::hypot(side, across), down);
-    if (across != 0) links.azimuth[i] = std::atan2(across, side);
+    // In the plane of side and down, but for rounding, the angle has a sign, and its rate with it.
+    const bool flat = std::abs(across) < 1e-9;
+    links.angle[i] = std::atan2(flat ? side : std::hypot(side, across), down);
+    if (!flat) links.azimuth[i] = std::atan2(across, side);
   }
   links.angle_rate = initial_rates(initial, lengths);
   links.azimuth_rate = or_zero(initial.azimuth_rates);

@@ -105,6 +105,33 @@ TEST_CASE("errors in a description name their line") {
         std::string::npos);
 }
 
+TEST_CASE("an effect beside a held end has no id of what holds it") {
+  const testing::TemporaryFolder folder;
+  folder.write("holds.toml",
+               "format = 1\nkind = \"effect\"\nid = \"holds\"\ntitle = \"Holds\"\n"
+               "description = \"Holds the end\"\n[held_end]\nside = \"0.5\"\n");
+  for (const char* id : {"hold", "end", "gap", "push"}) {
+    CAPTURE(id);
+    std::string text = kEffect;
+    text.replace(text.find("\"push\""), 6, "\"" + std::string(id) + "\"");
+    folder.write("push.toml", text);
+    const auto path = folder.write(
+        "chain.toml", kHead + "space = \"3d\"\neffects = [\"push.toml\", \"holds.toml\"]\n");
+    if (id == std::string("push")) {
+      CHECK(read_description(path).holding() != nullptr);
+      continue;
+    }
+    const std::string said = failure([&] { read_description(path); });
+    CAPTURE(said);
+    CHECK(said.find(path.string() + ":5: effects: \"" + id +
+                    "\" is a name of what holds the far end; give the effect another id") == 0);
+    // where nothing holds the end the names are free
+    CHECK(read_description(
+              folder.write("free.toml", kHead + "space = \"3d\"\neffects = [\"push.toml\"]\n"))
+              .effects.size() == 1);
+  }
+}
+
 TEST_CASE("a file is written whole or not at all") {
   const testing::TemporaryFolder folder;
   const auto missing = folder.path() / "none" / "chain.toml";

@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 
@@ -60,6 +61,22 @@ TEST_CASE("what the case calls impossible is not looked for, and must be an effe
   CHECK(failure([&] {
           library_of_candidates({}, plain_chain(), the_case);
         }).find("did you mean \"pivot_damping\"?") != std::string::npos);
+}
+
+TEST_CASE("what holds the far end is not looked for") {
+  const testing::TemporaryFolder folder;
+  const auto file =
+      folder.write("holds.toml",
+                   "format = 1\nkind = \"effect\"\nid = \"holds\"\ntitle = \"Holds\"\n"
+                   "description = \"Holds the end\"\n[held_end]\nside = \"0.5\"\n");
+  Description chain = plain_chain();
+  chain.space = Space::kThreeDimensional;
+  const auto library = library_of_candidates({file}, chain, case_of(DataKind::kMarkers));
+  const auto holds =
+      std::find_if(library.begin(), library.end(), [](const auto& c) { return c.id == "holds"; });
+  REQUIRE(holds != library.end());
+  CHECK(holds->unavailable ==
+        "it holds the far end at all values of its parameters; have it in the model");
 }
 
 TEST_CASE("what acts as a function of time drives the chain; a clock does not act") {

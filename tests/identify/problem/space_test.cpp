@@ -111,6 +111,95 @@ TEST_CASE("derivatives by the unknowns of a start and by parameters are differen
   }
 }
 
+namespace {
+
+/// Five links whose far end is held at 0.6 m aside and 0.3 m down, where it swings across.
+Case held_at_both_ends() {
+  Case the_case = three_links();
+  the_case.links = 5;
+  for (const auto& [name, value] :
+       {std::pair("to_side", 0.6), {"to_down", 0.3}, {"amplitude", 0.1}}) {
+    ParameterSpec spec;
+    spec.name = name;
+    spec.sets = std::string("holds_end.") + name;
+    spec.value = value;
+    spec.free = name == std::string("to_side");
+    the_case.parameters.push_back(spec);
+  }
+  return the_case;
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of a motion between two ends are differences") {
+  Case the_case = held_at_both_ends();
+  the_case.initial = askew();
+  the_case.initial.coefficients = {0.3, -0.2, 0.7, 1.1, 1.5};
+  the_case.initial.out_of_plane = {0.2, 0.4, -0.3, 0, 0.1};
+  the_case.initial.azimuths.assign(5, 0.5);
+  the_case.initial.velocity_coefficients = {0.5, -0.8, 1.0, 0.3, 0};
+  the_case.initial.out_of_plane_rates = {-0.4, 0.9, 0.6, 0, 0.2};
+  the_case.initial.azimuth_rates.assign(5, 0.8);
+  the_case.initial.free = the_case.initial.velocity_free = true;
+  the_case.simulation.relative_tolerance = 1e-11;
+  the_case.simulation.absolute_tolerance_position = 1e-12;
+  the_case.simulation.absolute_tolerance_velocity = 1e-11;
+  const Problem problem(the_case, Model::load(HELD_END_5),
+                        {testing::empty_markers({0.2, 0.5, 0.8}, 4, 0.1, true)});
+  const VectorXd x = problem.start();
+  REQUIRE(x.size() == 3 + 4 * 5);
+  const std::vector<SensitivityDirection> directions = problem.directions(x, 0);
+  const Prediction here = problem.predict(x, 0, true, directions);
+  REQUIRE_MESSAGE(here.ok(), here.message);
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    CAPTURE(problem.unknowns()[k].name);
+    const double step = 1e-5 * (1 + std::abs(x[j]));
+    VectorXd more = x, less = x;
+    more[j] += step;
+    less[j] -= step;
+    const Eigen::MatrixXd difference =
+        (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
+        (2 * step);
+    CHECK(difference.norm() > 1e-3);
+    CHECK((here.sensitivity[k] - difference).norm() < 1e-5 * (1 + difference.norm()));
+    const State after = problem.initial_state(more, 0), before = problem.initial_state(less, 0);
+    const VectorXd moved = (after.q - before.q) / (2 * step);
+    const VectorXd faster = (after.v - before.v) / (2 * step);
+    if (directions[k].q.size() == 0) {
+      CHECK(moved.norm() + faster.norm() == 0);
+      continue;
+    }
+    CHECK((directions[k].q - moved).norm() < 1e-6 * (1 + moved.norm()));
+    CHECK((directions[k].v - faster).norm() < 1e-6 * (1 + faster.norm()));
+  }
+}
+
+TEST_CASE("rounding across the plane does not change the sign of the rates of a hanging start") {
+  const Model model = Model::load(HELD_END_5);
+  InitialSpec initial;
+  initial.shape = Shape::kHanging;
+  initial.at_rest = false;
+  initial.velocity_shape = Shape::kAngles;
+  initial.velocity_coefficients = {0.5, -0.8, 1.0, 0.3, 0.2};
+  VectorXd parameters = model.default_parameters();
+  parameters.head(10).setConstant(0.2);
+  parameters.segment(10, 5).setConstant(1e-4);
+  parameters.segment(15, 10).setConstant(0.01);
+  parameters[model.parameter_index("load_mass")] = 0.1;
+  parameters[model.parameter_index("holds_end.to_side")] = -0.6;  // at an azimuth of pi
+  std::array<State, 3> starts;
+  for (const int sign : {-1, 0, 1}) {
+    parameters[model.parameter_index("holds_end.to_across")] = 1e-13 * sign;
+    starts[static_cast<std::size_t>(sign + 1)] = state_at_start(model, parameters, initial, {}, 0);
+  }
+  CHECK(starts[1].v.head(5).norm() > 0.1);
+  for (const State& start : starts) {
+    CHECK((start.q - starts[1].q).norm() < 1e-9);
+    CHECK((start.v - starts[1].v).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("a start is seen from the support where signals move it") {
   const testing::TemporaryFolder folder;
   std::string table = "t,x,z,y,grip_x,grip_z,grip_y\n";
