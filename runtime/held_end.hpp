@@ -17,6 +17,10 @@ namespace catena {
 /// plane of the links and of the line from the support to the end. To the rates, made perpendicular to the
 /// directions, another vector is added in the same way, so that the end moves as what holds it.
 ///
+///     const Model model = Model::load("held.so");  // in space, its far end held
+///     const Eigen::VectorXd parameters = model.default_parameters();
+///     const State start = closed_end(model, parameters, State::zero(model), 0.0, {});
+///
 /// `open`: any state; q and v need not fit. t: s. `signals`: those the model asks for.
 /// Throws ImpossibleValue where the distance of the ends is not between 2 max l - sum l and sum l, and where
 /// the gap is not closed.

@@ -22,7 +22,7 @@ namespace {
 
 /// Random forces for the null distribution: a chance of 1 in 200 can be told.
 constexpr Index kRandomForces = 199;
-constexpr LawThresholds kThresholds;
+constexpr LawThresholds kLawThresholds;
 /// Share of the arc length by which the place is moved to see what that changes.
 constexpr double kApart = 0.02;
 constexpr int kClosedLoops = 3;
@@ -183,7 +183,7 @@ class LawSearch {
       as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
                                   static_cast<double>(second.seen)) >= law.confirmed;
     law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomForces);
-    law.found = law.chance <= kThresholds.chance && law.confirmed >= kThresholds.confirmed;
+    law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
     if (law.found) read_formula(chosen[0].candidate, law);
     return law;
   }
@@ -340,7 +340,7 @@ class LawSearch {
       if (fitted.candidate == number) lowest = std::min(lowest, criterion(fitted));
     const FittedForm* best = nullptr;
     for (const FittedForm& fitted : fits) {
-      if (fitted.candidate != number || criterion(fitted) > lowest + kThresholds.undecided)
+      if (fitted.candidate != number || criterion(fitted) > lowest + kLawThresholds.undecided)
         continue;
       const auto rank = [&](const FittedForm& f) { return std::pair(f.form.size(), criterion(f)); };
       if (!best || rank(fitted) < rank(*best)) best = &fitted;
@@ -354,7 +354,7 @@ class LawSearch {
                                                    inflation * fitted.covariance);
     };
     for (const FittedForm& fitted : fits)
-      if (&fitted != best && criterion(fitted) < criterion(*best) + kThresholds.undecided)
+      if (&fitted != best && criterion(fitted) < criterion(*best) + kLawThresholds.undecided)
         law.rivals.push_back(with_constants(formula_of(fitted)));
     FittedForm found = *best;
     follow(found);

@@ -29,7 +29,7 @@ constexpr double kCloser = 3;
 /// Sizes of a force alone, as multiples of that of the forces everywhere, whose evidence is
 /// compared.
 constexpr double kSizes[] = {0.3, 1.0, 3.0};
-constexpr MissingForceThresholds kThresholds;
+constexpr MissingForceThresholds kForceThresholds;
 /// Share of the prior variance that data must take away from a pattern that they resolve.
 constexpr double kResolved = 0.5;
 
@@ -397,7 +397,7 @@ void describe(MissingForce& missing) {
     describe_everywhere(missing);
   std::string others;
   for (const MissingForce::Place& place : missing.places)
-    if (place.log_evidence > missing.best->log_evidence - kThresholds.told_apart &&
+    if (place.log_evidence > missing.best->log_evidence - kForceThresholds.told_apart &&
         place.name != missing.best->name)
       others += (others.empty() ? "" : ", ") + place.name;
   if (!others.empty()) missing.words.push_back("these data do not tell it from: " + others);
@@ -445,7 +445,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   if (!everywhere) return false;
   missing.share = 1 - paths.squares() / squares_without;
   // A force may be zero, so it leaves no more than none does: else the iterations went astray.
-  if (!(missing.share > -kThresholds.share)) return false;
+  if (!(missing.share > -kForceThresholds.share)) return false;
   for (std::size_t m = 0; m < paths.patterns().size(); ++m) {
     const ForcePattern& pattern = paths.patterns()[m];
     const double prior = variance[static_cast<std::size_t>(pattern.group)];
@@ -463,8 +463,8 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   PlaceSearch search(paths, chain, size_of(paths, chain));
   if (!search.look_everywhere(missing)) return false;
   missing.log_evidence = everywhere->log_evidence - search.none();
-  missing.found =
-      missing.log_evidence > kThresholds.log_evidence && missing.share > kThresholds.share;
+  missing.found = missing.log_evidence > kForceThresholds.log_evidence &&
+                  missing.share > kForceThresholds.share;
   if (!missing.found) {
     missing.places.clear();
     return true;
