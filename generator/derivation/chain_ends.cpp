@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The ends of the chain in space: clamps whose direction turns, the constraint that holds the far end,
+// the moments and the power of what holds them.
+#include "description/expression_syntax.hpp"
+#include "generator/derivation/chain.hpp"
+#include "generator/derivation/effect_expression.hpp"
+
+namespace catena {
+
+using GiNaC::ex;
+
+namespace {
+
+// 1/s: a gap at a held end closes as exp(-kClosingRate t). Faster than cables of metres swing; steps may be
+// longer, as they are implicit.
+const ex kClosingRate = 100;
+
+}  // namespace
+
+// The direction of a clamp, made a unit vector as those of links are.
+std::vector<ex> Chain::unit_vector(const Effect& effect,
+                                   const std::vector<const Expression*>& components,
+                                   const std::string& name, int index) {
+  std::vector<ex> vector, unit;
+  ex square = 0;
+  for (const Axis axis : axes()) {
+    vector.push_back(
+        define_variable(name + ending(axis), kNoIndex,
+                        evaluate(effect, *components[axis], kShape, Place::kLoad, 0, "1")));
+    square += vector.back() * vector.back();
+  }
+  const ex scale =
+      definitions_.define(name + "_scale", kNoIndex,
+                          inverse_square_root(define_variable(name + "_square", kNoIndex, square)));
+  for (const Axis axis : axes())
+    unit.push_back(define_variable("unit" + ending(axis), index, scale * vector[axis]));
+  return unit;
+}
+
+void Chain::turn_clamp() {
+  for (const Effect& effect : description_.effects) {
+    const Support& support = effect.support;
+    if (!support.turns()) continue;
+    const std::vector<ex> clamp = unit_vector(
+        effect, {&support.clamp_side, &support.clamp_down, &support.clamp_across}, "clamp", 0);
+    for (const Axis axis : axes()) direction_[axis][0] = clamp[axis];
+  }
+}
+
+// Where the end is held, and the joint beyond the last link that clamps it there.
+void Chain::place_held_end() {
+  const Effect& effect = *description_.holding();
+  const HeldEnd& held = effect.held_end;
+  const Expression* const place[] = {&held.side, &held.down, &held.across};
+  for (const Axis axis : axes())
+    end_.push_back(define_variable("end" + ending(axis), kNoIndex,
+                                   evaluate(effect, *place[axis], kShape, Place::kLoad, 0, "m")));
+  for (const Axis axis : axes())
+    gap_.push_back(
+        define_variable("gap" + ending(axis), kNoIndex, joint_[axis][links_] - end_[axis]));
+  if (!held.turns()) return;
+  end_is_clamped_ = true;
+  const Link last = links_ + 1;
+  const std::vector<ex> clamp = unit_vector(
+      effect, {&held.clamp_side, &held.clamp_down, &held.clamp_across}, "end_clamp", last);
+  for (const Axis axis : axes()) direction_[axis].push_back(clamp[axis]);
+  // What is given of joint n, of the length of cable from the middle of the last link to its end.
+  const ex shorter = spacing(links_) / (length_[links_] / 2);
+  const auto add = [&](std::vector<ex>& of_joints, const char* name, const Expression& given,
+                       const char* unit) {
+    const ex usual = of_joints[links_] * shorter;
+    ex value = usual;
+    if (given.given()) {
+      Surroundings here = surroundings(effect, kShape, Place::kLoad, 0);
+      here.known.add("stiffness", stiffness_[links_] * shorter, Unit::parse("N m/rad"));
+      here.known.add("damping", damping_[links_] * shorter, Unit::parse("N m s/rad"));
+      add_definitions(effect, kShape, Place::kLoad, here.known);
+      value = parse_expression(given, here.known, Unit::parse(unit));
+    }
+    of_joints.push_back(definitions_.define(name, kNoIndex, value));
+  };
+  add(stiffness_, "end_stiffness", held.clamp_stiffness, "N m/rad");
+  add(damping_, "end_damping", held.clamp_damping, "N m s/rad");
+}
+
+// The constraint, and the clamp.
+void Chain::hold_end() {
+  if (end_is_clamped_) add_joint_terms(links_ + 1);
+  if (!wanted(description_.holding()->id)) return;
+  for (const Axis axis : axes()) {
+    const ex rate = time_.of(gap_[axis]);
+    add_momenta(time_.of(hold_[axis]) * rate);
+    add_generalised_force(hold_[axis],
+                          2 * kClosingRate * rate + kClosingRate * kClosingRate * gap_[axis]);
+  }
+}
+
+// In space: the moment that link i exerts on what is above joint i by bending and damping, with the effects
+// on them.
+std::vector<ex> Chain::moment_of_joint(Link i) {
+  const auto force_of = [&](const ex& variable) {
+    if (!GiNaC::is_a<GiNaC::symbol>(variable)) return ex(0);
+    const auto found = generalised_force_.find(definitions_.number_of(variable));
+    return found == generalised_force_.end() ? ex(0) : found->second;
+  };
+  const ex bending = -force_of(joint_cosine_[i]);
+  std::vector<ex> moment;
+  for (const Axis axis : axes())
+    moment.push_back(
+        definitions_.define("joint_moment" + ending(axis), i,
+                            bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i])));
+  return moment;
+}
+
+// The forces that move the ends do work, and the moments that turn their clamps. Where the end is held, the
+// work is that at the end of the chain: what a gap takes of it is in the balance.
+void Chain::add_power_of_ends() {
+  const auto turning = [&](Axis axis, Link i) {
+    return in_plane() ? ex(0) : direction_force_[axis][i] * time_.of(direction_[axis][i]);
+  };
+  ex of_support = 0, of_end = 0;
+  for (const Axis axis : axes())
+    of_support += reactions_[0].force[axis] * time_.of(joint_[axis][0]) + turning(axis, 0);
+  if (!of_support.is_zero()) add_energy("support", EnergyItem::kSupplied, of_support);
+  if (hold_.empty()) return;
+  for (const Axis axis : axes()) {
+    of_end += reactions_[1].force[axis] * time_.of(joint_[axis][links_]);
+    if (end_is_clamped_) of_end += turning(axis, links_ + 1);
+  }
+  add_energy("end", EnergyItem::kSupplied, of_end);
+}
+
+}  // namespace catena
