@@ -329,7 +329,7 @@ TEST_CASE("clamped ends that move: energy, sensitivities and the adjoint") {
   options.sensitivities_in_error_test = true;
   const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);
   REQUIRE_MESSAGE(sensitive.status == catena::Status::kSuccess, sensitive.message);
-  const Eigen::Index links = 3 * model.links();
+  const Eigen::Index links = Eigen::Index{3} * model.links();
   for (std::size_t j = 0; j < directions.size(); ++j) {
     CAPTURE(j);
     Eigen::Index index = 0;
@@ -367,7 +367,7 @@ State check_closed(const Model& model, const VectorXd& p, const State& open, con
     state.q += step * dq, state.v += step * dv;
     return closed_end(model, p, state, 0.2, {});
   };
-  const State shut = moved(0);
+  State shut = moved(0);
   Vector3d apart, rate;
   model.gap({0.2, shut.q.data(), shut.v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
             rate.data());
@@ -407,7 +407,7 @@ TEST_CASE(
       VectorXd dq = VectorXd::Zero(model.coordinates());
       for (Eigen::Index axis = 0; axis < 3; ++axis)
         dq.segment(axis * n, n).setConstant(Vector3d(1, -0.4, 0.7)[axis]);
-      const State shut = check_closed(model, p, open, dq, dv, 1e-6);
+      State shut = check_closed(model, p, open, dq, dv, 1e-6);
       // It goes down first, no joint folds, and a little more of what was given changes a little.
       CHECK(shut.q[n] > shut.q[2 * n - 1]);
       for (Eigen::Index i = 1; i < n; ++i)
@@ -425,7 +425,7 @@ TEST_CASE("a straight start is closed where the end is in line with it, or at th
   for (const double down : {0.0, 0.6, -0.6}) {
     CAPTURE(down);
     set(model, p, "holds_end.to_down", down);
-    const State shut = closed(model, p, State::zero(model));
+    State shut = closed(model, p, State::zero(model));
     CHECK(gap(model, p, shut.q, shut.v, 0).norm() < 1e-14);
     for (Eigen::Index i = 1; i < 5; ++i)
       CHECK(vector_of(shut.q, 5, i).dot(vector_of(shut.q, 5, i - 1)) > -0.9);
@@ -482,6 +482,6 @@ TEST_CASE("an end nearer than the other links reach back from the longest one") 
       "0.1 m, must be long enough to reach back",
       catena::ImpossibleValue);
   set(model, p, "holds_end.to_side", 0.95);
-  const State shut = closed(model, p, State::zero(model));
+  State shut = closed(model, p, State::zero(model));
   CHECK(gap(model, p, shut.q, shut.v, 0).norm() < 1e-14);
 }

@@ -188,10 +188,10 @@ TEST_CASE("rounding across the plane does not change the sign of the rates of a 
   parameters.segment(15, 10).setConstant(0.01);
   parameters[model.parameter_index("load_mass")] = 0.1;
   parameters[model.parameter_index("holds_end.to_side")] = -0.6;  // at an azimuth of pi
-  std::array<State, 3> starts;
-  for (const int sign : {-1, 0, 1}) {
-    parameters[model.parameter_index("holds_end.to_across")] = 1e-13 * sign;
-    starts[static_cast<std::size_t>(sign + 1)] = state_at_start(model, parameters, initial, {}, 0);
+  std::vector<State> starts;
+  for (const double across : {-1e-13, 0.0, 1e-13}) {
+    parameters[model.parameter_index("holds_end.to_across")] = across;
+    starts.push_back(state_at_start(model, parameters, initial, {}, 0));
   }
   CHECK(starts[1].v.head(5).norm() > 0.1);
   for (const State& start : starts) {
