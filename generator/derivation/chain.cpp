@@ -25,11 +25,6 @@ std::string rate_family(const std::string& family) {
   return family + velocity;
 }
 
-// A component, as names of families end: "joint" + "_side".
-std::string ending(Axis axis) {
-  return axis == kSide ? "_side" : axis == kDown ? "_down" : "_across";
-}
-
 bool is_joint_position(const std::string& family) {
   return family == "joint_side" || family == "joint_down" || family == "joint_across";
 }
@@ -102,6 +97,10 @@ Chain::Chain(const Description& description, int links, const std::string& only_
   pull_back();
   add_power_of_ends();
   add_sensors();
+}
+
+std::string ending(Axis axis) {
+  return axis == kSide ? "_side" : axis == kDown ? "_down" : "_across";
 }
 
 std::vector<std::string> Chain::term_names(const Description& description) {

@@ -62,6 +62,9 @@ namespace catena {
 /// The components of positions. The plane has the first two.
 enum Axis { kSide, kDown, kAcross };
 
+/// A component, as names of families end: "joint" + "_side".
+std::string ending(Axis axis);
+
 /// The square of the angle between two unit vectors, as a function of its cosine c, and minus half of
 /// its derivative: the angle over its sine, and the slope of that. All are smooth at c = 1.
 DECLARE_FUNCTION_1P(squared_angle)

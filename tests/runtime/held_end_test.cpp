@@ -376,7 +376,7 @@ State check_closed(const Model& model, const VectorXd& p, const State& open, con
   catena::SensitivityDirection direction{{}, dq, dv, {}};
   close_direction(model, p, open, shut, direction);
   const State more = moved(h), less = moved(-h);
-  const Eigen::Index links = 3 * model.links();
+  const Eigen::Index links = Eigen::Index{3} * model.links();
   CHECK((direction.q - (more.q - less.q) / (2 * h)).head(links).cwiseAbs().maxCoeff() < 1e-8);
   CHECK((direction.v - (more.v - less.v) / (2 * h)).head(links).cwiseAbs().maxCoeff() < 1e-8);
   return shut;
