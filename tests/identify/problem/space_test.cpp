@@ -198,6 +198,13 @@ TEST_CASE("rounding across the plane does not change the sign of the rates of a 
     CHECK((start.q - starts[1].q).norm() < 1e-9);
     CHECK((start.v - starts[1].v).norm() < 1e-9);
   }
+  // It is the mirror image of the start on the other side with the rates reversed.
+  for (double& rate : initial.velocity_coefficients) rate = -rate;
+  parameters[model.parameter_index("holds_end.to_side")] = 0.6;
+  parameters[model.parameter_index("holds_end.to_across")] = 0;
+  const State mirrored = state_at_start(model, parameters, initial, {}, 0);
+  CHECK((starts[1].v.head(5) + mirrored.v.head(5)).norm() < 1e-7);
+  CHECK((starts[1].v.segment(5, 5) - mirrored.v.segment(5, 5)).norm() < 1e-7);
 }
 
 TEST_CASE("a start is seen from the support where signals move it") {
