@@ -14,12 +14,15 @@ using Eigen::VectorXd;
 
 const Vector3d kHanging(0, 0, -1);
 
-Vector3d direction(const SpatialState& state, std::size_t i) { return state.rotation[i] * kHanging; }
+Vector3d direction(const SpatialState& state, std::size_t i) {
+  return state.rotation[i] * kHanging;
+}
 
 SpatialState state_of(const Vectors& directions, const Vectors& rates) {
   SpatialState state;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    state.rotation.push_back(Quaterniond::FromTwoVectors(kHanging, directions[i]).toRotationMatrix());
+    state.rotation.push_back(
+        Quaterniond::FromTwoVectors(kHanging, directions[i]).toRotationMatrix());
     state.angular_velocity.push_back(directions[i].cross(rates[i]));
   }
   return state;
@@ -40,7 +43,8 @@ SpatialState askew_start(const Cable& cable) {
   Vectors directions, rates;
   for (Index i = 0; i < cable.links; ++i) {
     const double sine = std::sin(angles[i]);
-    directions.emplace_back(sine * std::cos(azimuths[i]), sine * std::sin(azimuths[i]), -std::cos(angles[i]));
+    directions.emplace_back(sine * std::cos(azimuths[i]), sine * std::sin(azimuths[i]),
+                            -std::cos(angles[i]));
     rates.push_back(0.8 * Vector3d(-sine * std::sin(azimuths[i]), sine * std::cos(azimuths[i]), 0));
   }
   return state_of(directions, rates);

@@ -57,6 +57,7 @@ std::unique_ptr<SpatialPeer> make_simbody_in_space(const Cable& cable);
 std::unique_ptr<SpatialPeer> make_rbdl_in_space(const Cable& cable);
 
 /// Simbody's CPodes (BDF) at the given accuracy, from askew_start(); q holds joints(), one column per time.
-Solution simulate_simbody_in_space(const Cable& cable, const std::vector<double>& times, double accuracy);
+Solution simulate_simbody_in_space(const Cable& cable, const std::vector<double>& times,
+                                   double accuracy);
 
 }  // namespace catena::benchmark
