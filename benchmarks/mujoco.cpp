@@ -3,16 +3,18 @@
 #include <time.h>
 
 #include <cstring>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 
-#include "benchmarks/peer.hpp"
+#include "benchmarks/spatial_peer.hpp"
 
 namespace catena::benchmark {
 namespace {
 
-/// x to the side, z up; a positive turn about -y moves a hanging link towards +x.
-std::string description(const Cable& cable, double rest_angle, const std::string& option) {
+/// x to the side, z up. `joint`: of each link, from 0.
+std::string description(const Cable& cable, const std::string& option,
+                        const std::function<std::string(int)>& joint) {
   const int n = cable.links;
   std::ostringstream text;
   text.precision(17);
@@ -23,15 +25,24 @@ std::string description(const Cable& cable, double rest_angle, const std::string
           "frictionloss='disable'/></option><worldbody>";
   for (int i = 0; i < n; ++i) {
     const RigidLink link(cable, i);
-    text << "<body pos='0 0 " << (i == 0 ? 0.0 : -cable.length)
-         << "'><joint type='hinge' axis='0 -1 0' stiffness='" << cable.stiffness << "' damping='"
-         << cable.damping << "' springref='" << (i == 0 ? rest_angle : 0.0)
-         << "'/><inertial pos='0 0 " << -link.centre << "' mass='" << link.mass << "' diaginertia='"
+    text << "<body pos='0 0 " << (i == 0 ? 0.0 : -cable.length) << "'>" << joint(i)
+         << "<inertial pos='0 0 " << -link.centre << "' mass='" << link.mass << "' diaginertia='"
          << link.inertia << ' ' << link.inertia << ' ' << link.inertia << "'/>";
   }
   for (int i = 0; i < n; ++i) text << "</body>";
   text << "</worldbody></mujoco>";
   return text.str();
+}
+
+/// A positive turn about -y moves a hanging link towards +x.
+std::string in_plane(const Cable& cable, double rest_angle, const std::string& option) {
+  return description(cable, option, [&](int i) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "<joint type='hinge' axis='0 -1 0' stiffness='" << cable.stiffness << "' damping='"
+         << cable.damping << "' springref='" << (i == 0 ? rest_angle : 0.0) << "'/>";
+    return text.str();
+  });
 }
 
 struct Engine {
@@ -56,7 +67,7 @@ struct Engine {
 
 class MujocoPeer : public Peer {
  public:
-  explicit MujocoPeer(const Cable& cable) : engine_(description(cable, 0.0, "")) {}
+  explicit MujocoPeer(const Cable& cable) : engine_(in_plane(cable, 0.0, "")) {}
   const char* name() const override { return "MuJoCo"; }
   void accelerations(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                      Eigen::VectorXd& a) override {
@@ -70,10 +81,53 @@ class MujocoPeer : public Peer {
   Engine engine_;
 };
 
+class SpatialMujoco : public SpatialPeer {
+ public:
+  explicit SpatialMujoco(const Cable& cable)
+      : engine_(description(cable, "", [](int) { return "<joint type='ball'/>"; })) {}
+  const char* name() const override { return "MuJoCo"; }
+  void set(const SpatialState& state) override {
+    positions_.clear();
+    rates_.clear();
+    Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d above_rate = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < state.rotation.size(); ++i) {
+      const Eigen::Matrix3d& own = state.rotation[i];
+      const Eigen::Quaterniond turn(Eigen::Matrix3d(above.transpose() * own));
+      positions_.insert(positions_.end(), {turn.w(), turn.x(), turn.y(), turn.z()});
+      const Eigen::Vector3d rate = own.transpose() * (state.angular_velocity[i] - above_rate);
+      rates_.insert(rates_.end(), rate.begin(), rate.end());
+      above = own;
+      above_rate = state.angular_velocity[i];
+    }
+  }
+  void accelerate(const Vectors& moments) override {
+    mju_copy(engine_.data->qpos, positions_.data(), engine_.model->nq);
+    mju_copy(engine_.data->qvel, rates_.data(), engine_.model->nv);
+    for (std::size_t i = 0; i < moments.size(); ++i)  // of body i + 1: force, then moment
+      mju_copy3(engine_.data->xfrc_applied + 6 * (i + 1) + 3, moments[i].data());
+    mj_forward(engine_.model, engine_.data);
+  }
+  Vectors relative_accelerations() const override {
+    Vectors result;
+    for (int i = 0; i < engine_.model->nv; i += 3) result.emplace_back(engine_.data->qacc + i);
+    return result;
+  }
+  Frame frame() const override { return Frame::kOfLink; }
+
+ private:
+  Engine engine_;
+  std::vector<double> positions_, rates_;
+};
+
 }  // namespace
 
 std::unique_ptr<Peer> make_mujoco(const Cable& cable) {
   return std::make_unique<MujocoPeer>(cable);
+}
+
+std::unique_ptr<SpatialPeer> make_mujoco_in_space(const Cable& cable) {
+  return std::make_unique<SpatialMujoco>(cable);
 }
 
 Solution simulate_mujoco(const Cable& cable, double rest_angle, const std::vector<double>& times,
@@ -82,7 +136,7 @@ Solution simulate_mujoco(const Cable& cable, double rest_angle, const std::vecto
   option.precision(17);
   option << "timestep='" << time_step << "' integrator='" << (runge_kutta ? "RK4" : "implicit")
          << "'";
-  const Engine engine(description(cable, rest_angle, option.str()));
+  const Engine engine(in_plane(cable, rest_angle, option.str()));
   const Eigen::VectorXd start = relative_angles(cable.start());
   mju_copy(engine.data->qpos, start.data(), engine.model->nq);
   Solution solution;

@@ -69,6 +69,7 @@ class Measurement {
     positions();
     energy();
     internal_forces();
+    reactions();
     if (table_.observes) sensor();
   }
 
@@ -207,9 +208,12 @@ class Measurement {
     const int n = table_.coordinates;
     double cv = 0.5 + static_cast<double>(generator() % 64);
     Values matrix = newton_matrix(cv);
-    // An integrator shortens its step where the pivots of N are small. With cv = 0 N is M.
-    for (; elimination_growth(matrix) > kGrowth; matrix = newton_matrix(cv)) cv /= 2;
-    const double ca = 1.0, cq = cv * cv, size_of_matrix = largest(matrix);
+    // An integrator shortens its step where the pivots of N are small. With cv = 0 N is M, which no step
+    // makes better: what holds an end lets its entries grow.
+    const double growth_of_mass = elimination_growth(newton_matrix(0));
+    for (; elimination_growth(matrix) > kGrowth * growth_of_mass; matrix = newton_matrix(cv))
+      cv /= 2;
+    const double ca = 1.0, cq = cv * cv, size_of_matrix = growth_of_mass * largest(matrix);
     Values work(as_index(table_.newton_work)), x(as_index(n));
     const catena_point here = point_.at();
     if (table_.newton_factor(table_.context, &here, ca, cv, cq, work.data()) != 0) {
@@ -265,10 +269,15 @@ class Measurement {
     return matrix;
   }
 
-  // Growth of the entries when rows are eliminated from the last to the first, without exchanges.
-  static double elimination_growth(Values matrix) {
-    const double before = largest(matrix);
-    const auto n = static_cast<int>(std::lround(std::sqrt(matrix.size())));
+  // Growth of the entries when rows are eliminated from the last to the first, without exchanges; the
+  // constraint, whose coordinates are the last and have no mass, is eliminated after the chain.
+  double elimination_growth(const Values& given) const {
+    const double before = largest(given);
+    const int n = table_.coordinates, chain = n - chain_.constraints();
+    Values matrix(given);
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < n; ++i)
+        matrix[as_index(k * n + i)] = given[as_index((k + chain) % n * n + (i + chain) % n)];
     double met = before;
     for (int j = n - 1; j > 0; --j) {
       for (int k = 0; k < j; ++k) {
@@ -344,6 +353,25 @@ class Measurement {
         note("velocities", difference(velocity[axis][i], here_->of(chain_.rate(position))), speed);
       }
     }
+    if (table_.gap != nullptr) gap(size, size_of_change, speed);
+  }
+
+  // The sizes are those of positions.
+  void gap(double size, double size_of_change, double speed) {
+    const catena_point here = point_.at(), along = direction_.at();
+    double apart[3], rate[3], dapart[3], drate[3];
+    table_.gap(table_.context, &here, apart, rate);
+    table_.gap_tangent(table_.context, &here, &along, dapart, drate);
+    double size_of_rate_change = size_of_change + speed;
+    for (const double change : drate) size_of_rate_change += std::abs(change);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ex& exact = chain_.gap()[k];
+      const ex exact_rate = chain_.rate(exact);
+      note("gap", difference(apart[k], here_->of(exact)), size + std::abs(apart[k]));
+      note("gap", difference(rate[k], here_->of(exact_rate)), speed + std::abs(rate[k]));
+      note("gap_tangent", difference(dapart[k], slope(exact)), size_of_change + size);
+      note("gap_tangent", difference(drate[k], slope(exact_rate)), size_of_rate_change);
+    }
   }
 
   void energy() {
@@ -400,6 +428,25 @@ class Measurement {
     compare(moment, chain_.moments(), largest(moment));
     compare(tension, chain_.tensions(), largest(tension) + size_of_terms(here));
     compare(curvature, chain_.curvatures(), largest(curvature));
+  }
+
+  void reactions() {
+    if (table_.reactions == nullptr) return;
+    const catena_point here = point_.at();
+    std::vector<const ex*> forces, moments;
+    for (const Chain::Reaction& reaction : chain_.reactions()) {
+      for (const ex& component : reaction.force) forces.push_back(&component);
+      for (const ex& component : reaction.moment) moments.push_back(&component);
+    }
+    Values force(forces.size()), moment(moments.size());
+    table_.reactions(table_.context, &here, force.data(), moment.data());
+    const auto compare = [&](const Values& values, const std::vector<const ex*>& exact) {
+      const double size = largest(values) + size_of_terms(here);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        note("reactions", difference(values[i], here_->of(*exact[i])), size);
+    };
+    compare(force, forces);
+    compare(moment, moments);
   }
 
   void sensor() {

@@ -8,12 +8,15 @@
 //   mass_matrix                        its largest entry
 //   acceleration                       backward: |r(a)| over the same size, a the one returned
 //   newton_solve                       backward: |N x - b| over |N| |x|; its transpose likewise;
-//                                      the step so short that elimination needs no row exchanges
+//                                      the step so short that elimination needs no row exchanges; with a
+//                                      constraint |N| is times the growth of M's entries in elimination
 //   residual_adjoint                   along a direction, over the sizes of what is added up there
 //   energy                             for each stored energy the sum of the sizes of its parts
 //   power                              the sum of the sizes of all powers, v.r included
 //   positions, velocities              the length (speed) summed along the chain
-//   internal_forces                    the largest force, moment and curvature
+//   internal_forces, reactions         the largest force, moment and curvature; forces with what they
+//                                      are sums of
+//   gap                                as positions and velocities
 //   their tangents                     the same, plus the size of the derivative
 //   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers
 // Derivatives are compared with central differences of the 50-digit values, step 1e-18.

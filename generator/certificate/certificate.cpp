@@ -77,6 +77,8 @@ Json proofs(const Description& description, int links, const Json& summary, Json
   if (description.space == Space::kThreeDimensional) {
     add_all(prove_space_closed_form(links), " = closed form in space");
     add_all(prove_plane_in_space(links), " in any vertical plane = closed form");
+    if (description.holding() != nullptr)
+      add_all({prove_constraint(description, links)}, " of the held end = closed form");
   } else {
     const std::string whose = description.effects.empty() ? "" : " of the plain chain";
     add_all(prove_closed_form(links), whose + " = closed form");

@@ -56,7 +56,7 @@ CompiledModel::CompiledModel(const EmittedFiles& files, const std::string& name,
     const std::string compiler = wanted != nullptr && *wanted != '\0' ? wanted : c ? "cc" : "c++";
     const auto library = folder_ / "model.so", errors = folder_ / "errors";
     const int status =
-        run({compiler, c ? "-std=c99" : "-std=c++20", "-O2", "-ffp-contract=off", "-shared",
+        run({compiler, c ? "-std=c99" : "-std=c++20", "-O0", "-ffp-contract=off", "-shared",
              "-fPIC", "-DCATENA_SHARED_LIBRARY", "-I" + folder_.string(),
              (folder_ / (name + (c ? ".c" : ".cpp"))).string(), "-o", library.string(), "-lm"},
             errors);

@@ -9,8 +9,9 @@
 
 namespace catena {
 
-/// One emitted model, compiled as users compile it (-O2 -ffp-contract=off; C with -std=c99) and
-/// loaded. The destructor deletes all files.
+/// One emitted model, compiled (-ffp-contract=off; C with -std=c99) and loaded. The destructor deletes
+/// all files. The compiler does not optimise: no optimisation that users may ask for changes a result,
+/// and it takes five times as long as all else.
 class CompiledModel {
  public:
   /// `files`: those of emit_files. `name`: of the model, "chain_12". The compiler is $CXX or c++,

@@ -159,7 +159,41 @@ Proof projection(int links) {
   return comparison.proof();
 }
 
+// 1/s: the rate at which a gap closes, as docs/model.md states it.
+const ex kStatedClosingRate = 100;
+
 }  // namespace
+
+Proof prove_constraint(const Description& description, int links) {
+  Chain chain(description, links, description.holding()->id);
+  std::set<std::string> kept = kept_families({"", "_velocity", "_acceleration"});
+  for (const char* axis : kAxes) kept.insert("end_" + std::string(axis));
+  WrittenOut written_out(chain.definitions(), kept);
+  EntryComparison comparison("constraint");
+  for (const Axis axis : chain.axes()) {
+    const std::string name = kAxes[axis];
+    const auto symbol = [&](const std::string& family, int i) {
+      return chain.definitions().input(family, i);
+    };
+    const ex support = chain.position(axis)[0], end = chain.definitions().input("end_" + name);
+    const std::size_t of_constraint =
+        3 * static_cast<std::size_t>(links) + static_cast<std::size_t>(axis);
+    ex gap = support - end, rate = chain.rate(gap), acceleration = chain.rate(rate);
+    for (int i = 1; i <= links; ++i) {
+      const ex length = symbol("length", i);
+      gap += length * symbol("unit_" + name, i);
+      rate += length * symbol("unit_" + name + "_velocity", i);
+      acceleration += length * symbol("unit_" + name + "_acceleration", i);
+      comparison.entry(place(i - 1) + " " + name,
+                       written_out.of(chain.direction_forces()[axis][static_cast<std::size_t>(i)]) -
+                           length * chain.accelerations()[of_constraint]);
+    }
+    comparison.entry(name, written_out.of(chain.residual()[of_constraint] - acceleration -
+                                          2 * kStatedClosingRate * rate -
+                                          GiNaC::pow(kStatedClosingRate, 2) * gap));
+  }
+  return comparison.proof();
+}
 
 std::vector<Proof> prove_space_closed_form(int links) {
   namespace space = reference::space;

@@ -3,6 +3,8 @@
 // The C of matrices in blocks, of models in space: what generator/emission/support has as
 // block_semiseparable.hpp, from one end, and block_quasiseparable.hpp, which have the derivation.
 // @Matrix: the type; @matrix: what its functions begin with; @upper, @lower: ranks; @block: rows of a block.
+// With a border, of bordered.hpp: @whole is what the functions of the whole matrix begin with, @border the
+// number of its rows, @members its arrays.
 #pragma once
 
 namespace catena {
@@ -111,7 +113,7 @@ typedef struct {
   double lower_row[@block * @lower][kLinks], lower_column[@block * @lower][kLinks];
   double diagonal[@block * @block][kLinks], below[@block * @block][kLinks];
   double above[@block * @block][kLinks];
-} @Matrix;
+@members} @Matrix;
 
 /* sum += sign * left right, of @block x middle and middle x columns. */
 static void @matrix_add(int middle, int columns, double sign, const double* left,
@@ -140,9 +142,8 @@ static void @matrix_put_scaled(int columns, const double* inverse, const double*
   @matrix_put(@block * columns, array, j, product);
 }
 
-/* Returns 0, or the 1-based row whose pivot vanished; uses m up. */
-static int32_t @matrix_invert(double* m, double* inverse) {
-  enum { n = @block };
+/* Of n rows. Returns 0, or the 1-based row whose pivot vanished; uses m up. */
+static int32_t @matrix_invert(int n, double* m, double* inverse) {
   for (int k = 0; k < n * n; ++k) inverse[k] = k % (n + 1) == 0 ? 1.0 : 0.0;
   for (int k = 0; k < n; ++k) {
     const double pivot = m[k * n + k];
@@ -175,7 +176,7 @@ static int32_t @matrix_factor_in_place(@Matrix* m) {
   for (int j = kLinks - 1;; --j) {
     double own_upper[up], above[bb], below[bb], upper[up], lower[low], scaled_row[low];
     double scaled_below[bb], next_column[up], next_row[low];
-    const int32_t failed = @matrix_invert(pivot, inverse);
+    const int32_t failed = @matrix_invert(block, pivot, inverse);
     if (failed != 0) return (failed - 1) * kLinks + j + 1;
     @matrix_put(bb, m->diagonal, j, inverse);
     @matrix_take(bb, m->above, j, above);
@@ -269,22 +270,21 @@ static void @matrix_solve_in_place(@Matrix* m, double* x) {
 }
 )";
 
-inline const char* const kBlockNewtonTransposed = R"(
-static void newton_solve_transposed(const void* context, const double* work, double* x) {
-  NewtonMatrix* const m = (NewtonMatrix*)work; /* only read */
+inline const char* const kBlockSolveTransposed = R"(
+/* The same with the transpose of the matrix. */
+static void @matrix_solve_transposed_in_place(@Matrix* m, double* x) {
   double carried[@upper] = {0.0}, sum[@lower] = {0.0};
-  (void)context;
   for (int j = kLinks - 2; j >= 0; --j) {
-    if (j + 2 < kLinks) newton_gather(@lower, m->lower_row, j + 2, x, sum);
-    newton_subtract(@lower, m->lower_column, j, sum, 1, x + j);
+    if (j + 2 < kLinks) @matrix_gather(@lower, m->lower_row, j + 2, x, sum);
+    @matrix_subtract(@lower, m->lower_column, j, sum, 1, x + j);
     for (int b = 0; b < @block; ++b) {
       for (int a = 0; a < @block; ++a)
         x[a * kLinks + j] -= m->below[b * @block + a][j + 1] * x[b * kLinks + j + 1];
     }
   }
   for (int j = 1; j < kLinks; ++j) {
-    if (j > 1) newton_gather(@upper, m->upper_row, j - 2, x, carried);
-    newton_subtract(@upper, m->upper_column, j, carried, 1, x + j);
+    if (j > 1) @matrix_gather(@upper, m->upper_row, j - 2, x, carried);
+    @matrix_subtract(@upper, m->upper_column, j, carried, 1, x + j);
     for (int b = 0; b < @block; ++b) {
       for (int a = 0; a < @block; ++a)
         x[a * kLinks + j] -= m->above[b * @block + a][j - 1] * x[b * kLinks + j - 1];
@@ -296,6 +296,114 @@ static void newton_solve_transposed(const void* context, const double* work, dou
     for (int a = 0; a < @block; ++a) {
       x[a * kLinks + j] = 0.0;
       for (int b = 0; b < @block; ++b) x[a * kLinks + j] += m->diagonal[b * @block + a][j] * own[b];
+    }
+  }
+}
+)";
+
+inline const char* const kBorderMembers =
+    "  double border_column[@block * @border][kLinks], border_row[@block * @border][kLinks];\n"
+    "  double schur[@border * @border];\n";
+
+inline const char* const kBordered = R"(
+/* x of the rows of multipliers -= left' x of the links: all (a, k) of left in array a * @border + k. */
+static void @whole_border_rest(double (*const left)[kLinks], double* x) {
+  for (int k = 0; k < @border; ++k) {
+    for (int a = 0; a < @block; ++a) {
+      for (int i = 0; i < kLinks; ++i)
+        x[@block * kLinks + k] -= left[a * @border + k][i] * x[a * kLinks + i];
+    }
+  }
+}
+
+/* Multipliers from what is left of their rows, entries of schur stride and other apart; then x of the
+   links -= right times multipliers. */
+static void @whole_border_solve(const double* schur, int stride, int other,
+                                double (*const right)[kLinks], double* x) {
+  double rest[@border];
+  memcpy(rest, x + @block * kLinks, sizeof rest);
+  for (int k = 0; k < @border; ++k) {
+    double multiplier = 0.0;
+    for (int l = 0; l < @border; ++l) multiplier += schur[k * stride + l * other] * rest[l];
+    x[@block * kLinks + k] = multiplier;
+    for (int a = 0; a < @block; ++a) {
+      for (int i = 0; i < kLinks; ++i)
+        x[a * kLinks + i] -= right[a * @border + k][i] * multiplier;
+    }
+  }
+}
+
+/* Factors in place: border_column is multiplied by the inverse of the links' matrix, schur is the inverse
+   of the complement. Returns 0, or the 1-based number of an unknown whose pivot vanished. */
+static int32_t @whole_factor_in_place(@Matrix* m) {
+  double complement[@border * @border] = {0.0};
+  int32_t failed = @matrix_factor_in_place(m);
+  if (failed != 0) return failed;
+  for (int k = 0; k < @border; ++k) {
+    double column[@block * kLinks];
+    for (int a = 0; a < @block; ++a) {
+      for (int i = 0; i < kLinks; ++i) column[a * kLinks + i] = m->border_column[a * @border + k][i];
+    }
+    @matrix_solve_in_place(m, column);
+    for (int a = 0; a < @block; ++a) {
+      for (int i = 0; i < kLinks; ++i) m->border_column[a * @border + k][i] = column[a * kLinks + i];
+    }
+  }
+  for (int k = 0; k < @border; ++k) {
+    for (int l = 0; l < @border; ++l) {
+      for (int a = 0; a < @block; ++a) {
+        for (int i = 0; i < kLinks; ++i)
+          complement[k * @border + l] -=
+              m->border_row[a * @border + k][i] * m->border_column[a * @border + l][i];
+      }
+    }
+  }
+  failed = @matrix_invert(@border, complement, m->schur);
+  return failed == 0 ? 0 : @block * kLinks + failed;
+}
+
+/* Overwrites x, the right-hand side, with the solution; after @whole_factor_in_place. */
+static void @whole_solve_in_place(@Matrix* m, double* x) {
+  @matrix_solve_in_place(m, x);
+  @whole_border_rest(m->border_row, x);
+  @whole_border_solve(m->schur, @border, 1, m->border_column, x);
+}
+)";
+
+inline const char* const kBorderedTransposed = R"(
+/* The same with the transpose of the matrix. */
+static void @whole_solve_transposed_in_place(@Matrix* m, double* x) {
+  @whole_border_rest(m->border_column, x);
+  @whole_border_solve(m->schur, 1, @border, m->border_row, x);
+  @matrix_solve_transposed_in_place(m, x);
+}
+)";
+
+inline const char* const kBorderedDense = R"(
+static void to_dense(const MassMatrix* m, double* M) {
+  for (int i = 0; i < kCoordinates * kCoordinates; ++i) M[i] = 0.0;
+  for (int a = 0; a < @block; ++a) {
+    for (int i = 0; i < kLinks; ++i) {
+      double* const row = M + (a * kLinks + i) * kCoordinates;
+      for (int b = 0; b < @block; ++b) {
+        for (int j = 0; j < kLinks; ++j) {
+          double entry = i == j ? m->diagonal[a * @block + b][i] : 0.0;
+          if (j > i) {
+            for (int r = 0; r < @upper; ++r)
+              entry += m->upper_row[a * @upper + r][i] * m->upper_column[b * @upper + r][j];
+            if (j == i + 1) entry += m->above[a * @block + b][i];
+          } else if (j < i) {
+            for (int s = 0; s < @lower; ++s)
+              entry += m->lower_row[a * @lower + s][i] * m->lower_column[b * @lower + s][j];
+            if (j == i - 1) entry += m->below[a * @block + b][i];
+          }
+          row[b * kLinks + j] = entry;
+        }
+      }
+      for (int k = 0; k < @border; ++k) {
+        row[@block * kLinks + k] = m->border_column[a * @border + k][i];
+        M[(@block * kLinks + k) * kCoordinates + a * kLinks + i] = m->border_row[a * @border + k][i];
+      }
     }
   }
 }

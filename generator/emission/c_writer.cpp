@@ -5,8 +5,6 @@
 #include <map>
 #include <sstream>
 
-#include "common/in_quotes.hpp"
-#include "common/input_error.hpp"
 #include "generator/emission/c_block_matrices.hpp"
 #include "generator/emission/model_functions.hpp"
 #include "generator/emission/model_text.hpp"
@@ -236,7 +234,9 @@ static void to_dense(const MassMatrix* m, double* M) {
     }
   }
 }
+)";
 
+const char* const kFactorAndSolve = R"(
 static int32_t solve_in_place(MassMatrix* matrix, double* x) {
   const int32_t failed = mass_factor_in_place(matrix);
   if (failed == 0) mass_solve_in_place(matrix, x);
@@ -258,6 +258,11 @@ static void newton_solve(const void* context, const double* work, double* x) {
   newton_solve_in_place((@Solved*)work, x);
 }
 
+static void newton_solve_transposed(const void* context, const double* work, double* x) {
+  (void)context;
+  newton_solve_transposed_in_place((@Solved*)work, x);
+}
+
 /* CATENA_DIRECTIONS right-hand sides, one after the other. */
 static void newton_solves(const void* context, const double* work, double* x) {
   double one[kCoordinates];
@@ -269,11 +274,10 @@ static void newton_solves(const void* context, const double* work, double* x) {
 }
 )";
 
-const char* const kNewtonTransposed = R"(
-static void newton_solve_transposed(const void* context, const double* work, double* x) {
-  const NewtonMatrix* const m = (const NewtonMatrix*)work;
+const char* const kSolveTransposed = R"(
+/* The same with the transpose of the matrix. */
+static void newton_solve_transposed_in_place(const NewtonMatrix* m, double* x) {
   double carried[@upper] = {0.0}, sum[@lower] = {0.0};
-  (void)context;
   for (int j = kLinks - 2; j >= 0; --j) {
     if (j + 2 < kLinks) {
       for (int s = 0; s < @lower; ++s) sum[s] += m->lower_row[s][j + 2] * x[j + 2];
@@ -292,13 +296,16 @@ static void newton_solve_transposed(const void* context, const double* work, dou
 }
 )";
 
-// `text` with @Matrix, @matrix, @upper and @lower filled in. Arrays have at least one entry.
+// `text` with @Matrix and the others filled in: those of c_block_matrices.hpp. Arrays have at least one entry.
 std::string filled_in(const std::string& text, const std::string& type, const MatrixForm& form) {
   const std::map<std::string, std::string> values = {
+      {"members", form.border > 0 ? kBorderMembers : ""},
       {"Matrix", type == "mass" ? "MassMatrix" : "NewtonMatrix"},
       {"Solved", form.block > 1 ? "NewtonMatrix" : "const NewtonMatrix"},
+      {"border", std::to_string(form.border)},
       {"block", std::to_string(form.block)},
-      {"matrix", type},
+      {"matrix", type + (form.border > 0 ? "_links" : "")},
+      {"whole", type},
       {"upper", std::to_string(std::max(form.upper_rank, 1))},
       {"lower", std::to_string(std::max(form.lower_rank, 1))}};
   std::string out;
@@ -309,33 +316,41 @@ std::string filled_in(const std::string& text, const std::string& type, const Ma
     if (here == values.end()) {
       out += text[k++];
     } else {
-      out += here->second;
+      out += here->first == "members" ? filled_in(here->second, type, form) : here->second;
       k += 1 + here->first.size();
     }
   }
   return out;
 }
 
+// The type of a matrix without symmetry, its factors and the solution.
+std::string quasiseparable_text(const MatrixForm& form) {
+  return (form.block > 1 ? kBlockQuasiseparable : kQuasiseparable) +
+         std::string(form.border > 0 ? kBordered : "");
+}
+
 std::string matrices_text(const ModelFunctions& functions) {
+  const MatrixForm &mass = functions.mass, &newton = functions.newton;
   std::string text;
-  switch (functions.mass.kind) {
+  switch (mass.kind) {
     case MatrixForm::kDense:
       text = kDense;
       break;
     case MatrixForm::kSymmetricSemiseparable:
-      text = functions.mass.block > 1 ? filled_in(kBlockSemiseparable, "mass", functions.mass)
-                                      : kSemiseparable;
+      text = mass.block > 1 ? filled_in(kBlockSemiseparable, "mass", mass) : kSemiseparable;
       break;
     case MatrixForm::kQuasiseparable:
-      text = kQuasiseparable;
-      text += kQuasiseparableDense;
-      text = filled_in(text, "mass", functions.mass);
+      text =
+          filled_in(quasiseparable_text(mass) +
+                        (mass.border > 0 ? kBorderedDense : kQuasiseparableDense) + kFactorAndSolve,
+                    "mass", mass);
       break;
   }
-  const MatrixForm& newton = functions.newton;
-  if (functions.summary.structured)
-    text += filled_in(newton.block > 1 ? kBlockQuasiseparable : kQuasiseparable, "newton", newton);
-  return text;
+  if (!functions.summary.structured) return text;
+  return text + filled_in(quasiseparable_text(newton) +
+                              (newton.block > 1 ? kBlockSolveTransposed : kSolveTransposed) +
+                              (newton.border > 0 ? kBorderedTransposed : ""),
+                          "newton", newton);
 }
 
 std::string argument_text(const Parameter& parameter) {
@@ -451,12 +466,7 @@ std::string c_source_text(const Description& description, const ModelFunctions& 
     if (function.in_table || function.name != functions.accelerations)
       out << function_text(functions, function);
   }
-  if (s.structured) {
-    const bool blocks = functions.newton.block > 1;
-    out << filled_in(kNewton, "newton", functions.newton)
-        << filled_in(blocks ? kBlockNewtonTransposed : kNewtonTransposed, "newton",
-                     functions.newton);
-  }
+  if (s.structured) out << filled_in(kNewton, "newton", functions.newton);
   TableText table;
   table.size = "sizeof(catena_model)";
   table.null = table.context = "NULL";
@@ -486,9 +496,6 @@ std::string c_header_text(const ModelSummary& s) {
 }  // namespace
 
 EmittedModel emit_c_model(const Description& description, int links, Layout layout) {
-  if (const Effect* holding = description.holding())
-    throw InputError(in_quotes(holding->id) +
-                     " holds the far end, for which there is no C99; derive C++ instead");
   const ModelFunctions functions = model_functions(description, links, layout);
   const std::string name = functions.summary.name;
   return {functions.summary,

@@ -6,7 +6,6 @@
 #include <optional>
 #include <sstream>
 
-#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/large_work.hpp"
 #include "common/whole_file.hpp"
@@ -139,10 +138,6 @@ void add_certify_command(CLI::App& app, int& status) {
       "--folder generated");
   command->callback([options, &status] {
     const Description description = description_of(options->model);
-    if (const Effect* holding = description.holding())
-      throw InputError(
-          in_quotes(holding->id) +
-          " holds the far end: certificates are of chains whose end is free; leave it away");
     if (options->library && options->format == "c") {
       throw InputError(
           "--library with --format c: the look-up of the models is C++; leave one away");
