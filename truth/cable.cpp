@@ -68,6 +68,8 @@ class Chain {
   };
   Vector cable_force(Vector velocity, Vector along, Vector across) const;
   Vector load_force(double t, Vector at, Vector velocity) const;
+  Vector middle_force(double t, Vector at, Vector velocity, Vector acceleration) const;
+  double middle_moment(double angle, double rate) const;
 
   Cable cable_;
   Hidden hidden_;
@@ -105,6 +107,35 @@ Vector Chain::load_force(double t, Vector at, Vector velocity) const {
     force = force - Vector{0, h.carried * cable_.load_mass * cable_.gravity * c * c};
   }
   return force;
+}
+
+/// Hidden forces on mid-cable.
+Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector acceleration) const {
+  const Hidden& h = hidden_;
+  Vector force = -h.place_drag * norm(velocity) * velocity +
+                 h.insect * (Vector{0, cable_.gravity} - acceleration);
+  force.side -= h.wall_spring * (at.side - h.wall_side);
+  force.side -= h.stop * std::max(0.0, at.side - h.stop_side);
+  const Vector to_hook = Vector{h.string_side, h.string_down} - at;
+  const double length = norm(to_hook);
+  if (length > h.string_slack)
+    force = force + (h.string * (length - h.string_slack) / length) * to_hook;
+  if (h.kick != 0) {  // a smooth push of 40 ms
+    const double x = (t - h.kick_time) / 0.02;
+    if (std::abs(x) < 1) force.side += h.kick / 0.02 * 0.5 * (1 + std::cos(std::numbers::pi * x));
+  }
+  for (int j = 0; h.gusts != 0 && j < 5; ++j)  // 0.3 to 2.3 Hz
+    force.side += h.gusts * std::sin(2 * std::numbers::pi * (0.3 + 0.5 * j) * t +
+                                     (j + 1) * (j + 1) * h.gusts_turn);
+  return force;
+}
+
+/// Hidden moment against the angle of the joint at mid-cable.
+double Chain::middle_moment(double angle, double rate) const {
+  const Hidden& h = hidden_;
+  const double share = rate / h.brake_rate;
+  return h.brake * rate / (1 + share * share) +
+         h.joint_stop * (std::max(0.0, angle - h.joint_gap) - std::max(0.0, -angle - h.joint_gap));
 }
 
 void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
@@ -159,19 +190,12 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                 link_ * h.added_tangential * (vtd * along[k] + (vt * v[i]) * across[k]);
       turning[k] += link_ * (h.added_tangential - h.added_normal) * vn * vt;
     }
-    if (i == n_ / 2 - 1) {  // the link whose lower end is mid-cable
-      if (h.wall_spring != 0) lack[k].side -= h.wall_spring * (centre.position.side - h.wall_side);
-      lack[k] = lack[k] - h.place_drag * norm(centre.velocity) * centre.velocity;
-      if (h.kick != 0) {  // a smooth push of 40 ms
-        const double x = (t - h.kick_time) / 0.02;
-        if (std::abs(x) < 1)
-          lack[k].side += h.kick / 0.02 * 0.5 * (1 + std::cos(std::numbers::pi * x));
-      }
-    }
+    if (i == n_ / 2 - 1)  // the link whose lower end is mid-cable
+      lack[k] = lack[k] + middle_force(t, centre.position, centre.velocity, centre.acceleration);
     end = beyond(link_, 1.0);
   }
   const auto last = static_cast<std::size_t>(n_ - 1);
-  const double load = cable_.load_mass + h.load_mass_extra;
+  const double load = cable_.load_mass + h.load_mass_extra - h.leak * t;
   // The load's centre sits h.load_offset beyond the end of the last link.
   const double d = h.load_offset;
   const Moving load_centre = {end.position + d * along[last],
@@ -196,6 +220,9 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
         share * (stiffness * (angle - h.rest_curvature * link_ / share) + damping * rate) +
         h.joint_quadratic_damping * std::abs(rate) * rate +
         h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
+    if (h.tension_friction != 0)
+      moment += h.tension_friction * norm(carried + lack[k]) * rounded_sign(rate);
+    if (i == n_ / 2) moment += middle_moment(angle, rate);
     if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
       moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +

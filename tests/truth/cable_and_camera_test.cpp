@@ -168,6 +168,14 @@ TEST_CASE("every hidden effect moves the markers, and nothing moves at its neutr
                       {"wall_spring.stiffness", 2},
                       {"magnet.strength", 0.05},
                       {"kick.impulse", 0.05},
+                      {"gusts.size", 0.1},
+                      {"stop.stiffness", 5},
+                      {"string.stiffness", 2},
+                      {"brake.damping", 0.1},
+                      {"joint_stop.stiffness", 1},
+                      {"tension_friction.reach", 2e-3},
+                      {"leak.rate", 0.1},
+                      {"insect.mass", 0.05},
                       {"carried.share", 0.8}};
   const Cable cable{.links = 12};
   const auto start = truth::catenary_angles(cable, 1.2, 2.0);
