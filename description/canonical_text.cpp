@@ -126,6 +126,9 @@ class CanonicalText {
     line("support.clamp_side", effect.support.clamp_side);
     line("support.clamp_down", effect.support.clamp_down);
     line("support.clamp_across", effect.support.clamp_across);
+    line("support.bend_axis_side", effect.support.bend_axis_side);
+    line("support.bend_axis_down", effect.support.bend_axis_down);
+    line("support.bend_axis_across", effect.support.bend_axis_across);
     line("held_end.side", effect.held_end.side);
     line("held_end.down", effect.held_end.down);
     line("held_end.across", effect.held_end.across);

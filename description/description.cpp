@@ -74,8 +74,6 @@ Description description_in(const TomlTable& file) {
 std::string plane_alone(const Effect& effect) {
   const Kinematics& kinematics = effect.kinematics;
   const std::pair<const Expression*, const char*> of_the_plane[] = {
-      {&kinematics.rest_angle, "a rest angle has no direction in space"},
-      {&kinematics.pivot_rest_angle, "a rest angle has no direction in space"},
       {&kinematics.extension, "links in space do not stretch yet"},
       {&effect.sensor.side, "sensors report of the plane"},
       {&effect.sensor.down, "sensors report of the plane"},
@@ -86,14 +84,22 @@ std::string plane_alone(const Effect& effect) {
   };
   for (const auto& [expression, why] : of_the_plane)
     if (expression->given()) return at(*expression, why);
-  for (const ExtraState& state : effect.states)
-    return at(state.rate, "states at a joint would be vectors in space");
   if (!effect.coordinates.empty())
     return "it adds coordinates, which links in space do not have yet";
   std::vector<const Expression*> expressions;
+  std::set<std::string> vectors = {"joint_rate"};  // and what may be made of them
+  for (const ExtraState& state : effect.states) vectors.insert(state.name);
+  for (const Definition& definition : effect.definitions) vectors.insert(definition.name);
   for (const ScalarTerm& term : effect.scalars) {
-    if (term.kind == ScalarKind::kTorque)
-      return at(term.value, "a torque has no direction in space; a potential or a dissipation has");
+    const std::set<std::string> names = names_in(term.value);
+    if (term.kind == ScalarKind::kTorque &&
+        (!(term.at == Place::kJoint || term.at == Place::kPivot) ||
+         std::none_of(names.begin(), names.end(),
+                      [&](const std::string& name) { return vectors.contains(name); })))
+      return at(
+          term.value,
+          "a torque without joint_rate or a state has no direction in space; a potential or a "
+          "dissipation has");
     expressions.push_back(&term.value);
   }
   for (const ForceTerm& force : effect.forces)
@@ -134,7 +140,7 @@ std::vector<std::string> space_words() { return {"plane", "3d"}; }
 std::string why_not_in(Space space, const Effect& effect) {
   if (space == Space::kPlane) {
     if (effect.held_end.holds()) return "holds the far end, which needs space = \"3d\"";
-    if (effect.support.across.given() || effect.support.turns())
+    if (effect.support.across.given() || effect.support.turns() || effect.support.has_bend_axis())
       return "moves the support across the plane or turns its clamp, which needs space = \"3d\"";
     return "";
   }
@@ -145,7 +151,7 @@ std::string why_not_in(Space space, const Effect& effect) {
 }
 
 std::string conflict_in(const Description& description) {
-  bool clamped = false, held = false;
+  bool clamped = false, held = false, has_axis = false;
   for (const Effect& effect : description.effects) {
     if (const std::string why = why_not_in(description.space, effect); !why.empty())
       return in_quotes(effect.id) + " " + why;
@@ -154,6 +160,10 @@ std::string conflict_in(const Description& description) {
              " is the second effect that gives the direction of the clamp; leave "
              "one away";
     clamped = clamped || effect.support.turns();
+    if (effect.support.has_bend_axis() && has_axis)
+      return in_quotes(effect.id) +
+             " is the second effect that gives the axis of rest angles; leave one away";
+    has_axis = has_axis || effect.support.has_bend_axis();
     if (effect.held_end.holds() && held)
       return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
     held = held || effect.held_end.holds();

@@ -110,9 +110,20 @@ struct ScalarTerm {
 struct Support {
   Expression side, down, across;                    ///< across: in space
   Expression clamp_side, clamp_down, clamp_across;  ///< in space; of no unit
+  /// In space: the axis about which rest angles bend the cable, a vector of any length but zero, which may
+  /// turn with the clamp; if not given, that of bending from down towards side.
+  Expression bend_axis_side, bend_axis_down, bend_axis_across;  ///< of no unit
 
   bool moves() const { return side.given() || down.given() || across.given(); }
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
+  bool has_bend_axis() const {
+    return bend_axis_side.given() || bend_axis_down.given() || bend_axis_across.given();
+  }
+  bool given() const { return moves() || turns() || has_bend_axis(); }
+  std::array<const Expression*, 9> all() const {
+    return {&side,         &down,           &across,         &clamp_side,      &clamp_down,
+            &clamp_across, &bend_axis_side, &bend_axis_down, &bend_axis_across};
+  }
 };
 
 /// In space: where the far end of the last link is held, m, by a constraint: a vector of time, parameters,

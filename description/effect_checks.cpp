@@ -18,9 +18,8 @@ class Checks {
   void check_physics() const {
     bool changes_kinematics = false;
     each_kinematic([&](const Expression&) { changes_kinematics = true; });
-    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.moves() &&
-        !effect_.support.turns() && !effect_.held_end.holds() && !changes_kinematics &&
-        !effect_.sensor.given()) {
+    if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.given() &&
+        !effect_.held_end.holds() && !changes_kinematics && !effect_.sensor.given()) {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
           "support, held_end, kinematics or sensor");
@@ -115,12 +114,11 @@ class Checks {
     for (const ScalarTerm& term : effect_.scalars) use(term.value);
     for (const ExtraState& state : effect_.states) use(state.rate);
     for (const Expression* expression :
-         {&effect_.flow.side, &effect_.flow.down, &effect_.flow.across, &effect_.support.side,
-          &effect_.support.down, &effect_.support.across, &effect_.support.clamp_side,
-          &effect_.support.clamp_down, &effect_.support.clamp_across, &effect_.sensor.side,
+         {&effect_.flow.side, &effect_.flow.down, &effect_.flow.across, &effect_.sensor.side,
           &effect_.sensor.down, &effect_.sensor.angle, &effect_.sensor.clock}) {
       use(*expression);
     }
+    for (const Expression* expression : effect_.support.all()) use(*expression);
     for (const Expression* expression : effect_.held_end.all()) use(*expression);
     each_kinematic(use);
     if (effect_.flow.given() && std::none_of(used.begin(), used.end(), [](const std::string& name) {

@@ -344,10 +344,16 @@ class EffectReader {
 
   void read_whole_chain_terms() {
     if (const auto table = file_.optional_table("support")) {
-      effect_.support = {expression(*table, "side"),       expression(*table, "down"),
-                         expression(*table, "across"),     expression(*table, "clamp_side"),
-                         expression(*table, "clamp_down"), expression(*table, "clamp_across")};
-      if (!effect_.support.moves() && !effect_.support.turns()) {
+      effect_.support = {expression(*table, "side"),
+                         expression(*table, "down"),
+                         expression(*table, "across"),
+                         expression(*table, "clamp_side"),
+                         expression(*table, "clamp_down"),
+                         expression(*table, "clamp_across"),
+                         expression(*table, "bend_axis_side"),
+                         expression(*table, "bend_axis_down"),
+                         expression(*table, "bend_axis_across")};
+      if (!effect_.support.given()) {
         table->fail("has neither side nor down; give one or leave the table out");
       }
     }

@@ -371,6 +371,10 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add(clamp + "side", subscripted("e", "s"), effect.support.clamp_side);
   all.add(clamp + "down", subscripted("e", "d"), effect.support.clamp_down);
   all.add(clamp + "across", subscripted("e", "a"), effect.support.clamp_across);
+  const std::string bend_axis = "Axis of rest angles, ";
+  all.add(bend_axis + "side", subscripted("a", "s"), effect.support.bend_axis_side);
+  all.add(bend_axis + "down", subscripted("a", "d"), effect.support.bend_axis_down);
+  all.add(bend_axis + "across", subscripted("a", "a"), effect.support.bend_axis_across);
   const std::string end = "Held end, ", end_clamp = "Direction of the clamp at the held end, ";
   all.add(end + "side", subscripted("h", "s"), effect.held_end.side);
   all.add(end + "down", subscripted("h", "d"), effect.held_end.down);

@@ -46,6 +46,9 @@ ex value_of_squared_angle(const ex& cosine) { return GiNaC::pow(GiNaC::acos(cosi
 ex value_of_angle_over_sine(const ex& cosine) {
   return (GiNaC::acos(cosine) / GiNaC::sqrt(1 - GiNaC::pow(cosine, 2))).evalf();
 }
+ex value_of_angle_over_sine_slope(const ex& cosine) {
+  return ((cosine * value_of_angle_over_sine(cosine) - 1) / (1 - GiNaC::pow(cosine, 2))).evalf();
+}
 ex value_of_inverse_square_root(const ex& x) { return GiNaC::pow(x, -kHalf).evalf(); }
 
 ex simplified_inverse_square_root(const ex& x) {
@@ -55,6 +58,9 @@ ex simplified_inverse_square_root(const ex& x) {
 ex derivative_of_squared_angle(const ex& cosine, unsigned) { return -2 * angle_over_sine(cosine); }
 ex derivative_of_angle_over_sine(const ex& cosine, unsigned) {
   return angle_over_sine_slope(cosine);
+}
+ex derivative_of_angle_over_sine_slope(const ex& cosine, unsigned) {
+  return angle_over_sine_curvature(cosine);
 }
 ex derivative_of_inverse_square_root(const ex& x, unsigned) {
   return -kHalf * GiNaC::pow(inverse_square_root(x), 3);
@@ -66,7 +72,9 @@ REGISTER_FUNCTION(squared_angle,
                   evalf_func(value_of_squared_angle).derivative_func(derivative_of_squared_angle))
 REGISTER_FUNCTION(angle_over_sine, evalf_func(value_of_angle_over_sine)
                                        .derivative_func(derivative_of_angle_over_sine))
-REGISTER_FUNCTION(angle_over_sine_slope, dummy())
+REGISTER_FUNCTION(angle_over_sine_slope, evalf_func(value_of_angle_over_sine_slope)
+                                             .derivative_func(derivative_of_angle_over_sine_slope))
+REGISTER_FUNCTION(angle_over_sine_curvature, dummy())
 REGISTER_FUNCTION(inverse_square_root, eval_func(simplified_inverse_square_root)
                                            .evalf_func(value_of_inverse_square_root)
                                            .derivative_func(derivative_of_inverse_square_root))
@@ -205,11 +213,12 @@ void Chain::make_inputs() {
       }
     }
     for (const ExtraState& state : effect.states) {
-      auto& symbols = effect_symbols_[effect.id + "." + state.name];
-      symbols.resize(1);
       const Link last = state.at == Place::kPivot ? 1 : links_;
-      for (Link i = 1; i <= last; ++i) {
-        symbols.push_back(definitions_.input(effect.id + "_" + state.name, i));
+      for (const std::string& component : state_components()) {
+        auto& symbols = effect_symbols_[effect.id + "." + state.name + component];
+        symbols.resize(1);
+        for (Link i = 1; i <= last; ++i)
+          symbols.push_back(definitions_.input(effect.id + "_" + state.name + component, i));
       }
     }
     if (effect.held_end.holds()) {
@@ -254,7 +263,10 @@ void Chain::make_kinematics() {
     support[kDown] += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
     support[kAcross] += evaluate(effect, effect.support.across, kShape, Place::kLoad, 0, "m");
   }
-  if (!in_plane()) turn_clamp();
+  if (!in_plane()) {
+    turn_clamp();
+    place_bend_axis();
+  }
   for (const Axis axis : axes())
     joint_.push_back({define_variable("joint" + ending(axis), 0, support[axis])});
   centre_ = middle_ = Points(joint_.size(), std::vector<ex>(1));
@@ -446,6 +458,7 @@ void Chain::add_chain_terms() {
   joint_cosine_.resize(1);
   link_turning_.resize(axes().size());
   joint_turning_ = joint_cross_ = Points(axes().size(), std::vector<ex>(1));
+  rest_bend_.resize(1);
   for (Link k = 1; k <= links_; ++k) {
     if (wanted("kinetic")) {
       add_kinetic("kinetic", kHalf * mass_[k] * speed_squared(at(centre_, k)) +
@@ -513,8 +526,18 @@ void Chain::add_joint_terms(Link k) {
       joint_cross_[about].push_back(cross(k - 1, direction_[b][k], direction_[c][k]));
       rate_squared += rate * rate;
     }
+    rest_bend_.push_back(rest_bend(k));
     if (k <= links_)
       curvatures_.push_back(definitions_.named(GiNaC::sqrt(squared) / spacing(k), "curvature", k));
+  }
+  if (!in_plane() && !rest_bend_[k].empty()) {
+    // |bend - rest|^2, with the bend vector (angle over sine) x (cross product).
+    ex along = 0;
+    for (const Axis axis : axes()) {
+      along += rest_bend_[k][axis] * joint_cross_[axis][k];
+      squared += rest_bend_[k][axis] * rest_bend_[k][axis];
+    }
+    squared -= 2 * angle_over_sine(joint_cosine_[k]) * along;
   }
   if (wanted("elastic")) add_potential("joint_elastic", kHalf * stiffness_[k] * squared);
   if (wanted("friction")) add_dissipation("joint_damping", kHalf * damping_[k] * rate_squared);
@@ -530,7 +553,10 @@ ex Chain::define_quasi_velocity(const std::string& family, int index, const ex& 
 }
 
 // The length of cable that bends in joint i.
-ex Chain::spacing(Link i) const { return (i == 1 ? length_[1] : length_[i - 1] + length_[i]) / 2; }
+ex Chain::spacing(Link i) const {
+  if (i == 1) return length_[1] / 2;
+  return (i > links_ ? length_[links_] : length_[i - 1] + length_[i]) / 2;
+}
 
 void Chain::pull_back() {
   std::vector<ex> moment(static_cast<size_t>(links_) + 2);

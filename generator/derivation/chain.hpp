@@ -66,10 +66,11 @@ enum Axis { kSide, kDown, kAcross };
 std::string ending(Axis axis);
 
 /// The square of the angle between two unit vectors, as a function of its cosine c, and minus half of
-/// its derivative: the angle over its sine, and the slope of that. All are smooth at c = 1.
+/// its derivative: the angle over its sine, and the first and second derivative of that. All are smooth at c = 1.
 DECLARE_FUNCTION_1P(squared_angle)
 DECLARE_FUNCTION_1P(angle_over_sine)
 DECLARE_FUNCTION_1P(angle_over_sine_slope)
+DECLARE_FUNCTION_1P(angle_over_sine_curvature)
 /// x^(-1/2).
 DECLARE_FUNCTION_1P(inverse_square_root)
 
@@ -162,11 +163,13 @@ class Chain {
   void add_angles();
   void add_directions();
   void turn_clamp();
+  void place_bend_axis();
+  std::vector<ex> rest_bend(Link i);
   void place_held_end();
   void hold_end();
   std::vector<ex> unit_vector(const Effect& effect,
                               const std::vector<const Expression*>& components,
-                              const std::string& name, int index);
+                              const std::string& name, const std::string& unit_name, int index);
   void add_coordinate(const ex& q, const ex& v, const ex& a);
   void add_chain_terms();
   void add_joint_terms(Link k);
@@ -221,7 +224,13 @@ class Chain {
   void add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here);
   std::vector<ex> flow(const Effect& effect, Place place, Link i);
   void add_force_term(const Effect& effect, const ForceTerm& force, Link i);
+  void add_torque_of_joint(const Effect& effect, const ScalarTerm& term, Link i);
   void add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i);
+  /// What follows the name of a state; in space it is a vector.
+  std::vector<std::string> state_components() const;
+  /// In space: an odd function of the sizes of vectors, such as joint_rate and states, as a vector, by axis.
+  std::vector<ex> evaluate_vector(const Effect& effect, const Expression& expression, Place place,
+                                  Link i, const char* unit);
   std::vector<ex> force_along_normal(const Effect& effect, const ForceTerm& force, Link i,
                                      const ex& scale, const char* unit);
   /// The point where effects act at a place, and the directions of its link; by axis.
@@ -250,9 +259,11 @@ class Chain {
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
   std::vector<ex> joint_cosine_;  ///< in space
   Points link_turning_, joint_turning_,
-      joint_cross_;       ///< in space, [axis]: angular velocity of a link, of
-                          ///< a joint; cross product of its links
-  std::vector<ex> load_;  ///< by axis
+      joint_cross_;                         ///< in space, [axis]: angular velocity of a link, of
+                                            ///< a joint; cross product of its links
+  std::vector<ex> bend_axis_;               ///< in space, by axis: rest angles bend about it
+  std::vector<std::vector<ex>> rest_bend_;  ///< in space, [joint][axis]: empty if straight at rest
+  std::vector<ex> load_;                    ///< by axis
   ex cos_tilt_, sin_tilt_;
   std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
 

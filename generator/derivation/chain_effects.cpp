@@ -219,11 +219,19 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
       } else {
         add_size(here, "joint_angle", "rad", {});
         here.sizes.back().square = here.sizes.back().in_energy = squared_angle(joint_cosine_[i]);
-        add_size(here, "joint_rate", "rad/s", by_axis(joint_turning_, i));
+        const std::vector<ex> turning = by_axis(joint_turning_, i);
+        add_size(here, "joint_rate", "rad/s", turning, turning);
       }
       for (const ExtraState& state : effect.states) {
         if (state.at == Place::kPivot && i != 1) continue;
-        add(state.name, effect_symbols_.at(effect.id + "." + state.name)[i], state.unit);
+        std::vector<ex> symbols;
+        for (const std::string& component : state_components())
+          symbols.push_back(effect_symbols_.at(effect.id + "." + state.name + component)[i]);
+        if (in_plane()) {
+          add(state.name, symbols.front(), state.unit);
+        } else {
+          add_size(here, state.name, state.unit.c_str(), symbols, symbols);
+        }
       }
     }
   } else if (place == Place::kLoad && knowledge != kShape) {
@@ -261,6 +269,45 @@ ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge
                        GiNaC::subs_options::no_pattern);
   }
   return value;
+}
+
+std::vector<std::string> Chain::state_components() const {
+  std::vector<std::string> components;
+  if (in_plane()) return {""};
+  for (const Axis axis : axes()) components.push_back(ending(axis));
+  return components;
+}
+
+// Each term is the size of one vector times an even function of all sizes: this function times the vector.
+std::vector<ex> Chain::evaluate_vector(const Effect& effect, const Expression& expression,
+                                       Place place, Link i, const char* unit) {
+  Surroundings here = surroundings(effect, kMotion, place, i);
+  add_definitions(effect, kMotion, place, here.known);
+  const ex value = parse_expression(expression, here.known, Unit::parse(unit)).expand();
+  std::vector<ex> vector(axes().size());
+  const auto add_term = [&](const ex& term) {
+    for (const Size& along : here.sizes) {
+      if (along.direction.empty()) continue;
+      ex factor = term * GiNaC::pow(along.placeholder, ex(GiNaC::numeric(-1, 2)));
+      if (std::any_of(here.sizes.begin(), here.sizes.end(),
+                      [&](const Size& size) { return has_root_of(factor, size.placeholder); }))
+        continue;
+      for (const Size& size : here.sizes)
+        factor = factor.subs(size.placeholder == size.square, GiNaC::subs_options::no_pattern);
+      for (std::size_t k = 0; k < vector.size(); ++k) vector[k] += factor * along.direction[k];
+      return;
+    }
+    fail_at(
+        expression,
+        "in space this is a vector along joint_rate and states; write a sum of terms that are odd "
+        "in one of them and even in the others, as moment*slip/reach");
+  };
+  if (GiNaC::is_a<GiNaC::add>(value)) {
+    for (const ex& term : value) add_term(term);
+  } else if (!value.is_zero()) {
+    add_term(value);
+  }
+  return vector;
 }
 
 // A force normal to the link, by axis: an odd function f(w) of the size w of a vector, such as
@@ -314,12 +361,25 @@ void Chain::add_effect_terms(const Effect& effect) {
     }
   };
   for (const ExtraState& state : effect.states) {
+    const std::string unit = state.unit + "/s";
+    const std::vector<std::string> components = state_components();
+    std::vector<std::vector<ex>> rates(1);  // [joint][component]
     each(state.at, [&](Link i) {
-      const std::string unit = state.unit + "/s";
-      const ex rate = evaluate(effect, state.rate, kMotion, state.at, i, unit.c_str());
-      states_.push_back(effect_symbols_.at(effect.id + "." + state.name)[i]);
-      state_rates_.push_back(definitions_.named(rate, effect.id + "_" + state.name + "_rate", i));
+      if (in_plane()) {
+        rates.push_back({evaluate(effect, state.rate, kMotion, state.at, i, unit.c_str())});
+      } else {
+        rates.push_back(evaluate_vector(effect, state.rate, state.at, i, unit.c_str()));
+      }
     });
+    // In the order of the table: all joints of a component.
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      const std::string name = state.name + components[k];
+      each(state.at, [&](Link i) {
+        states_.push_back(effect_symbols_.at(effect.id + "." + name)[i]);
+        state_rates_.push_back(definitions_.named(rates[static_cast<std::size_t>(i)][k],
+                                                  effect.id + "_" + name + "_rate", i));
+      });
+    }
   }
   if (!wanted(effect.id)) return;
 
@@ -367,6 +427,10 @@ void Chain::add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i
   };
   switch (term.kind) {
     case ScalarKind::kTorque:
+      if (!in_plane()) {
+        add_torque_of_joint(effect, term, i);
+        break;
+      }
       add_force(effect.id, {{joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
                              definitions_.define(effect.id + "_" + at_load(term.at) + "torque",
                                                  index_at(term.at, i), value("N m", "N"))}});
@@ -381,6 +445,18 @@ void Chain::add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i
       add_kinetic(effect.id, value("J", "J/m"));
       break;
   }
+}
+
+// In space, between the two links of joint i: virtual work on the difference of their angular velocities.
+void Chain::add_torque_of_joint(const Effect& effect, const ScalarTerm& term, Link i) {
+  const std::vector<ex> torque = evaluate_vector(effect, term.value, term.at, i, "N m");
+  ex power = 0;
+  for (const Axis axis : axes()) {
+    const ex component = definitions_.define(effect.id + "_torque" + ending(axis), i, torque[axis]);
+    add_generalised_force(joint_turning_[axis][i], -component);
+    power += component * joint_turning_[axis][i];
+  }
+  add_energy(effect.id, EnergyItem::kSupplied, power);
 }
 
 // Sensor effects act one after the other, in the order of the description. Clock offsets are added.

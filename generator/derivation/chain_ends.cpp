@@ -2,6 +2,8 @@
 //
 // The ends of the chain in space: clamps whose direction turns, the constraint that holds the far end,
 // the moments and the power of what holds them.
+#include <algorithm>
+
 #include "description/expression_syntax.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/effect_expression.hpp"
@@ -21,7 +23,8 @@ const ex kClosingRate = 100;
 // The direction of a clamp, made a unit vector as those of links are.
 std::vector<ex> Chain::unit_vector(const Effect& effect,
                                    const std::vector<const Expression*>& components,
-                                   const std::string& name, int index) {
+                                   const std::string& name, const std::string& unit_name,
+                                   int index) {
   std::vector<ex> vector, unit;
   ex square = 0;
   for (const Axis axis : axes()) {
@@ -34,7 +37,7 @@ std::vector<ex> Chain::unit_vector(const Effect& effect,
       definitions_.define(name + "_scale", kNoIndex,
                           inverse_square_root(define_variable(name + "_square", kNoIndex, square)));
   for (const Axis axis : axes())
-    unit.push_back(define_variable("unit" + ending(axis), index, scale * vector[axis]));
+    unit.push_back(define_variable(unit_name + ending(axis), index, scale * vector[axis]));
   return unit;
 }
 
@@ -42,10 +45,47 @@ void Chain::turn_clamp() {
   for (const Effect& effect : description_.effects) {
     const Support& support = effect.support;
     if (!support.turns()) continue;
-    const std::vector<ex> clamp = unit_vector(
-        effect, {&support.clamp_side, &support.clamp_down, &support.clamp_across}, "clamp", 0);
+    const std::vector<ex> clamp =
+        unit_vector(effect, {&support.clamp_side, &support.clamp_down, &support.clamp_across},
+                    "clamp", "unit", 0);
     for (const Axis axis : axes()) direction_[axis][0] = clamp[axis];
   }
+}
+
+// The axis about which rest angles bend the cable: if no effect gives it, from down towards side.
+void Chain::place_bend_axis() {
+  bend_axis_ = {0, 0, -1};
+  for (const Effect& effect : description_.effects) {
+    const Support& support = effect.support;
+    if (!support.has_bend_axis()) continue;
+    bend_axis_ = unit_vector(
+        effect, {&support.bend_axis_side, &support.bend_axis_down, &support.bend_axis_across},
+        "bend_axis", "unit_bend_axis", kNoIndex);
+  }
+}
+
+// The bend of joint i without a moment: a vector along the axis. The joint beyond the last link bends by what is
+// the same for all joints.
+std::vector<ex> Chain::rest_bend(Link i) {
+  ex angle = 0;
+  for (const Effect& effect : description_.effects) {
+    const bool of_joints =
+        std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                    [](const EffectParameter& each) { return each.scope != Scope::kModel; });
+    if (i <= links_ || !of_joints)
+      angle += evaluate(effect, effect.kinematics.rest_angle, kShape, Place::kJoint, i, "rad");
+    if (i == 1)
+      angle +=
+          evaluate(effect, effect.kinematics.pivot_rest_angle, kShape, Place::kPivot, i, "rad");
+  }
+  if (angle.is_zero()) return {};
+  angle = definitions_.define("rest_angle", i, angle);
+  std::vector<ex> rest;
+  for (const Axis axis : axes())
+    rest.push_back(bend_axis_[axis].is_zero()
+                       ? ex(0)
+                       : define_variable("rest_bend" + ending(axis), i, angle * bend_axis_[axis]));
+  return rest;
 }
 
 // Where the end is held, and the joint beyond the last link that clamps it there.
@@ -63,7 +103,7 @@ void Chain::place_held_end() {
   end_is_clamped_ = true;
   const Link last = links_ + 1;
   const std::vector<ex> clamp = unit_vector(
-      effect, {&held.clamp_side, &held.clamp_down, &held.clamp_across}, "end_clamp", last);
+      effect, {&held.clamp_side, &held.clamp_down, &held.clamp_across}, "end_clamp", "unit", last);
   for (const Axis axis : axes()) direction_[axis].push_back(clamp[axis]);
   // What is given of joint n, of the length of cable from the middle of the last link to its end.
   const ex shorter = spacing(links_) / (length_[links_] / 2);
@@ -104,12 +144,20 @@ std::vector<ex> Chain::moment_of_joint(Link i) {
     const auto found = generalised_force_.find(definitions_.number_of(variable));
     return found == generalised_force_.end() ? ex(0) : found->second;
   };
-  const ex bending = -force_of(joint_cosine_[i]);
+  ex bending = -force_of(joint_cosine_[i]);
+  const std::vector<ex>& rest = rest_bend_[i];
+  if (!rest.empty()) {
+    // What the cosine has of the rest is no moment about the cross product: it stands for the turn of the bend.
+    ex along = 0;
+    for (const Axis axis : axes()) along += rest[axis] * joint_cross_[axis][i];
+    bending -= stiffness_[i] * angle_over_sine_slope(joint_cosine_[i]) * along;
+  }
   std::vector<ex> moment;
-  for (const Axis axis : axes())
-    moment.push_back(
-        definitions_.define("joint_moment" + ending(axis), i,
-                            bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i])));
+  for (const Axis axis : axes()) {
+    ex component = bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i]);
+    if (!rest.empty()) component -= stiffness_[i] * rest[axis];
+    moment.push_back(definitions_.define("joint_moment" + ending(axis), i, component));
+  }
   return moment;
 }
 
@@ -122,6 +170,13 @@ void Chain::add_power_of_ends() {
   ex of_support = 0, of_end = 0;
   for (const Axis axis : axes())
     of_support += reactions_[0].force[axis] * time_.of(joint_[axis][0]) + turning(axis, 0);
+  for (const auto& rest : rest_bend_) {
+    for (const ex& component : rest) {
+      const ex rate = time_.of(component);
+      if (!rate.is_zero())
+        of_support += generalised_force_[definitions_.number_of(component)] * rate;
+    }
+  }
   if (!of_support.is_zero()) add_energy("support", EnergyItem::kSupplied, of_support);
   if (hold_.empty()) return;
   for (const Axis axis : axes()) {

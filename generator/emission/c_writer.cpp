@@ -29,7 +29,8 @@ static void sines_and_cosines(const double* angle, double* sine, double* cosine)
 }
 )";
 
-// Those of generator/emission/support/angle_over_sine.hpp, which says more.
+// Those of generator/emission/support/angle_over_sine.hpp, which says more. Only a chain that is bent at rest
+// uses the last one.
 const char* const kAngleOverSine = R"(
 static double inverse_square_root(double x) { return 1.0 / sqrt(x); }
 
@@ -58,6 +59,17 @@ static double angle_over_sine_slope(double cosine) {
   for (int k = 16; k > 0; --k)
     sum = 1.0 + (double)((k + 1) * (k + 1)) / (k * (2 * k + 3)) * rest * sum;
   return -sum / 3.0;
+}
+
+static inline double angle_over_sine_curvature(double cosine) {
+  const double rest = 1.0 - cosine;
+  double sum = 1.0;
+  if (!(rest < 1.0 / 4.0))
+    return (3.0 * cosine * angle_over_sine_slope(cosine) + angle_over_sine(cosine)) /
+           (rest * (1.0 + cosine));
+  for (int k = 20; k > 0; --k)
+    sum = 1.0 + (double)((k + 2) * (k + 2)) / (k * (2 * k + 5)) * rest * sum;
+  return 4.0 * sum / 15.0;
 }
 )";
 

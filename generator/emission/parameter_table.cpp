@@ -50,6 +50,12 @@ int copies(const EffectParameter& parameter, int links) {
 
 int copies(const ExtraState& state, int links) { return state.at == Place::kPivot ? 1 : links; }
 
+// What follows the name of a state: in space it is a vector.
+std::vector<std::string> components_of_states(const Description& description) {
+  if (description.space == Space::kPlane) return {""};
+  return {"_side", "_down", "_across"};
+}
+
 }  // namespace
 
 TableFamilies table_families(const Description& description) {
@@ -81,8 +87,9 @@ TableFamilies table_families(const Description& description) {
       for (const char* name : kHold) table.coordinates.push_back({{name, "N s^2"}});
     for (const ExtraState& state : effect.states) {
       const bool of_each_link = state.at != Place::kPivot;
-      table.states.push_back(
-          {{id + state.name + (of_each_link ? "" : "_1"), state.unit}, of_each_link});
+      for (const std::string& component : components_of_states(description))
+        table.states.push_back(
+            {{id + state.name + component + (of_each_link ? "" : "_1"), state.unit}, of_each_link});
     }
     for (const SignalChannel& signal : effect.signals)
       table.signals.push_back({{id + signal.name, signal.unit}});
@@ -138,8 +145,10 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
     if (effect.held_end.holds())
       for (const char* hold : kHold) coordinate(hold, false);
     for (const ExtraState& state : effect.states) {
-      places.push_back({name(state), 'z', z, copies(state, links), true});
-      z += copies(state, links);
+      for (const std::string& component : components_of_states(description)) {
+        places.push_back({name(state) + component, 'z', z, copies(state, links), true});
+        z += copies(state, links);
+      }
     }
     for (const SignalChannel& signal : effect.signals) {
       for (const char* what : {"", "_rate", "_acceleration"}) {

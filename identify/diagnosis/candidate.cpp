@@ -34,10 +34,8 @@ bool depends_on_time(const Effect& effect) {
     return std::any_of(expressions.begin(), expressions.end(),
                        [&](const Expression* each) { return in(*each); });
   };
-  const Support& support = effect.support;
-  return in(support.side) || in(support.down) || in(support.across) || in(support.clamp_side) ||
-         in(support.clamp_down) || in(support.clamp_across) || in(effect.flow.side) ||
-         in(effect.flow.down) || in(effect.flow.across) || in_any(effect.kinematics.all()) ||
+  return in_any(effect.support.all()) || in(effect.flow.side) || in(effect.flow.down) ||
+         in(effect.flow.across) || in_any(effect.kinematics.all()) ||
          in_any(effect.held_end.all()) ||
          std::any_of(effect.definitions.begin(), effect.definitions.end(),
                      [&](const Definition& each) { return in(each.value); }) ||

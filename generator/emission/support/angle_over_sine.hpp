@@ -16,7 +16,7 @@ inline T inverse_square_root(const T& x) {
 }
 
 /// Below it 1 - c is small: sums of powers of it, as many as double precision has use for.
-inline constexpr int kTermsOfAngle = 12, kTermsOfSlope = 16;
+inline constexpr int kTermsOfAngle = 12, kTermsOfSlope = 16, kTermsOfCurvature = 20;
 template <class T>
 inline bool is_small_angle(const T& rest) {
   return rest < ratio<T>(1, 64);
@@ -103,6 +103,20 @@ inline double angle_over_sine_slope(const double& cosine) {
   return rest < 0.125 ? near : far;
 }
 
+/// The second derivative of angle_over_sine by the cosine, (3 c slope + angle over sine) / sin^2 b.
+template <class T>
+inline T angle_over_sine_curvature(const T& cosine) {
+  const T rest = T(1) - cosine;
+  if (!(rest < ratio<T>(1, 4)))
+    return (T(3) * cosine * angle_over_sine_slope(cosine) + angle_over_sine(cosine)) /
+           (rest * (T(1) + cosine));
+  T sum = T(1);
+  CATENA_UNROLLED
+  for (int k = kTermsOfCurvature; k > 0; --k)
+    sum = multiply_add(ratio<T>((k + 2) * (k + 2), k * (2 * k + 5)) * rest, sum, T(1));
+  return ratio<T>(4, 15) * sum;
+}
+
 #ifdef __GNUC__
 // Element by element.
 #define CATENA_ELEMENTWISE(function)                                  \
@@ -115,6 +129,7 @@ inline double angle_over_sine_slope(const double& cosine) {
 CATENA_ELEMENTWISE(squared_angle)
 CATENA_ELEMENTWISE(angle_over_sine)
 CATENA_ELEMENTWISE(angle_over_sine_slope)
+CATENA_ELEMENTWISE(angle_over_sine_curvature)
 #undef CATENA_ELEMENTWISE
 #endif
 
