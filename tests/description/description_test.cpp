@@ -79,19 +79,13 @@ TEST_CASE("errors in a description name their line") {
       {"effects = [\"load_drag\", \"load_drag\"]\n",
        ":4: effects: \"load_drag\" stands there twice; name each effect once"},
       {"space = \"2d\"\n", ":4: space: \"2d\""},
-      {"space = \"3d\"\neffects = [\"rest_curvature\"]\n",
-       ":5: effects: \"rest_curvature\" acts in the plane only: built in: rest_curvature:21: "
-       "kinematics.rest_angle: a rest angle has no direction in space. Space is \"3d\"; leave one "
-       "of "
-       "them away"},
-      {"space = \"3d\"\neffects = [\"joint_hysteresis\"]\n",
-       ":5: effects: \"joint_hysteresis\" acts in the plane only: built in: joint_hysteresis:36: "
-       "state.rate: states at a joint would be vectors in space."},
       {"space = \"3d\"\neffects = [\"scale\"]\n",
        ":5: effects: \"scale\" acts in the plane only: built in: scale:20: sensor.side: sensors"},
       {"space = \"3d\"\neffects = [\"axial_stretch\"]\n",
        ":5: effects: \"axial_stretch\" acts in the plane only: built in: axial_stretch:34: "
-       "kinematics.extension: links"},
+       "kinematics.extension: links in space do not stretch yet. Space is \"3d\"; leave one of "
+       "them "
+       "away"},
       {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
   };
   for (const Row& row : rows) {

@@ -223,3 +223,39 @@ TEST_CASE("all solvers agree on a cable in water") {
   CHECK(gradient.gradient.parameters[drag] ==
         doctest::Approx(change[change.size() - 1]).epsilon(1e-5));
 }
+
+TEST_CASE(
+    "all solvers agree on a cable that is bent at rest and has hysteresis; its energy balances") {
+  const Model model = Model::load(BENT_5);
+  CHECK(model.table().structured == 1);
+  VectorXd p = cable(model, 0.05, 1e-3);
+  const int curvature = model.parameter_index("rest_curvature.curvature"),
+            moment = model.parameter_index("joint_hysteresis.moment");
+  p[curvature] = 1.5, p[moment] = 0.02, p[model.parameter_index("joint_hysteresis.reach")] = 0.3;
+  const State initial = askew(model);
+  catena::SimulationOptions dense = tight();
+  dense.linear_solver = catena::LinearSolver::kDense;
+  const std::vector<double> times{0, 0.3};
+  for (const int parameter : {curvature, moment}) {
+    CAPTURE(parameter);
+    const auto direction = catena::SensitivityDirection::parameter(model, parameter);
+    const auto blocks = simulate_with_sensitivities(model, p, initial, {direction}, times, tight());
+    const auto whole = simulate_with_sensitivities(model, p, initial, {direction}, times, dense);
+    REQUIRE_MESSAGE(blocks.status == catena::Status::kSuccess, blocks.message);
+    CHECK(blocks.statistics.used == catena::LinearSolver::kStructured);
+    CHECK((blocks.trajectory.q.col(1) - whole.trajectory.q.col(1)).norm() < 1e-8);
+    const VectorXd change = whole.sensitivity[0].q.col(1);
+    CHECK(change.norm() > 1e-3);
+    CHECK((blocks.sensitivity[0].q.col(1) - change).norm() < 1e-6 * change.norm());
+    const double step = 1e-4;
+    VectorXd more = p, less = p;
+    more[parameter] += step, less[parameter] -= step;
+    const VectorXd difference = (run(model, more, initial, times).trajectory.q.col(1) -
+                                 run(model, less, initial, times).trajectory.q.col(1)) /
+                                (2 * step);
+    CHECK((difference - change).norm() < 1e-4 * change.norm());
+  }
+  const auto result = run(model, p, initial, {0, 1, 2});
+  const double size = result.trajectory.energy.col(0).cwiseAbs().sum();
+  CHECK(result.energy_imbalance < 1e-9 * size);
+}

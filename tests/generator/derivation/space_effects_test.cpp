@@ -44,6 +44,7 @@ const std::vector<std::string> kEffects = {"added_mass",
                                            "gravity_tilt",
                                            "joint_damping_quadratic",
                                            "joint_dry_friction",
+                                           "joint_hysteresis",
                                            "joint_stiffness_cubic",
                                            "link_damping",
                                            "load_drag",
@@ -51,7 +52,9 @@ const std::vector<std::string> kEffects = {"added_mass",
                                            "load_mass",
                                            "pivot_damping",
                                            "pivot_dry_friction",
+                                           "pivot_rest_angle",
                                            "pivot_stiffness",
+                                           "rest_curvature",
                                            "steady_wind",
                                            "support_motion",
                                            "support_series"};
@@ -104,6 +107,11 @@ void set_vector(Inputs& inputs, int i, const char* dots, const Vector& vector) {
     inputs.set[name("direction_" + std::string(kAxes[k]) + dots, i)] = vector[k].evalf();
 }
 
+void set_slip(Inputs& inputs, int i, const Vector& vector) {
+  for (std::size_t k = 0; k < 3; ++k)
+    inputs.set[name("joint_hysteresis_slip_" + std::string(kAxes[k]), i)] = vector[k].evalf();
+}
+
 // Powers and rates of energies, by item.
 std::map<std::string, ex> powers(Chain& chain, ExactEvaluation& evaluation) {
   std::map<std::string, ex> sums;
@@ -152,6 +160,9 @@ void compare_with_plane(const std::vector<std::string>& ids, unsigned seed) {
     inputs.set[name("theta_dot", i)] = rate;
     inputs.set[name("theta_ddot", i)] = acceleration;
     inputs.set[name("torque", i)] = 0;
+    // The joint turns towards side about the axis opposite to across.
+    inputs.set[name("joint_hysteresis_slip", i)] = draw(name("slip", i), seed);
+    set_slip(inputs, i, {0, 0, -draw(name("slip", i), seed)});
     set_vector(inputs, i, "", {s, c, 0});
     set_vector(inputs, i, "_dot", {c * rate, -s * rate, 0});
     set_vector(inputs, i, "_ddot",
@@ -192,8 +203,12 @@ void set_askew(Inputs& inputs, int i, const char* dots, const numeric& cosine,
 
 Inputs turned(unsigned seed, const numeric& cosine, const numeric& sine) {
   Inputs inputs{seed};
-  for (int i = 1; i <= kLinks; ++i)
+  for (int i = 1; i <= kLinks; ++i) {
     for (const char* dots : {"", "_dot", "_ddot"}) set_askew(inputs, i, dots, cosine, sine);
+    const auto slip = [&](int k) { return draw(name(kAxes[k] + std::string("_slip"), i), seed); };
+    set_slip(inputs, i,
+             {cosine * slip(0) - sine * slip(2), slip(1), sine * slip(0) + cosine * slip(2)});
+  }
   // what flows
   for (const auto& [side, across] :
        {std::pair{"current_side_speed", "current_across_speed"},
@@ -234,7 +249,8 @@ TEST_CASE("effects in space do not see a turn about the vertical, and their powe
     CAPTURE(id);
     Chain chain(with({id}, Space::kThreeDimensional), kLinks);
     const bool has_direction = id == "steady_wind" || id == "gravity_tilt" ||
-                               id == "support_motion" || id == "support_series";
+                               id == "support_motion" || id == "support_series" ||
+                               id == "rest_curvature" || id == "pivot_rest_angle";
     ExactEvaluation here(chain.definitions(), turned(4, 1, 0)),
         there(chain.definitions(), turned(4, cosine, sine));
     CHECK(imbalance(chain, here) < kTolerance);
@@ -321,6 +337,151 @@ TEST_CASE("drag in space is the vector that Morison's law says") {
   }
 }
 
+namespace {
+
+Vector cross(const Vector& a, const Vector& b) {
+  Vector product;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    product[k] = ex(a[l] * b[m] - a[m] * b[l]).evalf();
+  }
+  return product;
+}
+
+ex dot(const Vector& a, const Vector& b) {
+  return ex(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).evalf();
+}
+
+// Links askew, of length one and turning without changing it; entry 0 is the clamp.
+void set_links(Inputs& inputs, std::vector<Vector>& e, std::vector<Vector>& rate) {
+  e.assign(kLinks + 1, Vector{0, 1, 0});
+  rate.assign(kLinks + 1, Vector{0, 0, 0});
+  for (int i = 1; i <= kLinks; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    for (std::size_t a = 0; a < 3; ++a) {
+      e[at][a] = draw(name(kAxes[a], i), inputs.seed);
+      rate[at][a] = draw(name(std::string(kAxes[a]) + "_dot", i), inputs.seed);
+    }
+    const ex scale = 1 / GiNaC::sqrt(dot(e[at], e[at]));
+    for (ex& component : e[at]) component = ex(scale * component).evalf();
+    const ex along = dot(rate[at], e[at]);
+    for (std::size_t a = 0; a < 3; ++a) rate[at][a] -= along * e[at][a];
+    set_vector(inputs, i, "", e[at]);
+    set_vector(inputs, i, "_dot", rate[at]);
+    set_vector(inputs, i, "_ddot", {0, 0, 0});
+  }
+}
+
+}  // namespace
+
+// With the bend b_i, a vector of the size of the angle along e_{i-1} x e_i, V = sum k_i |b_i - r_i|^2 / 2. Its
+// derivative along e_i, by differences of V in 50 digits.
+TEST_CASE("rest angles bend about the axis that is given, and turning it does work") {
+  GiNaC::Digits = kDigits;
+  const testing::TemporaryFolder folder;
+  const auto path =
+      folder.write("set.toml",
+                   "format = 1\nkind = \"effect\"\nid = \"set\"\ntitle = \"Set\"\n"
+                   "description = \"Bent, about an axis that turns\"\n"
+                   "[parameters.bend]\nunit = \"rad\"\nneutral = 0.0\n"
+                   "description = \"bend\"\n"
+                   "[constants.turning]\nvalue = 0.7\nunit = \"rad/s\"\n"
+                   "[support]\nbend_axis_side = \"cos(turning*time)\"\n"
+                   "bend_axis_down = \"0.5\"\nbend_axis_across = \"sin(turning*time)\"\n"
+                   "[kinematics]\nrest_angle = \"bend\"\n");
+  Description description = with({}, Space::kThreeDimensional);
+  description.effects.push_back(read_effect(path));
+  Chain chain(description, kLinks);
+  Inputs inputs{6};
+  std::vector<Vector> e, rate;
+  set_links(inputs, e, rate);
+  ExactEvaluation evaluation(chain.definitions(), inputs);
+  const ex turn = inputs("time") * numeric(7, 10);
+  Vector axis{GiNaC::cos(turn).evalf(), numeric(1, 2), GiNaC::sin(turn).evalf()};
+  const ex scale = 1 / GiNaC::sqrt(dot(axis, axis));
+  for (ex& component : axis) component = ex(scale * component * inputs("set_bend")).evalf();
+  const auto moment = [&](const std::vector<Vector>& links, int i) {
+    const auto at = static_cast<std::size_t>(i);
+    Vector bend = cross(links[at - 1], links[at]);
+    const ex cosine = dot(links[at - 1], links[at]);
+    const ex ratio = ex(GiNaC::acos(cosine) / GiNaC::sqrt(1 - cosine * cosine)).evalf();
+    for (std::size_t a = 0; a < 3; ++a)
+      bend[a] = ex(inputs(name("stiffness", i)) * (ratio * bend[a] - axis[a])).evalf();
+    return bend;
+  };
+  const auto energy = [&](const std::vector<Vector>& links) {
+    ex sum = 0;
+    for (int i = 1; i <= kLinks; ++i)
+      sum += dot(moment(links, i), moment(links, i)) / (2 * inputs(name("stiffness", i)));
+    return sum;
+  };
+  Chain elastic(description, kLinks, "elastic");
+  ExactEvaluation of_elastic(elastic.definitions(), inputs);
+  const ex step = GiNaC::pow(numeric(10), -16);
+  for (int i = 1; i <= kLinks; ++i) {
+    CAPTURE(i);
+    const auto at = static_cast<std::size_t>(i);
+    const Vector across = cross(e[at], Vector{1, 2, 3});
+    std::vector<Vector> more = e, less = e;
+    ex found = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      more[at][a] += step * across[a];
+      less[at][a] -= step * across[a];
+      found += across[a] * component(elastic, of_elastic, i, a);
+    }
+    for (auto* links : {&more, &less}) {
+      const ex length = GiNaC::sqrt(dot((*links)[at], (*links)[at]));
+      for (ex& each : (*links)[at]) each = ex(each / length).evalf();
+    }
+    CHECK(difference((energy(more) - energy(less)) / (2 * step), found) < 1e-25);
+    const Vector expected = moment(e, i);
+    CHECK(difference(GiNaC::sqrt(dot(expected, expected)), evaluation.of(chain.moments()[at - 1])) <
+          1e-25);
+  }
+  CHECK(imbalance(chain, evaluation) < kTolerance);
+  // The axis turns: without its work the energies would not balance.
+  ex work = 0;
+  for (const EnergyItem& item : chain.energies())
+    if (item.name == "support")
+      for (const ex& part : item.parts) work += evaluation.of(part);
+  CHECK(size(work) > 1e-3);
+}
+
+// The moment -m s_i / reach acts on the difference of the angular velocities e x edot of its links.
+TEST_CASE("hysteresis in space is a vector that gives way along the rate of the joint") {
+  GiNaC::Digits = kDigits;
+  Inputs inputs{7};
+  std::vector<Vector> e, rate, slip(kLinks + 2, Vector{0, 0, 0});
+  set_links(inputs, e, rate);
+  for (int i = 1; i <= kLinks; ++i) {
+    for (std::size_t a = 0; a < 3; ++a)
+      slip[static_cast<std::size_t>(i)][a] = draw(name(kAxes[a] + std::string("_slip"), i), 7);
+    set_slip(inputs, i, slip[static_cast<std::size_t>(i)]);
+  }
+  Chain chain(with({"joint_hysteresis"}, Space::kThreeDimensional), kLinks, "joint_hysteresis");
+  ExactEvaluation evaluation(chain.definitions(), inputs);
+  const ex reach = inputs("joint_hysteresis_reach"), moment = inputs("joint_hysteresis_moment");
+  const numeric floor(1, 1000000);
+  for (int i = 1; i <= kLinks; ++i) {
+    CAPTURE(i);
+    const auto at = static_cast<std::size_t>(i);
+    const Vector below = cross(e[at], rate[at]), above = cross(e[at - 1], rate[at - 1]);
+    Vector turning, torque;
+    for (std::size_t a = 0; a < 3; ++a) {
+      turning[a] = below[a] - above[a];
+      torque[a] = moment / reach * (slip[at + 1][a] - slip[at][a]);
+    }
+    const ex speed = GiNaC::sqrt(dot(turning, turning) + floor * floor).evalf();
+    const Vector force = cross(torque, e[at]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t row = a * kLinks + at - 1;
+      CHECK(difference(turning[a] - slip[at][a] * speed / reach,
+                       evaluation.of(chain.state_rates()[row])) < kTolerance);
+      CHECK(difference(-force[a], component(chain, evaluation, i, a)) < kTolerance);
+    }
+  }
+}
+
 TEST_CASE("laws that only the plane has are refused in space with their line") {
   const testing::TemporaryFolder folder;
   const std::string head =
@@ -342,6 +503,8 @@ TEST_CASE("laws that only the plane has are refused in space with their line") {
        ":12: force.normal: in \"c\": in space a force normal to a link has the direction of"},
       {"N s^2/m^2", "[[force]]\nat = \"load\"\nnormal = \"-c*velocity_normal^2\"\n",
        ":12: force.normal: in \"-c*velocity_normal^2\": in space a force normal to a link"},
+      {"N m s^2/rad^2", "[[torque]]\nat = \"joint\"\nvalue = \"-c*joint_rate^2\"\n",
+       ":12: torque.value: in \"-c*joint_rate^2\": in space this is a vector along joint_rate"},
   };
   for (const Row& row : rows) {
     std::string text = head + row.body;

@@ -114,10 +114,10 @@ TEST_CASE("the blocks of the matrices in space are the derivatives of the equati
 
 TEST_CASE("what has a meaning in the plane only is refused in space") {
   catena::Description description = in_space();
-  description.effects.push_back(catena::built_in_effect("rest_curvature"));
+  description.effects.push_back(catena::built_in_effect("axial_stretch"));
   CHECK_THROWS_WITH_AS(Chain(description, 2),
-                       "\"rest_curvature\" acts in the plane only: built in: rest_curvature:21: "
-                       "kinematics.rest_angle: a rest angle has no direction in space. Space is "
+                       "\"axial_stretch\" acts in the plane only: built in: axial_stretch:34: "
+                       "kinematics.extension: links in space do not stretch yet. Space is "
                        "\"3d\"; leave one of them away",
                        std::invalid_argument);
 }
