@@ -435,8 +435,8 @@ TEST_CASE("rest angles bend about the axis that is given, and turning it does wo
     }
     CHECK(difference((energy(more) - energy(less)) / (2 * step), found) < 1e-25);
     const Vector expected = moment(e, i);
-    CHECK(difference(GiNaC::sqrt(dot(expected, expected)), evaluation.of(chain.moments()[at - 1])) <
-          1e-25);
+    CHECK(difference(GiNaC::sqrt(dot(expected, expected)),
+                     of_elastic.of(elastic.moments()[at - 1])) < 1e-25);
   }
   CHECK(imbalance(chain, evaluation) < kTolerance);
   // The axis turns: without its work the energies would not balance.
