@@ -82,6 +82,7 @@ class EffectReader {
     read_signals();
     read_coordinates();
     read_states();
+    read_tables();
     read_definitions();
     read_flow();
     read_forces();
@@ -122,12 +123,12 @@ class EffectReader {
     }
   }
 
-  static std::string unit(const TomlTable& table) {
-    const std::string text = table.text("unit");
+  static std::string unit(const TomlTable& table, std::string_view key = "unit") {
+    const std::string text = table.text(key);
     try {
       Unit::parse(text);
     } catch (const std::invalid_argument& error) {
-      table.fail("unit", error.what());
+      table.fail(key, error.what());
     }
     return text;
   }
@@ -273,6 +274,53 @@ class EffectReader {
       state.at = table.choice("per", {"joint", "pivot"}) == 0 ? Place::kJoint : Place::kPivot;
       state.rate = required(table, "rate");
       effect_.states.push_back(state);
+    }
+  }
+
+  // A table becomes a definition: the value at the first point and a change of slope at each, rounded:
+  // (x + sqrt(x^2 + rounding^2))/2 in place of max(x, 0). Two constants of value one carry the units.
+  void read_tables() {
+    constexpr std::size_t kMostPoints = 24;  // an expression has an end (expression_syntax.cpp)
+    for (const TomlTable& table : file_.tables("table")) {
+      Definition definition;
+      definition.name = table.text("name");
+      add_name(table, "name", definition.name);
+      const std::string at = definition.name + "_point", of = definition.name + "_value";
+      for (const auto& [name, key] : {std::pair{at, "of_unit"}, {of, "unit"}}) {
+        add_name(table, "name", name);
+        effect_.constants.push_back({name, "1", 1, unit(table, key)});
+      }
+      const std::vector<double> points = table.numbers("points"), values = table.numbers("values");
+      if (points.size() < 2 || points.size() > kMostPoints)
+        table.fail("points", std::to_string(points.size()) + " numbers; give 2 to " +
+                                 std::to_string(kMostPoints));
+      if (values.size() != points.size())
+        table.fail("values", std::to_string(values.size()) + " numbers; there are " +
+                                 std::to_string(points.size()) + " points");
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!std::isfinite(points[i])) table.fail("points", "must be finite");
+        if (!std::isfinite(values[i])) table.fail("values", "must be finite");
+        if (i && !(points[i] > points[i - 1]))
+          table.fail("points", shortest_number(points[i]) + " after " +
+                                   shortest_number(points[i - 1]) + "; points must increase");
+      }
+      const double rounding = table.number("rounding");
+      if (!(rounding > 0) || !std::isfinite(rounding))
+        table.fail("rounding", shortest_number(rounding) + "; must be positive and finite");
+      definition.value = required(table, "of");
+      const std::string place = "((" + definition.value.text + ")/" + at + "-(";
+      std::string text = "(" + shortest_number(values[0]) + ")";
+      double slope = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double next =
+            i + 1 < points.size() ? (values[i + 1] - values[i]) / (points[i + 1] - points[i]) : 0;
+        const std::string x = place + shortest_number(points[i]) + "))";
+        text += "+(" + shortest_number((next - slope) / 2) + ")*(" + x + "+sqrt(" + x + "^2+" +
+                shortest_number(rounding) + "^2))";
+        slope = next;
+      }
+      definition.value.text = of + "*(" + text + ")";
+      effect_.definitions.push_back(definition);
     }
   }
 

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/number_text.hpp"
 #include "runtime/held_end.hpp"
+#include "runtime/link_vectors.hpp"
 
 namespace catena {
 namespace {
@@ -24,11 +28,36 @@ constexpr double kDone = 1e-12;      // likewise, of the last
 constexpr double kLeastSpan = 0.05;  // of the length of the cable, of a guess
 constexpr double kFastest = 10.0;    // by which 1 / tau^2 changes from step to step
 
-/// A cable between its ends as a catenary; plumb if the end is free.
-State first_guess(const Model& model, const VectorXd& parameters, double t,
-                  const Signals& signals) {
+/// A cable whose far end is held at `end`, seen from the support, as a catenary that does not hang lower than
+/// its lower end: the rest lies there, as on a floor. No state where a catenary does not hang lower, or where there is
+/// more cable than can lie straight.
+std::optional<State> lying(const Model& model, const VectorXd& lengths, const Vector3d& end) {
+  const double whole = lengths.sum(), height = std::abs(end[1]), span = std::hypot(end[0], end[2]);
+  // With the parameter a, `hangs` (a) of the cable is above the floor: height^2 + 2 height a = hangs^2.
+  const auto hangs = [&](double a) { return std::sqrt(height * (height + 2 * a)); };
+  const auto reach = [&](double a) {
+    return whole - hangs(a) + (a > 0 ? a * std::asinh(hangs(a) / a) : 0);
+  };
+  double loose = 0, tight = (whole * whole - height * height) / (2 * height);
+  if (!(height > 0) || !(reach(loose) < span) || !(reach(tight) > span)) return std::nullopt;
+  for (int halving = 0; halving < 60; ++halving)
+    (reach((loose + tight) / 2) < span ? loose : tight) = (loose + tight) / 2;
   State state = State::zero(model);
-  if (!model.held()) return state;
+  double arc = end[1] > 0 ? 0 : whole;  // of the middle of the link, from the upper end
+  for (Index i = 0; i < lengths.size(); ++i) {
+    const double middle = std::abs(arc - lengths.head(i).sum() - lengths[i] / 2);
+    const double rise = std::max(0.0, hangs(tight) - middle) * (end[1] > 0 ? 1 : -1);
+    put(state.q, lengths.size(), i,
+        Vector3d(tight * end[0] / span, rise, tight * end[2] / span).normalized());
+  }
+  return state;
+}
+
+/// Shapes to begin with: a cable between its ends as a catenary, which may lie on a floor; plumb if the end is free.
+std::vector<State> first_guesses(const Model& model, const VectorXd& parameters, double t,
+                                 const Signals& signals) {
+  State state = State::zero(model);
+  if (!model.held()) return {state};
   const VectorXd lengths = parameters.head(model.links());
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
@@ -47,12 +76,16 @@ State first_guess(const Model& model, const VectorXd& parameters, double t,
     state.q.segment(n, n) = flat.q.segment(n, n);
     state.q.segment(2 * n, n) = std::sin(azimuth) * flat.q.head(n);
   }
-  return closed_end(model, parameters, state, t, signals);
+  std::vector<State> guesses{closed_end(model, parameters, state, t, signals)};
+  if (const auto on_floor = lying(model, lengths, end))
+    guesses.push_back(closed_end(model, parameters, *on_floor, t, signals));
+  return guesses;
 }
 
 class Search {
  public:
-  Search(const Model& model, const VectorXd& parameters, double t, const Signals& signals)
+  Search(const Model& model, const VectorXd& parameters, double t, const Signals& signals,
+         State guess)
       : model_(model),
         parameters_(parameters),
         t_(t),
@@ -62,8 +95,16 @@ class Search {
         a_(VectorXd::Zero(model.coordinates())),
         r_(model.coordinates()),
         work_(static_cast<std::size_t>(model.table().newton_work)),
-        state_(first_guess(model, parameters, t, signals)) {
+        state_(std::move(guess)) {
     signals.evaluate(t, u_.data());
+  }
+
+  /// With which the first guess would begin to move, 1/s^2; infinite where it cannot.
+  double acceleration() const {
+    VectorXd a(model_.coordinates());
+    if (model_.acceleration(at(a), a.data()) != 0 || !a.allFinite())
+      return std::numeric_limits<double>::infinity();
+    return a.head(3 * links_).cwiseAbs().maxCoeff();
   }
 
   Equilibrium run() {
@@ -157,7 +198,15 @@ Equilibrium space_equilibrium(const Model& model, const VectorXd& parameters, do
   if (model.table().structured == 0)
     return {Status::kNoConvergence,
             "an equilibrium in space needs a model with a structured matrix", State::zero(model)};
-  return Search(model, parameters, t, signals).run();
+  std::vector<Search> searches;
+  for (State& guess : first_guesses(model, parameters, t, signals))
+    searches.emplace_back(model, parameters, t, signals, std::move(guess));
+  const bool second_first =
+      searches.size() > 1 && searches[1].acceleration() < searches[0].acceleration();
+  Equilibrium found = searches[second_first ? 1 : 0].run();
+  if (found.status != Status::kSuccess && searches.size() > 1)
+    found = searches[second_first ? 0 : 1].run();
+  return found;
 }
 
 }  // namespace catena

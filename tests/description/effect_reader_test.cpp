@@ -81,6 +81,26 @@ TEST_CASE("a value at which the effect vanishes only in the limit gives no defau
   CHECK(std::isinf(effect.parameters[0].neutral));
 }
 
+namespace {
+
+std::string table(const char* points, const char* values, const char* rest = "rounding = 0.5\n") {
+  return std::string("[[table]]\nname = \"speed\"\nof = \"depth\"\nof_unit = \"m\"\nunit = ") +
+         "\"m/s\"\npoints = " + points + "\nvalues = " + values + "\n" + rest +
+         "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = " +
+         "\"load_mass*gravity*relative_side/relative_down\"\n";
+}
+
+}  // namespace
+
+TEST_CASE("a table is a definition whose constants carry its units") {
+  const Effect effect = read(table("[0, 10]", "[2.0, 1.5]"));
+  REQUIRE(effect.definitions.size() == 1);
+  CHECK(effect.definitions[0].name == "speed");
+  REQUIRE(effect.constants.size() == 2);
+  CHECK(effect.constants[0].unit == "m");
+  CHECK(effect.constants[1].unit == "m/s");
+}
+
 TEST_CASE("errors in an effect name their line") {
   struct Row {
     std::string body, said;
@@ -136,6 +156,13 @@ TEST_CASE("errors in an effect name their line") {
       {"[[torque]]\nat = \"link_centre\"\nvalue = \"1\"\n",
        "drag.toml:7: torque.at: \"link_centre\" is not known here"},
       {"[[torque]]\nat = \"joint\"\n", "drag.toml:6: torque: \"value\" is missing"},
+      {table("[0, 20, 10]", "[1, 2, 3]"),
+       "drag.toml:11: table.points: 10 after 20; points must increase"},
+      {table("[0, 0]", "[1, 2]"), "drag.toml:11: table.points: 0 after 0; points must increase"},
+      {table("[0]", "[1]"), "drag.toml:11: table.points: 1 numbers; give 2 to 24"},
+      {table("[0, 1]", "[1]"), "drag.toml:12: table.values: 1 numbers; there are 2 points"},
+      {table("[0, 1]", "[1, 2]", "rounding = 0.0\n"),
+       "drag.toml:13: table.rounding: 0; must be positive and finite"},
       {"[flow]\n" + kForce, "drag.toml:6: flow: has none of side, down and across; give one"},
       {"[flow]\nside = \"1\"\n" + kForce,
        "drag.toml:1: nothing uses the velocity that [flow] gives; write relative_normal"},

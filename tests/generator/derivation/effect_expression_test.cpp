@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "common/toml_reader.hpp"
+#include "description/effect_reader.hpp"
 #include "tests/support/failure.hpp"
 
 using namespace catena;
@@ -171,6 +173,29 @@ TEST_CASE("a definition carries its value and its unit") {
   CHECK(failure([&] {
           parse_expression(written("momentum"), known, Unit::parse("N"));
         }).find("it is in N s where N is wanted") != std::string::npos);
+}
+
+TEST_CASE("a table is a broken line with rounded corners, constant beyond its ends") {
+  const Effect effect = read_effect(TomlTable::parse(
+      "format = 1\nkind = \"effect\"\nid = \"shear\"\ntitle = \"t\"\ndescription = \"d\"\n"
+      "[[table]]\nname = \"speed\"\nof = \"2*depth\"\nof_unit = \"m\"\nunit = \"m/s\"\n"
+      "points = [-2, 3, 10, 11]\nvalues = [0.5, 2, -1.5, -1.5]\nrounding = 1e-4\n"
+      "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = \"load_mass*gravity/9*relative_side/relative_down\"\n",
+      "shear.toml", "effect"));
+  struct Row {
+    double at, value;  // of 2 depth
+  };
+  for (const Row& row : {Row{-2000, 0.5}, {-2.5, 0.5}, {0, 1.1}, {2.5, 1.85}, {3.5, 1.75}, {8, -0.5},
+                         {10.5, -1.5}, {12, -1.5}, {4000, -1.5}}) {
+    CAPTURE(row.at);
+    ExpressionContext known;
+    known.add("depth", ex(row.at / 2), Unit::parse("m"));
+    for (const Constant& constant : effect.constants)
+      known.add(constant.name, exact_number(constant.text), Unit::parse(constant.unit));
+    add_definition(effect.definitions.at(0), known);
+    const ex value = parse_expression(written("speed"), known, Unit::parse("m/s")).evalf();
+    CHECK(GiNaC::ex_to<numeric>(value).to_double() == doctest::Approx(row.value).epsilon(1e-7));
+  }
 }
 
 TEST_CASE("decimal numbers are exact") {

@@ -50,6 +50,7 @@ bool NaiveChain::knows(const std::string& effect) {
                                               "pivot_rest_angle",
                                               "pivot_stiffness",
                                               "rest_curvature",
+                                              "sea_floor",
                                               "steady_wind",
                                               "support_motion",
                                               "support_series"};
@@ -198,6 +199,10 @@ void NaiveChain::add_energies() {
       potential_ +=
           parameter("buoyancy", "displaced") * l * g * depth(middle_side_[i], middle_down_[i]);
     }
+    if (has("sea_floor")) {
+      const ex sunk = floor_at(middle_side_[i], middle_down_[i]).sunk;
+      potential_ += kHalf * parameter("sea_floor", "firmness") * l * sunk * sunk;
+    }
     if (has("axial_stretch")) {
       const ex strain = symbol("axial_stretch_strain", i);
       potential_ += kHalf * parameter("axial_stretch", "axial_stiffness") * l * strain * strain;
@@ -213,6 +218,10 @@ void NaiveChain::add_energies() {
   }
   if (has("added_mass")) kinetic_ += kHalf * parameter("added_mass", "load") * squared_speed(s, d);
   if (has("buoyancy")) potential_ += parameter("buoyancy", "load_displaced") * g * depth(s, d);
+  if (has("sea_floor")) {
+    const ex sunk = floor_at(s, d).sunk;
+    potential_ += kHalf * parameter("sea_floor", "load_firmness") * sunk * sunk;
+  }
 }
 
 void NaiveChain::add_force(const ex& at_side, const ex& at_down, const ex& force_side,
@@ -264,6 +273,12 @@ void NaiveChain::add_link_forces(int i) {
     const ex speed = sqrt(vs * vs + vd * vd + kFloor * kFloor);
     const ex c = l * parameter("air_drag_isotropic", "coefficient");
     add_force(s, d, -c * speed * vs, -c * speed * vd);
+  }
+  if (has("sea_floor")) {
+    const Floor floor = floor_at(s, d);
+    const ex push = parameter("sea_floor", "firmness") * floor.sunk * floor.touch;
+    add_force(s, d, -l * parameter("sea_floor", "friction") * push * slip(vs),
+              -l * parameter("sea_floor", "resistance") * floor.touch * vd);
   }
   const std::size_t row = static_cast<std::size_t>(i) - 1;
   if (has("link_damping")) {
@@ -321,8 +336,26 @@ NaiveChain::Fluid NaiveChain::fluid_at(const std::string& effect, const ex& s, c
   return {parameter(effect, "side_speed") * profile, parameter(effect, "across_speed") * profile};
 }
 
+// How far a point is sunk into the floor, and its derivative by the depth
+NaiveChain::Floor NaiveChain::floor_at(const ex& s, const ex& d) {
+  const ex below = d * cos(tilt_) + s * sin(tilt_) - parameter("sea_floor", "bed");
+  const ex size = sqrt(below * below + pow(parameter("sea_floor", "rounding"), 2));
+  return {kHalf * (below + size), kHalf * (1 + below / size)};
+}
+
+// The direction of sliding, smooth at rest
+ex NaiveChain::slip(const ex& speed) {
+  const numeric scale(1, 1000);
+  return speed / sqrt(speed * speed + scale * scale);
+}
+
 void NaiveChain::add_load_forces() {
   const ex s = side.back(), d = down.back(), vs = rate(s), vd = rate(d);
+  if (has("sea_floor")) {
+    const Floor floor = floor_at(s, d);
+    const ex push = parameter("sea_floor", "load_firmness") * floor.sunk * floor.touch;
+    add_force(s, d, -parameter("sea_floor", "friction") * push * slip(vs), 0);
+  }
   for (const std::string effect : {"current", "current_series"}) {
     if (!has(effect)) continue;
     const Fluid fluid = fluid_at(effect, s, d);

@@ -63,6 +63,11 @@ class NaiveChain {
     ex side, across;  // velocity
   };
   Fluid fluid_at(const std::string& effect, const ex& s, const ex& d);
+  struct Floor {
+    ex sunk, touch;
+  };
+  Floor floor_at(const ex& s, const ex& d);
+  static ex slip(const ex& speed);
 
   int n_;
   std::set<std::string> effects_;

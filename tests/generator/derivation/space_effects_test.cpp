@@ -55,6 +55,7 @@ const std::vector<std::string> kEffects = {"added_mass",
                                            "pivot_rest_angle",
                                            "pivot_stiffness",
                                            "rest_curvature",
+                                           "sea_floor",
                                            "steady_wind",
                                            "support_motion",
                                            "support_series"};
