@@ -105,9 +105,9 @@ TEST_CASE("a chain on the floor is found in a current, too") {
   const catena::Equilibrium found = hanging_equilibrium(model, p);
   REQUIRE_MESSAGE(found.status == catena::Status::kSuccess, found.message);
   VectorXd a(model.coordinates());
-  REQUIRE(model.acceleration({0, found.state.q.data(), found.state.v.data(), a.data(), nullptr,
-                              nullptr, p.data()},
-                             a.data()) == 0);
+  REQUIRE(model.acceleration(
+              {0, found.state.q.data(), found.state.v.data(), a.data(), nullptr, nullptr, p.data()},
+              a.data()) == 0);
   CHECK(a.head(120).cwiseAbs().maxCoeff() < 1e-6);  // 1/s^2; a hanging link starts with about one
   const auto here = positions(model, p, 0, found.state.q);
   const double off = (0.8 * here.side - 0.6 * here.across).cwiseAbs().maxCoeff();

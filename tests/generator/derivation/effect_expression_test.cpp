@@ -180,13 +180,21 @@ TEST_CASE("a table is a broken line with rounded corners, constant beyond its en
       "format = 1\nkind = \"effect\"\nid = \"shear\"\ntitle = \"t\"\ndescription = \"d\"\n"
       "[[table]]\nname = \"speed\"\nof = \"2*depth\"\nof_unit = \"m\"\nunit = \"m/s\"\n"
       "points = [-2, 3, 10, 11]\nvalues = [0.5, 2, -1.5, -1.5]\nrounding = 1e-4\n"
-      "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = \"load_mass*gravity/9*relative_side/relative_down\"\n",
+      "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = "
+      "\"load_mass*gravity/9*relative_side/relative_down\"\n",
       "shear.toml", "effect"));
   struct Row {
     double at, value;  // of 2 depth
   };
-  for (const Row& row : {Row{-2000, 0.5}, {-2.5, 0.5}, {0, 1.1}, {2.5, 1.85}, {3.5, 1.75}, {8, -0.5},
-                         {10.5, -1.5}, {12, -1.5}, {4000, -1.5}}) {
+  for (const Row& row : {Row{-2000, 0.5},
+                         {-2.5, 0.5},
+                         {0, 1.1},
+                         {2.5, 1.85},
+                         {3.5, 1.75},
+                         {8, -0.5},
+                         {10.5, -1.5},
+                         {12, -1.5},
+                         {4000, -1.5}}) {
     CAPTURE(row.at);
     ExpressionContext known;
     known.add("depth", ex(row.at / 2), Unit::parse("m"));
