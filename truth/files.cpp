@@ -75,8 +75,8 @@ namespace {
 std::string parameter(const std::string& name, const std::string& sets, const std::string& unit,
                       double value, const std::string& lower, const std::string& upper) {
   return "[[parameter]]\nname = \"" + name + "\"\nsets = \"" + sets + "\"\nunit = \"" + unit +
-         "\"\nvalue = " + number(value) + "\nfree = true\nlower = " + lower +
-         "\nupper = " + upper + "\n\n";
+         "\"\nvalue = " + number(value) + "\nfree = true\nlower = " + lower + "\nupper = " + upper +
+         "\n\n";
 }
 
 /// Starting values: three times the stiffness, half the damping.
@@ -136,7 +136,8 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
   const Hidden nothing;
   std::string points;
   for (const std::vector<double>& point : held)
-    points += (points.empty() ? "[" : ", [") + number(point.at(0)) + ", " + number(point.at(1)) + "]";
+    points +=
+        (points.empty() ? "[" : ", [") + number(point.at(0)) + ", " + number(point.at(1)) + "]";
   std::string text =
       "# The truth behind markers.csv. Nothing that explains the recording reads this.\n"
       "format = 1\nkind = \"truth\"\n\n[cable]\nlinks = " +
@@ -147,12 +148,12 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       "\nload_mass = " + number(cable.load_mass) + "\nheld = [" + points +
       "]\n\n[case]\nlength_off = " + number(stated.length) +
       "\ndensity_off = " + number(stated.density) + "\nload_off = " + number(stated.load) +
-      "\n\n[camera]\nrate = " + number(camera.rate) +
-      "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
-      "\nlens = " + number(camera.lens) + "\nshutter = " + number(camera.shutter) +
-      "\nmisplaced = " + number(camera.misplaced) + "\ndrift = " + number(camera.drift) +
-      "\nslip = " + number(camera.slip) + "\nslipping = " + std::to_string(camera.slipping) +
-      "\nlost = " + number(camera.lost) + "\npixel = " + number(camera.pixel) +
+      "\n\n[camera]\nrate = " + number(camera.rate) + "\nduration = " + number(camera.duration) +
+      "\nnoise = " + number(camera.noise) + "\nlens = " + number(camera.lens) +
+      "\nshutter = " + number(camera.shutter) + "\nmisplaced = " + number(camera.misplaced) +
+      "\ndrift = " + number(camera.drift) + "\nslip = " + number(camera.slip) +
+      "\nslipping = " + std::to_string(camera.slipping) + "\nlost = " + number(camera.lost) +
+      "\npixel = " + number(camera.pixel) +
       "\nautocorrelation = " + number(camera.kind.autocorrelation) +
       "\nshaking = " + number(camera.kind.shaking) +
       "\nnoisy_marker = " + number(camera.kind.noisy_marker) +

@@ -50,12 +50,14 @@ int main(int argc, char** argv) {
   app.add_option("--case-links", case_options.links, "links of the case's model; 1: a bob")
       ->check(CLI::Range(1, 500));
   app.add_flag("--rod", rod, "an elastic rod of finite elements, as many as --links; no chain");
-  app.add_option("--stated", stated_texts,
-                 "NAME=SHARE, e.g. length=0.01: by how much the case states length, density or load "
-                 "too large; repeatable");
+  app.add_option(
+      "--stated", stated_texts,
+      "NAME=SHARE, e.g. length=0.01: by how much the case states length, density or load "
+      "too large; repeatable");
   app.add_option("--recordings", recordings, "of releases from other points as far away")
       ->check(CLI::Range(1, static_cast<int>(std::size(kTurns))));
-  app.add_option("--films", films, "folder that keeps motions, to film them again with other noise");
+  app.add_option("--films", films,
+                 "folder that keeps motions, to film them again with other noise");
   app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
   app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
   app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");

@@ -110,8 +110,8 @@ SETUPS = {
                    "--bending-damping": "0.05", "--load": "1", "--held": "4 8", "--duration": "10"}, _PHYSICS),
     "wire": Setup({"--length": "1.5", "--density": "0.0245", "--bending-stiffness": "0.157",  # 2 mm of steel
                    "--bending-damping": "0.002", "--load": "0.2", "--held": "0.7 1.2"}, _PHYSICS),
-    "bob": Setup({"--length": "1", "--density": "0.0002", "--bending-stiffness": "1e-6", "--bending-damping": "2e-5",
-                  "--load": "0.1", "--held": "0.5 0.866", "--duration": "10", "--markers": "1", "--links": "10"},
+    "bob": Setup({"--length": "1", "--density": "5e-6", "--bending-stiffness": "1e-6", "--bending-damping": "2e-5",
+                  "--load": "0.2", "--held": "0.5 0.866", "--duration": "10", "--markers": "1", "--links": "10"},
                  ("load_drag", "support_motion", "camera_tilt"), truth="chain", links=1),
     "2 markers": Setup({"--markers": "2"}, _PHYSICS, own_strengths=False),
     "4 markers": Setup({"--markers": "4"}, _PHYSICS, own_strengths=False),

@@ -336,8 +336,8 @@ TEST_CASE("a motion that was kept is filmed again with the same bytes, another o
   for (const truth::HiddenParameter& parameter : truth::hidden_parameters()) {
     Hidden other;
     other.*parameter.value += 0.01;
-    const bool moves = truth::fingerprint(cable, other, {}).number() !=
-                       truth::fingerprint(cable, {}, {}).number();
+    const bool moves =
+        truth::fingerprint(cable, other, {}).number() != truth::fingerprint(cable, {}, {}).number();
     const bool of_camera = parameter.name.starts_with("scale.") ||
                            parameter.name.starts_with("camera_tilt.") ||
                            parameter.name.starts_with("clock_offset.") ||
