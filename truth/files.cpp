@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "truth/files.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
-
-#include "truth/random.hpp"
+#include <utility>
 
 namespace truth {
 namespace {
@@ -23,14 +23,21 @@ std::string number(double value) {
 
 }  // namespace
 
-Cable as_stated(Cable cable, double off, std::uint64_t seed) {
-  Random random(seed ^ 0x0ff5e7);
-  const auto wrong = [&](double value, double share) {
-    return value * (1 + (random.uniform() < 0.5 ? -share : share));
-  };
-  cable.density = wrong(cable.density, off);
-  cable.load_mass = wrong(cable.load_mass, off);
-  cable.length = wrong(cable.length, off / 5);
+void Stated::set(std::string_view name, double share) {
+  for (const auto& [known, value] :
+       {std::pair{"length", &length}, {"density", &density}, {"load", &load}})
+    if (name == known) {
+      *value = share;
+      return;
+    }
+  throw std::invalid_argument("no known is called '" + std::string(name) +
+                              "': length, density or load");
+}
+
+Cable as_stated(Cable cable, const Stated& stated) {
+  cable.length *= 1 + stated.length;
+  cable.density *= 1 + stated.density;
+  cable.load_mass *= 1 + stated.load;
   return cable;
 }
 
@@ -63,35 +70,74 @@ void write_markers(const Recording& recording, const std::filesystem::path& path
   write_text(text, path);
 }
 
-std::string case_text(const Cable& cable, const Camera& camera, int case_links) {
-  // Starting values: three times the stiffness, half the damping.
+namespace {
+
+std::string parameter(const std::string& name, const std::string& sets, const std::string& unit,
+                      double value, const std::string& lower, const std::string& upper) {
+  return "[[parameter]]\nname = \"" + name + "\"\nsets = \"" + sets + "\"\nunit = \"" + unit +
+         "\"\nvalue = " + number(value) + "\nfree = true\nlower = " + lower + "\nupper = " + upper +
+         "\n\n";
+}
+
+/// Starting values: three times the stiffness, half the damping.
+std::string unknowns(const Cable& cable, int links, int markers) {
+  if (links == 1) {
+    const double clamp = cable.bending_damping * 2 * cable.links / cable.length;  // joint 1
+    return "[[parameter]]\nname = \"spring\"\nsets = \"stiffness\"\nunit = \"N "
+           "m/rad\"\nvalue = 0.0\n\n" +
+           parameter("damping", "damping", "N m s/rad", 0.5 * clamp, "1e-9", "1.0") +
+           "[initial]\nshape = \"straight\"\nfree = true\n\n";
+  }
+  return parameter("EI", "bending_stiffness", "N m^2", 3 * cable.bending_stiffness, "1e-4",
+                   "10.0") +
+         parameter("damping", "damping_length", "N m^2 s/rad", 0.5 * cable.bending_damping, "1e-5",
+                   "1.0") +
+         "[initial]\nshape = \"smooth\"\nterms = " + std::to_string(std::min(6, markers)) +
+         "\nfree = true\n\n";
+}
+
+std::string experiments(const Camera& camera, const CaseOptions& options) {
+  std::string text;
+  for (const std::string& file : options.recordings) {
+    const std::string name =
+        options.recordings.size() == 1 ? "recording" : std::filesystem::path(file).stem().string();
+    text += "[[experiment]]\nname = \"" + name + "\"\ndata = \"" + file +
+            "\"\nkind = \"markers\"\nfit_until = " +
+            number(std::round(camera.duration * 0.7 * 10) / 10) + "\n";
+    if (options.links == 1) {
+      const std::string last = std::to_string(camera.markers);
+      text += "markers = [{name = \"bob\", side = \"side_" + last + "_m\", down = \"down_" + last +
+              "_m\", load = true}]\n";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string case_text(const Cable& cable, const Camera& camera, const CaseOptions& options) {
+  const std::string density =
+      options.links == 1 ? "link_masses = [0.0]" : "density = " + number(cable.density);
   return "format = 1\nkind = \"case\"\ntitle = \"A filmed cable\"\n\n"
          "[model]\nlinks = " +
-         std::to_string(case_links) +
+         std::to_string(options.links) +
          "\n\n"
          "[cable]\nlength = " +
-         number(cable.length) + "\ndensity = " + number(cable.density) +
-         "\nload_mass = " + number(cable.load_mass) + "\ngravity = " + number(cable.gravity) +
-         "\n\n"
-         "[[parameter]]\nname = \"EI\"\nsets = \"bending_stiffness\"\nunit = \"N m^2\"\nvalue = " +
-         number(3 * cable.bending_stiffness) +
-         "\nfree = true\nlower = 1e-4\nupper = 10.0\n\n"
-         "[[parameter]]\nname = \"damping\"\nsets = \"damping_length\"\nunit = \"N m^2 "
-         "s/rad\"\nvalue = " +
-         number(0.5 * cable.bending_damping) +
-         "\nfree = true\nlower = 1e-5\nupper = 1.0\n\n"
-         "[initial]\nshape = \"smooth\"\nterms = 6\nfree = true\n\n"
-         "[[experiment]]\nname = \"recording\"\ndata = \"markers.csv\"\nkind = \"markers\"\n"
-         "fit_until = " +
-         number(std::round(camera.duration * 0.7 * 10) / 10) +
-         "\n\n"
+         number(cable.length) + "\n" + density + "\nload_mass = " + number(cable.load_mass) +
+         "\ngravity = " + number(cable.gravity) + "\n\n" +
+         unknowns(cable, options.links, camera.markers) + experiments(camera, options) +
          "[error]\nmeasure = \"least_squares\"\n\n[optimiser]\nmethod = \"least_squares\"\n\n"
          "[diagnosis]\npossible = [\"steady_wind\"]\n";
 }
 
 std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& camera,
-                       const std::vector<double>& held) {
+                       const Stated& stated, const std::vector<std::vector<double>>& held) {
   const Hidden nothing;
+  std::string points;
+  for (const std::vector<double>& point : held)
+    points +=
+        (points.empty() ? "[" : ", [") + number(point.at(0)) + ", " + number(point.at(1)) + "]";
   std::string text =
       "# The truth behind markers.csv. Nothing that explains the recording reads this.\n"
       "format = 1\nkind = \"truth\"\n\n[cable]\nlinks = " +
@@ -99,13 +145,15 @@ std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& c
       "\ndensity = " + number(cable.density) +
       "\nbending_stiffness = " + number(cable.bending_stiffness) +
       "\nbending_damping = " + number(cable.bending_damping) +
-      "\nload_mass = " + number(cable.load_mass) + "\nheld = [" + number(held.at(0)) + ", " +
-      number(held.at(1)) + "]\n\n[camera]\nrate = " + number(camera.rate) +
-      "\nduration = " + number(camera.duration) + "\nnoise = " + number(camera.noise) +
-      "\nlens = " + number(camera.lens) + "\nshutter = " + number(camera.shutter) +
-      "\nmisplaced = " + number(camera.misplaced) + "\ndrift = " + number(camera.drift) +
-      "\nslip = " + number(camera.slip) + "\nslipping = " + std::to_string(camera.slipping) +
-      "\nlost = " + number(camera.lost) + "\npixel = " + number(camera.pixel) +
+      "\nload_mass = " + number(cable.load_mass) + "\nheld = [" + points +
+      "]\n\n[case]\nlength_off = " + number(stated.length) +
+      "\ndensity_off = " + number(stated.density) + "\nload_off = " + number(stated.load) +
+      "\n\n[camera]\nrate = " + number(camera.rate) + "\nduration = " + number(camera.duration) +
+      "\nnoise = " + number(camera.noise) + "\nlens = " + number(camera.lens) +
+      "\nshutter = " + number(camera.shutter) + "\nmisplaced = " + number(camera.misplaced) +
+      "\ndrift = " + number(camera.drift) + "\nslip = " + number(camera.slip) +
+      "\nslipping = " + std::to_string(camera.slipping) + "\nlost = " + number(camera.lost) +
+      "\npixel = " + number(camera.pixel) +
       "\nautocorrelation = " + number(camera.kind.autocorrelation) +
       "\nshaking = " + number(camera.kind.shaking) +
       "\nnoisy_marker = " + number(camera.kind.noisy_marker) +

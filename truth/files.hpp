@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "truth/camera.hpp"
 
@@ -12,17 +13,32 @@ namespace truth {
 /// time_s, side_i_m, down_i_m; an empty field where a marker was not seen.
 void write_markers(const Recording& recording, const std::filesystem::path& path);
 
-/// The cable as the case states it: density and load wrong by the share `off` up or down, the length by
-/// a fifth of it. `seed` says which way.
-Cable as_stated(Cable cable, double off, std::uint64_t seed);
+/// By which share the case states a known of the cable too large.
+struct Stated {
+  double length = 0, density = 0, load = 0;
+
+  /// Sets one by its name. Throws std::invalid_argument for another name.
+  void set(std::string_view name, double share);
+};
+
+/// The cable as the case has it.
+Cable as_stated(Cable cable, const Stated& stated);
+
+/// What the case says beside the cable.
+struct CaseOptions {
+  int links = 24;
+  std::vector<std::string> recordings = {"markers.csv"};  // one experiment each
+};
 
 /// The case file: geometry, masses and camera are known; stiffness, damping and the smooth shape at
-/// the start, at rest, are unknown.
-std::string case_text(const Cable& cable, const Camera& camera, int case_links);
+/// the start, at rest, are unknown. With one link it is a bob on a straight string without mass, whose
+/// damping and start are unknown, and only its last marker is used.
+std::string case_text(const Cable& cable, const Camera& camera, const CaseOptions& options);
 
-/// The truth file: all values, for comparison with what was found.
+/// The truth file: all values, for comparison with what was found. `held`: side and down of the points
+/// that the recordings begin from.
 std::string truth_text(const Cable& cable, const Hidden& hidden, const Camera& camera,
-                       const std::vector<double>& held);
+                       const Stated& stated, const std::vector<std::vector<double>>& held);
 
 /// Throws std::runtime_error if it cannot be written.
 void write_text(const std::string& text, const std::filesystem::path& path);

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Makes a recording of a cable with hidden effects: markers.csv and case.toml for catena, and
-// truth.toml, which catena never reads, for comparison with what was found.
+// Makes recordings of a cable with hidden effects: markers.csv (or markers_1.csv, ...) and case.toml for
+// catena, and truth.toml, which catena never reads, for comparison with what was found.
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <utility>
 
 #include "truth/camera.hpp"
 #include "truth/files.hpp"
+#include "truth/kept_motion.hpp"
 #include "truth/rod.hpp"
+
+namespace {
+
+constexpr double kTurns[] = {1, -0.7, 0.4, -0.9};  // of the angle of the held point, by recordings
+constexpr std::uint64_t kOtherSeed = 0x9e3779b97f4a7c15ULL;  // of the next recording's noise
+
+/// NAME and VALUE of NAME=VALUE.
+std::pair<std::string, double> split(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw std::invalid_argument(option + " " + text + ": NAME=VALUE is expected");
+  return {text.substr(0, equals), std::stod(text.substr(equals + 1))};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   truth::Cable cable;
@@ -19,22 +36,28 @@ int main(int argc, char** argv) {
   std::vector<double> held = {1.2, 2.0};
   std::vector<std::string> effects;
   std::filesystem::path output;
-  int case_links = 24;
+  truth::CaseOptions case_options;
+  int recordings = 1;
   bool rod = false;
-  double knowns_off = 0;
+  std::vector<std::string> stated_texts;
+  std::filesystem::path films;
 
   CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
   app.add_option("--output", output, "folder to write to")->required();
   app.add_option("--effect", effects,
                  "NAME=VALUE, e.g. air_drag_quadratic.normal=0.05; repeatable");
   app.add_option("--links", cable.links, "links of the hidden chain")->check(CLI::Range(1, 500));
-  app.add_option("--case-links", case_links, "links of the case's model")
+  app.add_option("--case-links", case_options.links, "links of the case's model; 1: a bob")
       ->check(CLI::Range(1, 500));
   app.add_flag("--rod", rod, "an elastic rod of finite elements, as many as --links; no chain");
   app.add_option(
-         "--knowns-off", knowns_off,
-         "share by which the case's density and load are wrong, a fifth of it for the length")
-      ->check(CLI::Range(0.0, 0.1));
+      "--stated", stated_texts,
+      "NAME=SHARE, e.g. length=0.01: by how much the case states length, density or load "
+      "too large; repeatable");
+  app.add_option("--recordings", recordings, "of releases from other points as far away")
+      ->check(CLI::Range(1, static_cast<int>(std::size(kTurns))));
+  app.add_option("--films", films,
+                 "folder that keeps motions, to film them again with other noise");
   app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
   app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
   app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");
@@ -77,24 +100,45 @@ int main(int argc, char** argv) {
   try {
     truth::Hidden hidden;
     for (const std::string& effect : effects) {
-      const std::size_t equals = effect.find('=');
-      if (equals == std::string::npos)
-        throw std::invalid_argument("--effect " + effect + ": NAME=VALUE is expected");
-      truth::set_hidden(hidden, effect.substr(0, equals), std::stod(effect.substr(equals + 1)));
+      const auto [name, value] = split("--effect", effect);
+      truth::set_hidden(hidden, name, value);
     }
-    const auto start = truth::catenary_angles(cable, held[0], held[1]);
-    const truth::Moves moves = [&](const std::vector<double>& arc,
-                                   const std::vector<double>& time) {
-      return rod ? truth::move_rod(cable, hidden, held, arc, time, integration)
-                 : truth::move(cable, hidden, start, arc, time, integration);
-    };
-    const truth::Recording recording = truth::film(cable, hidden, moves, camera);
+    truth::Stated stated;
+    for (const std::string& text : stated_texts) {
+      const auto [name, share] = split("--stated", text);
+      stated.set(name, share);
+    }
     std::filesystem::create_directories(output);
-    truth::write_markers(recording, output / "markers.csv");
-    truth::write_text(
-        truth::case_text(truth::as_stated(cable, knowns_off, camera.seed), camera, case_links),
-        output / "case.toml");
-    truth::write_text(truth::truth_text(cable, hidden, camera, held), output / "truth.toml");
+    const double reach = std::hypot(held.at(0), held.at(1)), angle = std::atan2(held[0], held[1]);
+    std::vector<std::vector<double>> points;
+    case_options.recordings.clear();
+    for (int k = 0; k < recordings; ++k) {
+      const std::vector<double> point =
+          k == 0 ? held
+                 : std::vector<double>{reach * std::sin(kTurns[k] * angle),
+                                       reach * std::cos(kTurns[k] * angle)};
+      const auto start = truth::catenary_angles(cable, point[0], point[1]);
+      truth::Moves moves = [&](const std::vector<double>& arc, const std::vector<double>& time) {
+        return rod ? truth::move_rod(cable, hidden, point, arc, time, integration)
+                   : truth::move(cable, hidden, start, arc, time, integration);
+      };
+      if (!films.empty()) {
+        truth::Fingerprint what = truth::fingerprint(cable, hidden, integration);
+        for (const double value : {point[0], point[1], rod ? 1.0 : 0.0}) what.add(value);
+        moves = truth::kept(moves, what, films);
+      }
+      truth::Camera here = camera;
+      here.seed = camera.seed + kOtherSeed * static_cast<std::uint64_t>(k);
+      const std::string file =
+          recordings == 1 ? "markers.csv" : "markers_" + std::to_string(k + 1) + ".csv";
+      truth::write_markers(truth::film(cable, hidden, moves, here), output / file);
+      points.push_back(point);
+      case_options.recordings.push_back(file);
+    }
+    truth::write_text(truth::case_text(truth::as_stated(cable, stated), camera, case_options),
+                      output / "case.toml");
+    truth::write_text(truth::truth_text(cable, hidden, camera, stated, points),
+                      output / "truth.toml");
   } catch (const std::invalid_argument& error) {
     std::cerr << "make_recording: " << error.what() << '\n';
     return 2;

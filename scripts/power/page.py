@@ -9,24 +9,48 @@ from power import design
 HEAD = """# How often a diagnosis is right
 
 Made by `scripts/power_study`, which also goes on with it: {done} of {all} trials so far. They stand in a
-fixed order in which every beginning is balanced; of each kind (quiet, single, double, outside the
-library, and quiet and single with noise of other kinds) a beginning was run (`--kind`). Every line of
+fixed order; of each kind a beginning was run (`--kind`). Every line of
 `docs/power/trials.csv` is one: a cable of 1.2 m with EI 0.1 N m², 24 to 60 links (the case has 12),
 filmed for 4 s at 30, 60 or 120 Hz with 12 markers and 0.5, 1 or 3 mm of noise, now and then with lost
-markers or whole pixels; the last 30 % held out. Noise is white, or of other kinds: correlated in time,
+markers or whole pixels; the last 30 % held out. What is hidden is coded apart
+from the models (`truth`) and integrated by another method. The kinds:
+
+| kind | trials | what |
+|---|---|---|
+{kinds}
+Noise of other kinds: correlated in time,
 smoothed tracks, one marker three times noisier, a camera that shakes, Student's t with 4 degrees of
-freedom, 0.1 % outliers of 20 standard deviations, or all but smoothing. What is hidden is coded apart
-from the models (`truth`) and integrated by another method. Some recordings are of no chain of links but of an
-elastic rod of {elements} finite elements whose friction sticks: filmed well (`rod`), with friction half as
+freedom, 0.1 % outliers of 20 standard deviations, or all but smoothing. The elastic rod has {elements} finite elements
+and friction that sticks. It is filmed well (`rod`), with friction half as
 much larger at rest and drag that goes with Reynolds' number (`rod_laws`), with all noise but smoothing
 (`rod_noise`), by a camera with a lens, a shutter that rolls for 2 ms and marks misplaced by 2 mm (`rod_camera`), with density
-and load stated 1 % wrong and the length 0.2 % (`rod_knowns`), or all of these (`rod_all`). What is then said of knowns and
-sensors does not count, for it may be so; what is said of physics does. An effect's strength is what a refitted
+and load stated 1 % wrong and the length 0.2 % (`rod_knowns`), or all of these (`rod_all`). Of rods, what is said of knowns and
+sensors does not count, for it may be so; what is said of physics does. The other set-ups (`scripts/power/design.py`): a strip of
+0.3 m, a rope of 10 m, a steel wire of 2 mm, all three rods; a bob on a string, with a case of one link; 2 and 4 markers; 1 and
+20 s; 2 and 4 recordings; every second turn with all noise but smoothing.
+
+An effect's strength is what a refitted
 baseline leaves of it, in units of the noise (`docs/power/strengths.csv`). Rates are the observed ones
 with their 95 % intervals (Wilson). The limits of the diagnosis were set while looking at other seeds of
-the same kinds of recordings. An effect whose other form is named (`form_of`) counts as named. {program}
+the same kinds of recordings. An effect whose other form is named (`form_of`) counts as named. The true share of an
+effect is that of the same film without noise: the effects found are fitted to it in all subsets. {program}
 
 """
+KINDS = {
+    "quiet": "nothing missing, white noise",
+    "dirty_quiet": "nothing missing, noise of other kinds",
+    "single": "one effect of the library, strength 1, 3 or 10",
+    "dirty_single": "one effect, strength 3 or 10, noise of other kinds",
+    "double": "two effects",
+    "outside": "something that is in no library",
+    "beside": "something that is in no library, and an effect of it",
+    "known": "length, density or load stated 0.5, 1 or 3 % wrong, or marks misplaced by 2, 3.5 or 5 mm (standard deviation); "
+             "only a wrong load has a name of its own, else any known or sensor counts as right, physics as wrong",
+    "rod_quiet": "an elastic rod, nothing missing",
+    "rod_single": "an elastic rod, one effect, strength 3 or 10",
+    "setup_quiet": "other cables, markers, durations, numbers of recordings; nothing missing",
+    "setup_single": "the same, one effect, strength 3 or 10",
+}
 KNOWN_PROGRAM = "All trials are of the sources with SHA-256 `{hash}` (`docs/power/program.txt`)."
 OLD_PROGRAM = """The trials so far were run before the sources' hash was
 kept, with rules of choice that have changed since: the held-out part now rules effects out, and a verdict
@@ -46,7 +70,9 @@ def interval(hits, count):
 def write(file, rows, seconds, program):
     """`seconds`: CPU time of each diagnosis; `program`: the sources' hash, None if not known."""
     ran = [r for r in rows if r["verdict"] not in ("not reached", "not filmed")]
-    text = HEAD.format(done=len(rows), all=len(design.trials()), elements=design.ROD_ELEMENTS,
+    kinds = "".join(f"| `{kind}` | {len(of_kind(rows, kind))} of {design.COUNTS[kind]} | {what} |\n"
+                    for kind, what in KINDS.items())
+    text = HEAD.format(done=len(rows), all=len(design.trials()), elements=design.ROD_ELEMENTS, kinds=kinds,
                        program=KNOWN_PROGRAM.format(hash=program) if program else OLD_PROGRAM)
     text += rates(ran, seconds) + by_effect(ran) + confusion(ran) + by_dirt(ran) + others(ran) + not_run(rows)
     file.write_text(text)
@@ -62,34 +88,51 @@ def table(header, lines):
 
 
 def rates(rows, seconds):
-    quiet, single = of_kind(rows, "quiet"), of_kind(rows, "single")
+    kinds = {kind: of_kind(rows, kind) for kind in design.KINDS}
+    single = kinds["single"]
     strong = [r for r in single if int(r["strength"]) >= 3]
-    outside, double = of_kind(rows, "outside"), of_kind(rows, "double")
     count = lambda some, test: interval(sum(map(bool, map(test, some))), len(some))
+    named = lambda r: r.get("effects") and r["right"] == "no"
     wrong = lambda r: r["verdict"] == "named" and r["right"] == "no"
-    dirty_quiet, dirty = of_kind(rows, "dirty_quiet"), of_kind(rows, "dirty_single")
-    rod_quiet, rod = of_kind(rows, "rod_quiet"), of_kind(rows, "rod_single")
-    partly = [r for r in rows if r["verdict"] == "partly"]
+    not_none = lambda r: r["verdict"] != "none"
     right_name = lambda r: r["right"] == "yes" and r["verdict"] != "partly"
+    nothing_missing = [r for kind in design.KINDS if kind.endswith("quiet") for r in kinds[kind]]
+    other_truths = kinds["dirty_single"] + kinds["rod_single"] + kinds["setup_single"]
+    of_known = [r for r in strong + kinds["dirty_single"] if r["hidden"] in design.KNOWNS_AND_SENSORS]
+    certain = [r for r in rows if r["verdict"] == "partly" and r.get("certain")]
+    shares = [tuple(map(int, r["shares_held"].split("/"))) for r in rows if r.get("shares_held")]
     lines = [
-        ["false alarms on quiet recordings", "at most 2 %", count(quiet, lambda r: r.get("effects"))],
-        ["quiet recordings not called `none`", "", count(quiet, lambda r: r["verdict"] != "none")],
-        ["false alarms, noise of other kinds", "at most 2 %", count(dirty_quiet, lambda r: r.get("effects"))],
-        ["not called `none`, noise of other kinds", "",
-         count(dirty_quiet, lambda r: r["verdict"] != "none")],
+        ["nothing missing, all kinds: something named", "at most 2 %", count(nothing_missing, named)],
+        ["... white noise", "at most 2 %", count(kinds["quiet"], named)],
+        ["... noise of other kinds", "at most 2 %", count(kinds["dirty_quiet"], named)],
+        ["... rod: physics named", "at most 2 %", count(kinds["rod_quiet"], named)],
+        ["... other set-ups", "at most 2 %", count(kinds["setup_quiet"], named)],
+        ["nothing missing, white noise: not called `none`", "", count(kinds["quiet"], not_none)],
+        ["nothing missing, noise of other kinds: not called `none`", "", count(kinds["dirty_quiet"], not_none)],
         ["strength 3 and more: right name, or among indistinguishable ones", "at least 95 %",
          count(strong, right_name)],
-        ["right name, noise of other kinds", "at least 90 %", count(dirty, right_name)],
+        ["other noise, rods and other set-ups: right name, or among indistinguishable ones", "at least 90 %",
+         count(other_truths, right_name)],
+        ["... noise of other kinds", "at least 90 %", count(kinds["dirty_single"], right_name)],
+        ["... rod", "at least 90 %", count(kinds["rod_single"], right_name)],
+        ["... other set-ups", "at least 90 %", count(kinds["setup_single"], right_name)],
         ["strength 3 and more: named wrongly", "at most 2 %", count(strong, wrong)],
-        ["named wrongly, noise of other kinds", "at most 2 %", count(dirty, wrong)],
-        ["rod, nothing missing: physics named", "at most 2 %", count(rod_quiet, lambda r: r["right"] == "no" and r.get("effects"))],
-        ["rod: right name, or among indistinguishable ones", "at least 90 %", count(rod, right_name)],
-        ["rod: named wrongly", "at most 2 %", count(rod, wrong)],
-        ["both of two effects", "at least 80 %", count(double, lambda r: r["right"] == "yes")],
+        ["other noise, rods and other set-ups: named wrongly", "at most 2 %", count(other_truths, wrong)],
+        ["... noise of other kinds", "at most 2 %", count(kinds["dirty_single"], wrong)],
+        ["... rod", "at most 2 %", count(kinds["rod_single"], wrong)],
+        ["... other set-ups", "at most 2 %", count(kinds["setup_single"], wrong)],
+        ["both of two effects", "at least 80 %", count(kinds["double"], lambda r: r["right"] == "yes")],
         ["outside the library: called unexplained, or a law discovered alone", "at least 90 %",
-         count(outside, lambda r: r["right"] == "yes" and r["verdict"] != "partly")],
-        ["a part named in `partly` that is not there", "at most 5 %",
-         count(partly, lambda r: r["right"] == "no")],
+         count(kinds["outside"], right_name)],
+        ["a part called certain in `partly` that is not there", "at most 5 %",
+         count(certain, lambda r: r["right"] == "no")],
+        ["intervals of shares that hold the true share", "90 to 97 %",
+         interval(sum(hits for hits, _ in shares), sum(of for _, of in shares))],
+        ["a wrong known or sensor, strength 3 and more: blamed rightly", "at least 90 %", count(of_known, right_name)],
+        ["length, density, load or marks wrong, something named: blamed rightly", "at least 90 %",
+         count([r for r in kinds["known"] if r.get("effects")], lambda r: r["right"] == "yes")],
+        ["length, density, load or marks wrong: nothing named", "",
+         count(kinds["known"], lambda r: not r.get("effects"))],
     ]
     for s in design.STRENGTHS:
         some = [r for r in single if int(r["strength"]) == s]
@@ -120,7 +163,7 @@ def by_dirt(rows):
     lines = []
     hits = lambda some, test: f"{sum(map(bool, map(test, some)))}/{len(some)}"
     for dirt in (*design.DIRT, *design.ROD):
-        some = [r for r in rows if r["dirt"] == dirt]
+        some = [r for r in rows if r["dirt"] == dirt and not r["setup"]]
         quiet, single = [r for r in some if not r["hidden"]], [r for r in some if r["hidden"]]
         lines.append([dirt, hits(quiet, lambda r: r["right"] == "no" and r.get("effects")),
                       hits(quiet, lambda r: r["verdict"] != "none"), hits(single, lambda r: r["right"] == "yes")])
@@ -131,7 +174,9 @@ def by_dirt(rows):
 def said(row):
     if row["verdict"] == "named":
         return row["effects"]
-    return f"ambiguous: {row['members']}" if row["verdict"] == "ambiguous" else row["verdict"]
+    if row["verdict"] in ("ambiguous", "partly"):
+        return f"{row['verdict']}: {row['members' if row['verdict'] == 'ambiguous' else 'effects']}"
+    return row["verdict"]
 
 
 def confusion(rows):
@@ -152,16 +197,21 @@ def others(rows):
     text = ""
     for kind, title in [("quiet", "Quiet recordings that were not `none`"),
                         ("double", "Two effects"), ("outside", "Outside the library"),
-                        ("rod_quiet", "Rods with nothing missing that were not `none`"), ("rod_single", "Rods")]:
+                        ("beside", "Outside the library, and an effect of it"),
+                        ("known", "Wrong knowns"),
+                        ("rod_quiet", "Rods with nothing missing that were not `none`"), ("rod_single", "Rods"),
+                        ("setup_quiet", "Other set-ups with nothing missing that were not `none`"),
+                        ("setup_single", "Other set-ups")]:
         some = [r for r in of_kind(rows, kind) if "quiet" not in kind or r["verdict"] != "none"]
         counts = {}
         for r in some:
-            hidden = r["hidden"].replace("+", ", ") or r["dirt"] or "nothing"
-            what = (hidden, r["strength"], said(r).replace("+", ", "))
+            hidden = ", ".join(word for word in (r["setup"], *r["hidden"].split("+"), r["dirt"] if not r["hidden"] else "")
+                               if word) or "nothing"
+            what = (hidden, r["off"] or r["strength"], said(r).replace("+", ", "))
             counts[what] = counts.get(what, 0) + 1
         lines = [[hidden, str(s), told, str(n)] for (hidden, s, told), n in sorted(counts.items())]
         if lines:
-            text += f"## {title}\n\n" + table(["hidden", "strength", "said", "times"], lines)
+            text += f"## {title}\n\n" + table(["hidden", "size" if kind == "known" else "strength", "said", "times"], lines)
     return text
 
 

@@ -9,31 +9,16 @@ import subprocess
 import tempfile
 import threading
 
-from power import design
+from power import design, film
 
-# The cable of the study: 1.2 m, half a pound at its end, stiff enough for few links.
-CABLE = ["--length", "1.2", "--bending-stiffness", "0.1", "--bending-damping", "0.01", "--load", "0.2",
-         "--held", "0.6", "0.9", "--duration", "4"]
-RESOLVED, LARGEST = 1e-4, 0.03  # m: below the first a curve tells nothing, more is not asked for
+RESOLVED, LARGEST = 1e-4, 0.03  # m, of the cable of 1.2 m: below the first a curve tells nothing, more is not asked for
 STEPS = 12  # of the amplitude, half a decade each
 LINKS = 24  # of the recordings measured, and of their baselines: what is left is the effect alone
 
 
-def arguments(name, amplitude):
-    """make_recording's for one hidden effect."""
-    scaled, fixed, _ = {**design.EFFECTS, **design.OUTSIDE}[name]
-    values = dict(fixed)
-    for parameter, factor in scaled.items():
-        if name == "axial_stretch":
-            values[parameter] = 1000 / amplitude
-        elif name == "scale":
-            values[parameter] = 1 + amplitude
-        else:
-            values[parameter] = factor * amplitude
-    result = []
-    for parameter, value in values.items():
-        result += ["--effect", f"{name}.{parameter}={value:.6g}"]
-    return result
+def _size(setup):
+    """Of the cable, over that of most trials."""
+    return design.SETUPS[setup].length() / float(design.CABLE["--length"]) if setup else 1.0
 
 
 class Strengths:
@@ -55,55 +40,65 @@ class Strengths:
                     (float(row["amplitude"]), float(row["residual_m"])))
         self.curves |= curves
 
-    def amplitude(self, name, residual, links):
+    def amplitude(self, name, residual, links, setup=""):
         """The amplitude whose recording with so many links leaves so much (m, rms); None if none
         within bounds does."""
-        amplitude = self.amplitude_at_links_measured(name, residual)
+        own = setup if setup and design.SETUPS[setup].own_strengths else ""
+        amplitude = self.amplitude_at_links_measured(name, residual, own)
         if amplitude is None:
             return None
         return amplitude * (links / LINKS) ** design.JOINT_POWERS.get(name, 0)
 
-    def amplitude_at_links_measured(self, name, residual):
+    def amplitude_at_links_measured(self, name, residual, setup):
+        label = f"{setup}: {name}" if setup else name
         with self.lock:
-            own = self.locks.setdefault(name, threading.Lock())
+            own = self.locks.setdefault(label, threading.Lock())
         with own:
-            if name not in self.curves:
-                curve = self.measure(name)
+            if label not in self.curves:
+                curve = self.measure(name, setup)
                 with self.lock:
-                    self.curves[name] = curve
+                    self.curves[label] = curve
                     self.write()
         previous = None
-        for amplitude, left in self.curves[name]:
+        for amplitude, left in self.curves[label]:
             if left >= residual and previous is not None:
                 a0, r0 = previous
                 share = math.log(residual / r0) / math.log(left / r0)
                 return a0 * (amplitude / a0) ** share
-            if RESOLVED < left < residual:
+            if RESOLVED * _size(setup) < left < residual:
                 previous = (amplitude, left)
         return None
 
-    def measure(self, name):
+    def measure(self, name, setup):
         """Residuals of the baseline from small amplitudes upwards, as far as they grow."""
         most = {**design.EFFECTS, **design.OUTSIDE}[name][2]
+        # A rod leaves something without any effect: its residual counts beyond that.
+        nothing = self.residual([], setup) if setup else 0.0
+        if nothing is None:
+            return []
         curve = []
         for step in range(-STEPS, 1):
             amplitude = most * 10 ** (step / 2)
-            left = self.residual(name, amplitude)
-            if left is None or (curve and left < curve[-1][1]):
+            left = self.residual(film.of_effect(name, amplitude), setup)
+            if left is None:
                 break
-            if left > RESOLVED:
+            left = math.sqrt(max(0.0, left**2 - nothing**2))
+            if curve and left < curve[-1][1]:
+                break
+            if left > RESOLVED * _size(setup):
                 curve.append((amplitude, left))
-            if left > LARGEST:
+            if left > LARGEST * _size(setup):
                 break
         return curve
 
-    def residual(self, name, amplitude):
+    def residual(self, effects, setup):
+        """What a baseline leaves of a recording without noise, m; None if there is none."""
+        of_setup = design.SETUPS.get(setup)
+        rod = of_setup is not None and of_setup.truth == "rod"
+        trial = design.Trial("measured", (), 0, 0.0, 30, design.ROD_ELEMENTS if rod else LINKS, 0.0, 0.0, 1, setup=setup)
         with tempfile.TemporaryDirectory() as folder:
-            made = subprocess.run(
-                [self.binaries / "bin" / "make_recording", "--output", folder, *CABLE,
-                 "--links", str(LINKS), "--case-links", str(LINKS), "--noise", "0", "--rate", "30",
-                 *arguments(name, amplitude)], capture_output=True, check=False)
-            if made.returncode != 0:
+            case_links = of_setup.links if of_setup and of_setup.links == 1 else LINKS
+            if not film.make(trial, effects, folder, self.binaries, case_links=case_links):
                 return None
             fit = subprocess.run(
                 [self.binaries / "bin" / "catena", "identify", f"{folder}/case.toml", "--quiet",

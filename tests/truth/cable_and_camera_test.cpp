@@ -3,14 +3,17 @@
 // The hidden truths must themselves be right: known solutions, conservation, convergence, and for
 // every hidden effect that it does something and that its neutral value does nothing.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "truth/cable.hpp"
 #include "truth/camera.hpp"
+#include "truth/kept_motion.hpp"
 #include "truth/random.hpp"
 
 namespace {
@@ -296,3 +299,55 @@ TEST_CASE("noise of other kinds is as asked") {
 }
 
 }  // namespace
+
+TEST_CASE("a motion that was kept is filmed again with the same bytes, another one is computed") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("kept_motion_" + std::to_string(getpid()));
+  const Cable cable{.links = 4};
+  const truth::Camera camera{.rate = 20, .duration = 0.5, .markers = 3};
+  int computed = 0;
+  const auto filmed = [&](const Hidden& hidden, const truth::Camera& by) {
+    const truth::Moves moves = [&](const std::vector<double>& arc,
+                                   const std::vector<double>& time) {
+      ++computed;
+      return truth::move(cable, hidden, truth::catenary_angles(cable, 1.2, 2.0), arc, time);
+    };
+    return truth::film(cable, hidden,
+                       truth::kept(moves, truth::fingerprint(cable, hidden, {}), folder), by);
+  };
+  const truth::Recording first = filmed({}, camera), again = filmed({}, camera);
+  CHECK(computed == 1);
+  CHECK(first.side == again.side);
+  CHECK(first.down == again.down);
+  truth::Camera noisier = camera;
+  noisier.seed = 2;
+  Hidden seen;  // the camera's own error
+  seen.camera_tilt = 0.1;
+  CHECK(filmed({}, noisier).side != first.side);
+  CHECK(filmed(seen, camera).side != first.side);
+  CHECK(computed == 1);
+  // Everything that changes the motion, its points or its times.
+  truth::Camera faster = camera, more = camera;
+  faster.rate = 40;
+  more.markers = 4;
+  filmed({}, faster);
+  filmed({}, more);
+  CHECK(computed == 3);
+  for (const truth::HiddenParameter& parameter : truth::hidden_parameters()) {
+    Hidden other;
+    other.*parameter.value += 0.01;
+    const bool moves =
+        truth::fingerprint(cable, other, {}).number() != truth::fingerprint(cable, {}, {}).number();
+    const bool of_camera = parameter.name.starts_with("scale.") ||
+                           parameter.name.starts_with("camera_tilt.") ||
+                           parameter.name.starts_with("clock_offset.") ||
+                           parameter.name.starts_with("marker_offset.") ||
+                           parameter.name.starts_with("origin_offset.");
+    CAPTURE(parameter.name);
+    CHECK(moves == !of_camera);
+  }
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    std::filesystem::resize_file(file.path(), 100);
+  CHECK_THROWS_AS(filmed({}, camera), std::runtime_error);
+  std::filesystem::remove_all(folder);
+}
