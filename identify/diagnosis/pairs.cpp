@@ -9,6 +9,7 @@
 #include "identify/diagnosis/candidate_scores.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/refits.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/trim.hpp"
@@ -93,7 +94,8 @@ void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& f
 void try_with_more_links(DiagnosisState& state, const Stage& base, std::vector<Pair>& pairs) {
   DiagnosisContext& context = state.context;
   const int links = state.more_links(base.links);
-  const bool closed = !pairs.empty() && pairs.front().second.fit.ratio() <= kThresholds.closed;
+  const bool closed = !pairs.empty() && nearly_closes(pairs.front().second.fit,
+                                                      fit_gap(base.model, state.found.noise));
   if (closed || links <= base.links) return;
   context.begin("refitting pairs with more links", pairs.size());
   in_parallel(pairs.size(), context.threads, [&](std::size_t k) {
@@ -129,7 +131,7 @@ bool add_pair(DiagnosisState& state) {
     if (!best || state.squares(pair.best()) < state.squares(best->best())) best = &pair;
   if (!best || state.squares(best->best()) >= state.squares(state.last().model)) return false;
   // Of as many effects, others take their place only where the data decide.
-  if ((explained(state.found.stages) || state.last().effects.size() >= 2) &&
+  if ((explained(state) || state.last().effects.size() >= 2) &&
       !decide(best->best(), state.last().model, state.found.noise).decided)
     return false;
   if (!state.generalises(held_out_gap(best->best(), state.found.noise)) ||
