@@ -35,9 +35,8 @@ VectorXd seen(const std::vector<MatrixXd>& parts, const std::vector<MatrixXd>& w
 }
 
 double excess(const VectorXd& residuals) {
-  return residuals.size() > 0
-             ? residuals.squaredNorm() / static_cast<double>(residuals.size()) - 1
-             : 0.0;
+  return residuals.size() > 0 ? residuals.squaredNorm() / static_cast<double>(residuals.size()) - 1
+                              : 0.0;
 }
 
 /// The spectrum of what is left beyond white noise: each frequency times the share of its power that
@@ -227,8 +226,7 @@ bool closes_gap(const FittedModel& model, const FittedModel& bare,
     return std::pow(kThresholds.gap_misfit, 2) +
            std::pow(kThresholds.law_error, 2) * std::max(0.0, of_explained);
   };
-  return leaves_no_more(model, noise,
-                        {tolerated(explained.fitted), tolerated(explained.held_out)});
+  return leaves_no_more(model, noise, {tolerated(explained.fitted), tolerated(explained.held_out)});
 }
 
 bool nearly_closes(const GapTest& fit, const GapTest& before) {

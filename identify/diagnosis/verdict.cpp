@@ -106,16 +106,19 @@ std::string sentence_of_unexplained(const Diagnosis& found, const DiagnosisOptio
                      listed(found.effects), left);
 }
 
-std::string sentence_of_effects(const Diagnosis& found) {
+/// `doubtful`: effects that plausible errors of knowns and sensors could stand for.
+std::string sentence_of_effects(const Diagnosis& found, const std::vector<std::string>& doubtful) {
   std::string sentence = "Missing: " + listed(found.effects) + of_more_links(found) + ".";
   for (const Alternative& form : found.forms)
     sentence += " Its other form " + form.explanation.id + " would do as well.";
   if (found.shares.effects.size() > 1)
     sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
-  if (found.alternatives.empty()) return sentence;
   std::vector<std::string> others;
+  for (const std::string& id : doubtful)
+    others.push_back("errors of what the case states or of the sensors instead of " + id);
   for (const Alternative& alternative : found.alternatives)
     others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
+  if (others.empty()) return sentence;
   return sentence + " These data do not decide against " + listed(others) + ".";
 }
 
@@ -213,6 +216,16 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
+  const auto errors_could_explain = [&](const std::string& id) {
+    if (is_error_of_known(*state.context.find(id)) ||
+        share_beyond_errors_of_knowns(state, id) > kThresholds.worthwhile)
+      return false;
+    note(
+        fmt::format("plausible errors of what the case states and of the sensors could explain "
+                    "most of what {} does",
+                    id));
+    return true;
+  };
   const FittedModel& bare = last_without_effects(found.stages).model;
   const bool is_closed = !found.effects.empty() && closes_gap(found.final, bare, found.noise);
   if (found.effects.empty() && (!gap_left(last) || too_small_to_name(found))) {
@@ -222,16 +235,7 @@ void conclude(DiagnosisState& state, const Case& asked) {
   }
   if (!is_closed) {
     std::vector<std::string> stand = standing_effects(found);
-    std::erase_if(stand, [&](const std::string& id) {
-      if (is_error_of_known(*state.context.find(id)) ||
-          share_beyond_errors_of_knowns(state, id) > kThresholds.worthwhile)
-        return false;
-      note(
-          fmt::format("plausible errors of what the case states and of the sensors could explain "
-                      "most of what {} does",
-                      id));
-      return true;
-    });
+    std::erase_if(stand, errors_could_explain);
     found.certain.clear();
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);
@@ -250,12 +254,16 @@ void conclude(DiagnosisState& state, const Case& asked) {
     return !alternative.explanation.is_effect() ||
            !closes_gap(alternative.explanation.model, bare, found.noise);
   });
-  found.verdict =
-      found.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
-  if (found.alternatives.empty()) found.certain = found.effects;
+  std::vector<std::string> doubtful;
+  std::copy_if(found.effects.begin(), found.effects.end(), std::back_inserter(doubtful),
+               errors_could_explain);
+  const bool decided = found.alternatives.empty() && doubtful.empty();
+  found.verdict = decided ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
+  if (decided) found.certain = found.effects;
   if (!found.law.empty()) found.verdict = DiagnosisVerdict::kDiscovered;
-  found.sentence = (found.law.empty() ? sentence_of_effects(found) : sentence_of_law(found, true)) +
-                   wrong_knowns_in_words(state);
+  found.sentence =
+      (found.law.empty() ? sentence_of_effects(found, doubtful) : sentence_of_law(found, true)) +
+      wrong_knowns_in_words(state);
 }
 
 const char* name_of(DiagnosisVerdict verdict) {

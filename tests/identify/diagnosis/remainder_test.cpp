@@ -22,7 +22,6 @@ using Eigen::VectorXd;
 
 constexpr Index kChannels = 4, kFitted = 120, kHeldOut = 40, kFrames = kFitted + kHeldOut;
 
-
 MatrixXd white(std::mt19937_64& random) {
   return MatrixXd::NullaryExpr(kChannels, kFrames, [&] { return normal_number(random); });
 }
@@ -49,8 +48,8 @@ MatrixXd along(double power) {
     for (Index k = 0; k < kFrames; ++k)
       for (Index c = 0; c < kChannels; ++c) {
         const double t = static_cast<double>(k) / kFitted;
-        columns(k * kChannels + c, j) =
-            std::pow(t, power * static_cast<double>(j)) * std::sin(20 * t + static_cast<double>(c + j));
+        columns(k * kChannels + c, j) = std::pow(t, power * static_cast<double>(j)) *
+                                        std::sin(20 * t + static_cast<double>(c + j));
       }
   return columns;
 }
@@ -86,7 +85,8 @@ Counts gaps(int recordings, double error, double tolerated, double power = 2,
   for (int recording = 0; recording < recordings; ++recording) {
     const MatrixXd noise = white(random);
     const OfParts chance = chance_of_remainder(
-        left_of(noise + std::sqrt(error) * smooth(random), power, with_derivatives), {tolerated, tolerated});
+        left_of(noise + std::sqrt(error) * smooth(random), power, with_derivatives),
+        {tolerated, tolerated});
     counts.fitted += chance.fitted <= 0.05;
     counts.held_out += chance.held_out <= 0.05;
   }
@@ -134,7 +134,10 @@ TEST_CASE("more than what is tolerated is a gap: false closings") {
 TEST_CASE("nothing seen is no gap; derivatives of another size are refused") {
   const MatrixXd none(kChannels, 0);
   const OfParts chance = chance_of_remainder(
-      {{MatrixXd::Constant(kChannels, 9, std::numeric_limits<double>::quiet_NaN())}, {none}, {}, {}},
+      {{MatrixXd::Constant(kChannels, 9, std::numeric_limits<double>::quiet_NaN())},
+       {none},
+       {},
+       {}},
       {0, 0});
   CHECK(chance.fitted == 1);
   CHECK(chance.held_out == 1);
