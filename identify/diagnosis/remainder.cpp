@@ -184,10 +184,11 @@ Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& 
   for (Index j = 0; j < unknowns; ++j) {
     std::vector<MatrixXd> fitted(count), held_out(count);
     for (std::size_t e = 0; e < count; ++e) {
-      // Where nothing was measured there is no derivative either.
+      // Where nothing was measured there is no derivative either; no matrix stands for zeros.
       const MatrixXd& measured = problem.experiments()[e].recording.measured;
-      const MatrixXd along = measured.array().isNaN().select(
-          measured, evaluation.predictions[e].sensitivity[static_cast<std::size_t>(j)]);
+      MatrixXd along = evaluation.predictions[e].sensitivity[static_cast<std::size_t>(j)];
+      if (along.size() == 0) along = MatrixXd::Zero(measured.rows(), measured.cols());
+      along = measured.array().isNaN().select(measured, along).eval();
       split(e, along, fitted[e], held_out[e]);
     }
     remainder.fitted_along.col(j).head(residuals) = seen(fitted, remainder.fitted);

@@ -216,18 +216,20 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
+  const FittedModel& bare = last_without_effects(found.stages).model;
+  const bool is_closed = !found.effects.empty() && closes_gap(found.final, bare, found.noise);
+  // Beside a gap an effect has to be worth something of the whole misfit; where the gap is closed,
+  // of its own part.
   const auto errors_could_explain = [&](const std::string& id) {
-    if (is_error_of_known(*state.context.find(id)) ||
-        share_beyond_errors_of_knowns(state, id) > kThresholds.worthwhile)
-      return false;
+    if (is_error_of_known(*state.context.find(id))) return false;
+    const BeyondErrorsOfKnowns beyond = beyond_errors_of_knowns(state, id);
+    if ((is_closed ? beyond.of_effect : beyond.of_misfit) > kThresholds.worthwhile) return false;
     note(
         fmt::format("plausible errors of what the case states and of the sensors could explain "
                     "most of what {} does",
                     id));
     return true;
   };
-  const FittedModel& bare = last_without_effects(found.stages).model;
-  const bool is_closed = !found.effects.empty() && closes_gap(found.final, bare, found.noise);
   if (found.effects.empty() && (!gap_left(last) || too_small_to_name(found))) {
     found.verdict = DiagnosisVerdict::kNone;
     found.sentence = sentence_of_none(found);
