@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kNotNeighbours = 0.2;  // relative distance of two shapes that are not neighbours
-constexpr double kMovesTheData = 0.33;  // of the noise: a step large enough for a slope
+constexpr std::size_t kMostBoundedTogether = 8;  // all subsets of so many columns are tried
+constexpr double kMovesTheData = 0.33;           // of the noise: a step large enough for a slope
 
 constexpr const char* kOtherWayRound = "would have to act the other way round";
 
@@ -274,11 +275,49 @@ Explanation CandidateScores::score_candidate(const Plan& plan, std::size_t index
                plan.runs[r].shape);
   }
   take_best(explanation, scores);
+  // What would act the other way round alone may be there beside something else.
+  best_columns_[candidate.id] =
+      scores.empty() ? tried_[candidate.id].front() : scores.front().columns;
   if (explanation.score.admissible)
     explanation.log10_p = significance(scores.front().columns, explanation.score);
   else
     explanation.note = kOtherWayRound;
   return explanation;
+}
+
+std::vector<std::string> CandidateScores::best_together() const {
+  struct Together {
+    double removed;
+    std::vector<std::string> effects;
+  };
+  std::vector<Together> pairs, triples;
+  const auto consider = [&](std::vector<Together>& sets, const std::vector<std::string>& effects) {
+    std::vector<int> columns;
+    for (const std::string& id : effects) {
+      const std::vector<int>& of_effect = best_columns_.at(id);
+      columns.insert(columns.end(), of_effect.begin(), of_effect.end());
+    }
+    if (columns.size() <= kMostBoundedTogether)
+      sets.push_back({test_->score(columns).removed, effects});
+  };
+  for (auto a = best_columns_.begin(); a != best_columns_.end(); ++a)
+    for (auto b = std::next(a); b != best_columns_.end(); ++b) {
+      search_.context.stop_if_asked();
+      consider(pairs, {a->first, b->first});
+      for (auto c = std::next(b); c != best_columns_.end(); ++c)
+        consider(triples, {a->first, b->first, c->first});
+    }
+  std::vector<std::string> members;
+  const auto add_best_of = [&](std::vector<Together>& sets) {
+    std::stable_sort(sets.begin(), sets.end(),
+                     [](const Together& a, const Together& b) { return a.removed > b.removed; });
+    for (std::size_t s = 0; s < std::min(sets.size(), kThresholds.firsts_of_pairs); ++s)
+      for (const std::string& id : sets[s].effects)
+        if (std::find(members.begin(), members.end(), id) == members.end()) members.push_back(id);
+  };
+  add_best_of(pairs);
+  add_best_of(triples);
+  return members;
 }
 
 void CandidateScores::score_limit(const Candidate& candidate, Explanation& explanation) {

@@ -26,6 +26,10 @@ class CandidateScores {
   /// Interrupted; std::runtime_error where the model cannot be simulated at the fit.
   std::vector<Explanation> score(bool own_models);
 
+  /// The members of the pairs and triples of effects that would remove most together, of those scored
+  /// so far, each at its best shape: all of them, linearised, with no simulation. The best ones first.
+  std::vector<std::string> best_together() const;
+
   /// Sets the chance of every explanation that was refitted and leaves clearly less: that the best of
   /// all scored so far does as well (maximum_statistic.hpp).
   void set_chances(std::vector<Explanation>& explanations) const;
@@ -68,6 +72,7 @@ class CandidateScores {
   std::map<std::string, std::string> same_;  // those that go by the name of another one
   std::unique_ptr<ScoreTest> test_;          // of the base
   TriedColumns tried_;                       // in it
+  std::map<std::string, std::vector<int>> best_columns_;  // of each effect, at its best shape
 };
 
 }  // namespace catena

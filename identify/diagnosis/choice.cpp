@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/residual_frequencies.hpp"
 #include "identify/diagnosis/special_case.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -78,7 +79,9 @@ bool more_than_a_detail(const DiagnosisState& state, const FittedModel& base,
 bool goes_with_the_motion(const DiagnosisState& state, const FittedModel& base,
                           const Explanation& explanation) {
   const Candidate* const effect = state.context.find(explanation.id);
-  if (!effect || !effect->driven || explanation.fit.ratio() <= kThresholds.closed) return false;
+  if (!effect || !effect->driven ||
+      nearly_closes(explanation.fit, fit_gap(base, state.found.noise)))
+    return false;
   return std::any_of(effect->parameters.begin(), effect->parameters.end(),
                      [&](const CandidateParameter& parameter) {
                        const FittedModel& model = explanation.model;

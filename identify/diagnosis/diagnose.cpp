@@ -38,8 +38,7 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   look_ahead_and_back(state);
   // One after the other two effects may both be missed: neither is worth much alone, or a third
   // imitates both.
-  if ((!explained(state.found.stages) || one_may_imitate_two(state.found.stages)) &&
-      add_pair(state))
+  if ((!explained(state) || one_may_imitate_two(state.last())) && add_pair(state))
     look_ahead_and_back(state);
   conclude(state, the_case);
   discover(state, the_case);

@@ -8,6 +8,7 @@
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/verdict.hpp"
 
@@ -50,7 +51,7 @@ void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
   next.removed = removed;
   next.links = model.problem->the_case().links;
   next.fit = fit_gap(model, found.noise);
-  next.held_out = held_out_gap(model, found.noise);
+  next.held_out = tested_held_out_gap(model, found.noise);
   next.model = std::move(model);
   found.stages.push_back(std::move(next));
   context.tell_best(described(last()));
@@ -67,9 +68,7 @@ bool DiagnosisState::generalises(const GapTest& held_out) const {
 }
 
 bool DiagnosisState::reopens_gap(const FittedModel& model) const {
-  const std::vector<NoiseModel> noise = best_known(found.noise, noise_of(model));
-  return !gap_left(last().fit, last().held_out) &&
-         gap_left(fit_gap(model, noise), held_out_gap(model, noise));
+  return !gap_left(last()) && gap_left(model, best_known(found.noise, noise_of(model)));
 }
 
 bool DiagnosisState::had(std::vector<std::string> effects) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class DiagnosisState {
 
   DiagnosisContext& context;
   const DiagnosisOptions& options;
+  /// Of the final model's case: fits with some of its effects (fit_with_effects), by what was kept.
+  std::map<std::vector<std::string>, FittedModel> fits_with_effects;
   Diagnosis found;  ///< so far; `final` and what follows from it are still empty
 
   /// The best model so far.

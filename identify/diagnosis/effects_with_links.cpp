@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/effects_with_links.hpp"
 
+#include <algorithm>
+
 #include "common/parallel.hpp"
+#include "identify/diagnosis/candidate_scores.hpp"
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/trim.hpp"
@@ -43,10 +46,16 @@ bool add_with_more_links(DiagnosisState& state) {
       state.squares(finer) < state.squares(looked.model) ? finer : looked.model;
   for (Explanation& each : explanations) {
     each.comparison = compare(base, each.model, state.found.noise);
-    each.chance = chance_of_any(each.comparison, state.found.tried);
     each.fit = fit_gap(each.model, state.found.noise);
     each.held_out = held_out_gap(each.model, state.found.noise);
   }
+  const CandidateSearch search{state.context, base, looked.effects, state.found.noise};
+  CandidateScores scores(search);
+  scores.score(false);
+  if (std::any_of(explanations.begin(), explanations.end(),
+                  [&](const Explanation& each) { return state.context.find(each.id)->own_model; }))
+    scores.score(true);
+  scores.set_chances(explanations);
   state.enter(std::move(finer), looked.effects, kTooFewLinks);
   state.last().explanations = std::move(explanations);
   const Explanation* best = choose(state, state.last().explanations);

@@ -179,22 +179,30 @@ bool is_error_of_known(const Candidate& candidate) {
                      [](const EffectParameter& parameter) { return !parameter.above.empty(); });
 }
 
-double share_beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect) {
+BeyondErrorsOfKnowns beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect) {
   std::vector<std::string> others = state.found.effects;
   std::erase(others, effect);
   const FittedModel& whole = state.found.final;
   const FittedModel without = fit_with_effects(state, others), none = fit_with_effects(state, {});
   state.context.stop_if_asked();
-  if (!without.ok || !none.ok) return 0;
+  if (!without.ok || !none.ok) return {};
   const Stacked all = residuals(none, state.found.noise);
+  const Stacked before = residuals(without, state.found.noise);
+  const Stacked after = residuals(whole, state.found.noise);
   const Parts with = squares_with_errors(state, whole, state.found.effects);
   const Parts left = squares_with_errors(state, without, others);
   const auto share = [](double beyond, const VectorXd& residual) {
     const double misfit = residual.squaredNorm() - static_cast<double>(residual.size());
     return misfit > 0 && std::isfinite(beyond) ? beyond / misfit : 0.0;
   };
-  return std::max({0.0, share(left.fitted - with.fitted, all.fitted),
-                   share(left.held_out - with.held_out, all.held_out)});
+  const auto of_own = [](double beyond, const VectorXd& unexplained, const VectorXd& explained) {
+    const double removed = unexplained.squaredNorm() - explained.squaredNorm();
+    return removed > 0 && std::isfinite(beyond) ? beyond / removed : 0.0;
+  };
+  return {std::max({0.0, share(left.fitted - with.fitted, all.fitted),
+                    share(left.held_out - with.held_out, all.held_out)}),
+          std::max({0.0, of_own(left.fitted - with.fitted, before.fitted, after.fitted),
+                    of_own(left.held_out - with.held_out, before.held_out, after.held_out)})};
 }
 
 }  // namespace catena

@@ -12,15 +12,18 @@ struct Candidate;
 /// missing: it changes what is reported, or its file has words for a wrong known.
 bool is_error_of_known(const Candidate& candidate);
 
-/// The share of the squared misfit of the model without effects that one of the effects found
-/// explains and that no plausible errors of knowns and sensors explain instead: where the model was
-/// fitted or where it was held out, whichever is more.
-///
+/// What one of the effects found explains and no plausible errors of knowns and sensors explain
+/// instead: where the model was fitted or where it was held out, whichever is more.
+struct BeyondErrorsOfKnowns {
+  double of_misfit = 0;  ///< as a share of the squared misfit of the model without effects
+  double of_effect = 0;  ///< as a share of what the effect explains beside no such errors
+};
+
 /// To the model with the effect and to the one without it, such errors are added: gravity and camera a
 /// little tilted, a heavier load, another length and density, marks that sit elsewhere, a lens, a
 /// shutter that rolls. Each has a standard deviation (DiagnosisThresholds). What they and the free
 /// unknowns change is linearised, and fitted to the fitted part. Zero where the model without the effect cannot be fitted. Throws
 /// Interrupted.
-double share_beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect);
+BeyondErrorsOfKnowns beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect);
 
 }  // namespace catena

@@ -6,6 +6,7 @@
 
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/special_case.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -53,7 +54,8 @@ Stage stage_without(DiagnosisState& state, const std::string& id,
   without.fit = fit_gap(without.model, state.found.noise);
   without.held_out = held_out_gap(without.model, state.found.noise);
   // Something that nearly fits may stand in the place of the right one.
-  const bool nearly = gap_left(last) && last.fit.ratio() <= kThresholds.closed;
+  const bool nearly =
+      gap_left(last) && nearly_closes(last.fit, last_without_effects(state.found.stages).fit);
   if (!needless(state, without)) without.explanations = look(state, without.model, others, nearly);
   return without;
 }

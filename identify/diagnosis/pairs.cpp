@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/nearest_name.hpp"
 #include "common/parallel.hpp"
 #include "identify/diagnosis/candidate_scores.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/refits.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/trim.hpp"
@@ -42,6 +44,11 @@ Stage without_effects(DiagnosisState& state) {
   return finer;
 }
 
+bool has(const std::vector<Explanation>& explanations, const std::string& id) {
+  return std::any_of(explanations.begin(), explanations.end(),
+                     [&](const Explanation& each) { return each.id == id; });
+}
+
 /// Whether something was sought beside that effect alone.
 bool looked_beside(const DiagnosisState& state, const std::string& id, int links) {
   return std::any_of(state.found.stages.begin(), state.found.stages.end(), [&](const Stage& each) {
@@ -50,20 +57,39 @@ bool looked_beside(const DiagnosisState& state, const std::string& id, int links
   });
 }
 
-/// The effects that may be the first of a pair: those that left least of the base's misfit and
-/// beside which nothing was sought yet.
+/// The effects that may be the first of a pair, none beside which something was sought already: those
+/// that left least of the base's misfit alone, and members of the pairs and triples that are worth most
+/// together, be each alone worth little.
 std::vector<Explanation> firsts_on(const DiagnosisState& state, const Stage& base) {
+  const CandidateSearch search{state.context, base.model, {}, state.found.noise};
+  CandidateScores scores(search);
+  std::vector<Explanation> all = scores.score(false);
+  const auto take = [&](std::vector<Explanation> firsts, std::size_t count) {
+    std::erase_if(
+        firsts, [&](const Explanation& each) { return looked_beside(state, each.id, base.links); });
+    firsts.resize(std::min(firsts.size(), count));
+    return firsts;
+  };
   std::vector<Explanation> firsts =
       best_effects(base.explanations, state.found.noise, base.explanations.size());
   std::erase_if(firsts, [&](const Explanation& each) {
-    return !(each.comparison.misfit_share > kThresholds.worthwhile) ||
-           looked_beside(state, each.id, base.links);
+    return !(each.comparison.misfit_share > kThresholds.worthwhile);
   });
-  firsts.resize(std::min(firsts.size(), kThresholds.firsts_of_pairs));
+  firsts = take(std::move(firsts), kThresholds.firsts_of_pairs / 2);
+  std::vector<Explanation> together;
+  for (const std::string& id : scores.best_together())
+    for (const std::vector<Explanation>* known : {&base.explanations, &std::as_const(all)})
+      for (const Explanation& each : *known)
+        if (each.id == id && each.score.admissible && !has(firsts, id) && !has(together, id))
+          together.push_back(each);
+  together = take(std::move(together), kThresholds.firsts_of_pairs - firsts.size());
+  refit_rest(search, together);
+  for (Explanation& each : together)
+    if (each.refitted) firsts.push_back(std::move(each));
   return firsts;
 }
 
-bool has(const std::vector<Pair>& pairs, const std::string& a, const std::string& b) {
+bool has_pair(const std::vector<Pair>& pairs, const std::string& a, const std::string& b) {
   return std::any_of(pairs.begin(), pairs.end(),
                      [&](const Pair& pair) { return pair.first.id == b && pair.second.id == a; });
 }
@@ -83,7 +109,7 @@ void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& f
         !predicts_as_well(second.held_out, first.held_out))
       continue;
     const Comparison both = compare(base.model, second.model, state.found.noise);
-    if (!has(pairs, first.id, second.id) && both.criterion < 0 &&
+    if (!has_pair(pairs, first.id, second.id) && both.criterion < 0 &&
         second.chance <= kThresholds.chance)
       pairs.push_back({first, second, beside, {}});
   }
@@ -93,7 +119,8 @@ void add_pairs_of(DiagnosisState& state, const Stage& base, const Explanation& f
 void try_with_more_links(DiagnosisState& state, const Stage& base, std::vector<Pair>& pairs) {
   DiagnosisContext& context = state.context;
   const int links = state.more_links(base.links);
-  const bool closed = !pairs.empty() && pairs.front().second.fit.ratio() <= kThresholds.closed;
+  const bool closed = !pairs.empty() && nearly_closes(pairs.front().second.fit,
+                                                      fit_gap(base.model, state.found.noise));
   if (closed || links <= base.links) return;
   context.begin("refitting pairs with more links", pairs.size());
   in_parallel(pairs.size(), context.threads, [&](std::size_t k) {
@@ -129,7 +156,7 @@ bool add_pair(DiagnosisState& state) {
     if (!best || state.squares(pair.best()) < state.squares(best->best())) best = &pair;
   if (!best || state.squares(best->best()) >= state.squares(state.last().model)) return false;
   // Of as many effects, others take their place only where the data decide.
-  if ((explained(state.found.stages) || state.last().effects.size() >= 2) &&
+  if ((explained(state) || state.last().effects.size() >= 2) &&
       !decide(best->best(), state.last().model, state.found.noise).decided)
     return false;
   if (!state.generalises(held_out_gap(best->best(), state.found.noise)) ||

@@ -7,6 +7,7 @@
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/effects_with_links.hpp"
 #include "identify/diagnosis/refits.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/trim.hpp"
 #include "identify/diagnosis/verdict.hpp"
@@ -71,9 +72,10 @@ std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
   refit_best(search, explanations,
              state.options.refits + (far ? kThresholds.more_refits_when_far : 0), far);
   context.stop_if_asked();
+  const GapTest before = fit_gap(model, state.found.noise);
   const auto closed = [&] {
-    return std::any_of(explanations.begin(), explanations.end(), [](const Explanation& each) {
-      return each.refitted && each.fit.ratio() < kThresholds.closed;
+    return std::any_of(explanations.begin(), explanations.end(), [&](const Explanation& each) {
+      return each.refitted && nearly_closes(each.fit, before);
     });
   };
   // Far from the truth the score ranks wrongly: the others may be what is missing.

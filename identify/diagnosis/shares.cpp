@@ -111,7 +111,10 @@ std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
   return intervals;
 }
 
-FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::string>& kept) {
+namespace {
+
+/// Fitted anew.
+FittedModel fitted_with_effects(DiagnosisState& state, const std::vector<std::string>& kept) {
   DiagnosisContext& context = state.context;
   const FittedModel& whole = state.found.final;
   Case the_case = whole.problem->the_case();
@@ -136,6 +139,14 @@ FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::strin
   return best;
 }
 
+}  // namespace
+
+FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::string>& kept) {
+  const auto known = state.fits_with_effects.find(kept);
+  if (known != state.fits_with_effects.end()) return known->second;
+  return state.fits_with_effects[kept] = fitted_with_effects(state, kept);
+}
+
 Shares shares_of(DiagnosisState& state) {
   const std::vector<std::string>& effects = state.found.effects;
   if (effects.empty()) return {};
@@ -143,15 +154,21 @@ Shares shares_of(DiagnosisState& state) {
   SubsetResiduals fitted(subsets), held_out(subsets);
   state.context.begin("dividing the misfit among the effects", subsets - 1);
   std::vector<FittedModel> fits(subsets);
-  fits.back() = state.found.final;
-  in_parallel(subsets - 1, state.context.threads, [&](std::size_t subset) {
+  const auto kept_of = [&](std::size_t subset) {
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < effects.size(); ++i)
       if (subset >> i & 1u) kept.push_back(effects[i]);
-    fits[subset] = fit_with_effects(state, kept);
+    return kept;
+  };
+  fits.back() = state.found.final;
+  in_parallel(subsets - 1, state.context.threads, [&](std::size_t subset) {
+    fits[subset] = fitted_with_effects(state, kept_of(subset));
     state.context.end_task();
   });
   state.context.stop_if_asked();
+  state.fits_with_effects.clear();
+  for (std::size_t subset = 0; subset < subsets; ++subset)
+    state.fits_with_effects[kept_of(subset)] = fits[subset];
   for (std::size_t subset = 0; subset < subsets; ++subset) {
     if (!fits[subset].ok) return {};
     fitted[subset] = fits[subset].fit_residual;

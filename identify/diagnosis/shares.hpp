@@ -43,7 +43,8 @@ struct Shares {
 /// of them cannot be fitted. Throws Interrupted.
 Shares shares_of(DiagnosisState& state);
 
-/// The final model's case with some of its effects (`kept`), fitted from where the whole ended.
+/// The final model's case with some of its effects (`kept`, in the order found), fitted from where the
+/// whole ended. Those of shares_of() are known.
 FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::string>& kept);
 
 /// For every subset of the effects (bit i of the index: effect i is in it) the residuals of each

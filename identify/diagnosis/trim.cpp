@@ -73,8 +73,7 @@ FittedModel trim(const FittedModel& model, const std::vector<NoiseModel>& noise,
   const double allowed =
       dropped * std::log(static_cast<double>(std::max(2L, fit_gap(model, noise).count)));
   const bool as_good = sum_of_squares(refitted, noise) < sum_of_squares(model, noise) + allowed;
-  const bool opens_gap = gap_left(fit_gap(refitted, noise), held_out_gap(refitted, noise)) &&
-                         !gap_left(fit_gap(model, noise), held_out_gap(model, noise));
+  const bool opens_gap = as_good && gap_left(refitted, noise) && !gap_left(model, noise);
   return as_good && !opens_gap ? refitted : model;
 }
 

@@ -10,6 +10,7 @@
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/errors_of_knowns.hpp"
 #include "identify/diagnosis/final_model.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/residual_places.hpp"
 #include "identify/diagnosis/same_model.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
@@ -20,17 +21,10 @@
 namespace catena {
 namespace {
 
-bool held_out_gap_left(const GapTest& held_out) {
-  return held_out.count > 0 && !held_out.good_enough &&
-         held_out.ratio() > kThresholds.closed_held_out;
-}
-
-/// Little enough where it was fitted and where it was not.
-bool closed(const std::vector<Stage>& stages, bool with_effects, const GapTest& fit,
-            const GapTest& held_out) {
-  const bool fitted = fit.good_enough || (fit.ratio() <= kThresholds.closed &&
-                                          (!with_effects || !only_imitated(stages, fit)));
-  return fitted && !held_out_gap_left(held_out);
+/// Whether what is left without effects is too little to be called missing.
+bool too_small_to_name(const Diagnosis& found) {
+  const double small = std::pow(kThresholds.too_small_to_name, 2);
+  return leaves_no_more(found.final, found.noise, {small, small});
 }
 
 /// " with 24 links (12 were too few)", or nothing.
@@ -112,16 +106,19 @@ std::string sentence_of_unexplained(const Diagnosis& found, const DiagnosisOptio
                      listed(found.effects), left);
 }
 
-std::string sentence_of_effects(const Diagnosis& found) {
+/// `doubtful`: effects that plausible errors of knowns and sensors could stand for.
+std::string sentence_of_effects(const Diagnosis& found, const std::vector<std::string>& doubtful) {
   std::string sentence = "Missing: " + listed(found.effects) + of_more_links(found) + ".";
   for (const Alternative& form : found.forms)
     sentence += " Its other form " + form.explanation.id + " would do as well.";
   if (found.shares.effects.size() > 1)
     sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
-  if (found.alternatives.empty()) return sentence;
   std::vector<std::string> others;
+  for (const std::string& id : doubtful)
+    others.push_back("errors of what the case states or of the sensors instead of " + id);
   for (const Alternative& alternative : found.alternatives)
     others.push_back(alternative.explanation.id + " instead of " + alternative.instead_of);
+  if (others.empty()) return sentence;
   return sentence + " These data do not decide against " + listed(others) + ".";
 }
 
@@ -158,39 +155,30 @@ std::string wrong_knowns_in_words(const DiagnosisState& state) {
 
 }  // namespace
 
-bool gap_left(const GapTest& fit, const GapTest& held_out) {
-  return fit.present || held_out_gap_left(held_out);
-}
+bool gap_left(const Stage& stage) { return stage.fit.present || stage.held_out.present; }
 
-bool gap_left(const Stage& stage) { return gap_left(stage.fit, stage.held_out); }
+bool gap_left(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  return fit_gap(model, noise).present || tested_held_out_gap(model, noise).present;
+}
 
 bool trace_left(const Stage& stage) {
   return stage.fit.autocorrelation > kThresholds.trace_significance &&
          stage.fit.misfit > kThresholds.trace_misfit * stage.fit.noise;
 }
 
-bool explained(const std::vector<Stage>& stages) {
-  const Stage& last = stages.back();
-  return !gap_left(last) || closed(stages, true, last.fit, last.held_out);
+bool explained(const DiagnosisState& state) {
+  return !gap_left(state.last()) ||
+         (!state.last().effects.empty() &&
+          closes_gap(state.last().model, last_without_effects(state.found.stages).model,
+                     state.found.noise));
 }
 
-bool one_may_imitate_two(const std::vector<Stage>& stages) {
-  const Stage& last = stages.back();
-  return last.effects.size() == 1 && last.fit.ratio() > kThresholds.visible && trace_left(last) &&
-         std::pow(last.fit.misfit, 2) >
-             kThresholds.wrong_law * std::pow(last_without_effects(stages).fit.misfit, 2);
-}
+bool one_may_imitate_two(const Stage& last) { return last.effects.size() == 1 && trace_left(last); }
 
 const Stage& last_without_effects(const std::vector<Stage>& stages) {
   const auto last = std::find_if(stages.rbegin(), stages.rend(),
                                  [](const Stage& stage) { return stage.effects.empty(); });
   return last == stages.rend() ? stages.front() : *last;
-}
-
-bool only_imitated(const std::vector<Stage>& stages, const GapTest& last) {
-  return last.ratio() > kThresholds.visible &&
-         std::pow(last.misfit, 2) >
-             kThresholds.imitated * std::pow(last_without_effects(stages).fit.misfit, 2);
 }
 
 std::vector<std::string> standing_effects(const Diagnosis& found) {
@@ -213,7 +201,7 @@ void conclude(DiagnosisState& state, const Case& asked) {
   found.final = last.model;
   make_final_model(found, asked, state.context);
   found.final_fit = fit_gap(found.final, found.noise);
-  found.final_held_out = held_out_gap(found.final, found.noise);
+  found.final_held_out = tested_held_out_gap(found.final, found.noise);
   found.parameters = final_parameters(found);
   found.shares = shares_of(state);
   const auto note = [&](const std::string& words) {  // a discovery concludes twice
@@ -228,27 +216,28 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
-  const bool is_closed =
-      closed(found.stages, !found.effects.empty(), found.final_fit, found.final_held_out);
-  const bool too_small =
-      is_closed && found.final_fit.misfit < kThresholds.too_small_to_name * found.final_fit.noise;
-  if (found.effects.empty() && (!gap_left(last) || too_small)) {
+  const FittedModel& bare = last_without_effects(found.stages).model;
+  const bool is_closed = !found.effects.empty() && closes_gap(found.final, bare, found.noise);
+  // Beside a gap an effect has to be worth something of the whole misfit; where the gap is closed,
+  // of its own part.
+  const auto errors_could_explain = [&](const std::string& id) {
+    if (is_error_of_known(*state.context.find(id))) return false;
+    const BeyondErrorsOfKnowns beyond = beyond_errors_of_knowns(state, id);
+    if ((is_closed ? beyond.of_effect : beyond.of_misfit) > kThresholds.worthwhile) return false;
+    note(
+        fmt::format("plausible errors of what the case states and of the sensors could explain "
+                    "most of what {} does",
+                    id));
+    return true;
+  };
+  if (found.effects.empty() && (!gap_left(last) || too_small_to_name(found))) {
     found.verdict = DiagnosisVerdict::kNone;
     found.sentence = sentence_of_none(found);
     return;
   }
-  if (!is_closed || found.effects.empty()) {
+  if (!is_closed) {
     std::vector<std::string> stand = standing_effects(found);
-    std::erase_if(stand, [&](const std::string& id) {
-      if (is_error_of_known(*state.context.find(id)) ||
-          share_beyond_errors_of_knowns(state, id) > kThresholds.worthwhile)
-        return false;
-      note(
-          fmt::format("plausible errors of what the case states and of the sensors could explain "
-                      "most of what {} does",
-                      id));
-      return true;
-    });
+    std::erase_if(stand, errors_could_explain);
     found.certain.clear();
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);
@@ -263,16 +252,20 @@ void conclude(DiagnosisState& state, const Case& asked) {
                          : sentence_of_partly(found, stand) + wrong_knowns_in_words(state);
     return;
   }
-  std::erase_if(found.alternatives, [](const Alternative& alternative) {
+  std::erase_if(found.alternatives, [&](const Alternative& alternative) {
     return !alternative.explanation.is_effect() ||
-           alternative.explanation.fit.ratio() > kThresholds.closed;
+           !closes_gap(alternative.explanation.model, bare, found.noise);
   });
-  found.verdict =
-      found.alternatives.empty() ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
-  if (found.alternatives.empty()) found.certain = found.effects;
+  std::vector<std::string> doubtful;
+  std::copy_if(found.effects.begin(), found.effects.end(), std::back_inserter(doubtful),
+               errors_could_explain);
+  const bool decided = found.alternatives.empty() && doubtful.empty();
+  found.verdict = decided ? DiagnosisVerdict::kNamed : DiagnosisVerdict::kAmbiguous;
+  if (decided) found.certain = found.effects;
   if (!found.law.empty()) found.verdict = DiagnosisVerdict::kDiscovered;
-  found.sentence = (found.law.empty() ? sentence_of_effects(found) : sentence_of_law(found, true)) +
-                   wrong_knowns_in_words(state);
+  found.sentence =
+      (found.law.empty() ? sentence_of_effects(found, doubtful) : sentence_of_law(found, true)) +
+      wrong_knowns_in_words(state);
 }
 
 const char* name_of(DiagnosisVerdict verdict) {

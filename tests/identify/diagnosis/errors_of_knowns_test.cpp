@@ -56,7 +56,7 @@ Case measured(const testing::TemporaryFolder& folder, const Recording& recording
 
 /// What the effect explains beyond errors of knowns, of a motion with the effect's first parameter at
 /// `amount` and a cable that is heavier than stated by the share `heavier`.
-double share_of(const std::string& effect, double amount, double heavier) {
+BeyondErrorsOfKnowns beyond(const std::string& effect, double amount, double heavier) {
   const testing::TemporaryFolder folder;
   DiagnosisContext context(two_links(), {}, folder.path(), fit_least_squares, provider());
   const DiagnosisOptions options;
@@ -88,17 +88,21 @@ double share_of(const std::string& effect, double amount, double heavier) {
   // In the fitted part the effect explains what there is.
   CHECK(state.found.stages[0].fit.ratio() > 1.3);
   CHECK(state.found.stages[1].fit.ratio() < 1.1);
-  return share_beyond_errors_of_knowns(state, effect);
+  return beyond_errors_of_knowns(state, effect);
 }
 
 }  // namespace
 
 TEST_CASE("drag of the load is no error of a known") {
-  CHECK(share_of("load_drag", 0.05, 0) > 3 * kThresholds.worthwhile);
+  const BeyondErrorsOfKnowns of_drag = beyond("load_drag", 0.05, 0);
+  CHECK(of_drag.of_misfit > 3 * kThresholds.worthwhile);
+  CHECK(of_drag.of_effect > 3 * kThresholds.worthwhile);
 }
 
 TEST_CASE("mass centres off mid-link are not certain where the cable may be heavier than stated") {
-  CHECK(share_of("centre_offset", 0, 0.03) < kThresholds.worthwhile);
+  const BeyondErrorsOfKnowns of_offset = beyond("centre_offset", 0, 0.03);
+  CHECK(of_offset.of_misfit < kThresholds.worthwhile);
+  CHECK(of_offset.of_effect < kThresholds.worthwhile);
 }
 
 TEST_CASE("effects of sensors and of wrong knowns are errors of knowns, physics is none") {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "identify/diagnosis/fitted_model.hpp"
+#include "identify/diagnosis/remainder.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
 
@@ -70,4 +71,8 @@ TEST_CASE(
   const FittedModel other = assess(problem, wrong, fit_least_squares, nullptr);
   REQUIRE(other.ok);
   CHECK(held_out_gap(other, noise).ratio() > 2);
+
+  // Of windows that are held out only some unknowns have derivatives.
+  CHECK_FALSE(tested_held_out_gap(found, noise).present);
+  CHECK(tested_held_out_gap(other, noise).present);
 }

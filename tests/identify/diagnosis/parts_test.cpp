@@ -12,7 +12,6 @@
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/score.hpp"
 #include "identify/diagnosis/variant.hpp"
-#include "identify/diagnosis/verdict.hpp"
 #include "identify/noise/noise_level.hpp"
 
 namespace {
@@ -74,25 +73,6 @@ TEST_CASE("the misfit is the part that neighbouring frames share") {
   const catena::GapTest gap = catena::test_gap({both}, {{.level = 1e-3}});
   CHECK(gap.misfit == doctest::Approx(2e-3).epsilon(0.03));
   CHECK(gap.ratio() == doctest::Approx(std::sqrt(5.0)).epsilon(0.03));
-}
-
-TEST_CASE("what is left of a gap tells imitations from what is missing") {
-  std::vector<catena::Stage> stages(2);
-  stages[0].fit.misfit = 3e-3;
-  stages[1].effects = {"an_effect"};
-  stages[1].fit.misfit = 1e-3;  // with effects: no gap that they were added for
-  catena::GapTest last;
-  last.noise = 1e-3;
-  const auto with_misfit = [&](double misfit) {
-    last.misfit = misfit;
-    last.rms = std::hypot(last.noise, misfit);
-    return catena::only_imitated(stages, last);
-  };
-  CHECK_FALSE(with_misfit(0.3e-3));  // hardly visible
-  CHECK_FALSE(with_misfit(0.4e-3));  // visible, and 1.8 % of the gap
-  CHECK(with_misfit(0.45e-3));       // 2.3 %
-  stages[0].fit.misfit = 10e-3;      // of a larger gap that would be a trace
-  CHECK_FALSE(with_misfit(0.45e-3));
 }
 
 TEST_CASE("an effect predicts as well as the model without it up to a twentieth") {
