@@ -59,7 +59,8 @@ inline Filmed film(const Film& film, const truth::Hidden& hidden) {
   const truth::Cable cable = film.cable();
   const truth::Recording seen = truth::film(cable, hidden, film.start(), film.camera);
   // The recording is handed in: no file to read.
-  std::string text = truth::case_text(cable, film.camera, film.case_links);
+  std::string text = truth::case_text(cable, film.camera,
+                                      {.links = film.case_links, .recordings = {"markers.csv"}});
   const std::size_t experiment = text.find("[[experiment]]");
   text.erase(experiment, text.find("[error]") - experiment);
   Filmed filmed{film, parse_case(text, "case.toml", ""), {}};
