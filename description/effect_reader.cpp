@@ -315,11 +315,16 @@ class EffectReader {
         const double next =
             i + 1 < points.size() ? (values[i + 1] - values[i]) / (points[i + 1] - points[i]) : 0;
         const std::string x = place + shortest_number(points[i]) + "))";
-        text += "+(" + shortest_number((next - slope) / 2) + ")*(" + x + "+sqrt(" + x + "^2+" +
-                shortest_number(rounding) + "^2))";
+        text.append("+(").append(shortest_number((next - slope) / 2)).append(")*(").append(x);
+        text.append("+sqrt(")
+            .append(x)
+            .append("^2+")
+            .append(shortest_number(rounding))
+            .append("^2))");
         slope = next;
       }
-      definition.value.text = of + "*(" + text + ")";
+      definition.value.text = of;
+      definition.value.text.append("*(").append(text).append(")");
       effect_.definitions.push_back(definition);
     }
   }

@@ -101,13 +101,13 @@ std::string experiments(const Camera& camera, const CaseOptions& options) {
   for (const std::string& file : options.recordings) {
     const std::string name =
         options.recordings.size() == 1 ? "recording" : std::filesystem::path(file).stem().string();
-    text += "[[experiment]]\nname = \"" + name + "\"\ndata = \"" + file +
-            "\"\nkind = \"markers\"\nfit_until = " +
-            number(std::round(camera.duration * 0.7 * 10) / 10) + "\n";
+    text.append("[[experiment]]\nname = \"").append(name).append("\"\ndata = \"").append(file);
+    text.append("\"\nkind = \"markers\"\nfit_until = ");
+    text.append(number(std::round(camera.duration * 0.7 * 10) / 10)).append("\n");
     if (options.links == 1) {
       const std::string last = std::to_string(camera.markers);
-      text += "markers = [{name = \"bob\", side = \"side_" + last + "_m\", down = \"down_" + last +
-              "_m\", load = true}]\n";
+      text.append("markers = [{name = \"bob\", side = \"side_").append(last);
+      text.append("_m\", down = \"down_").append(last).append("_m\", load = true}]\n");
     }
     text += '\n';
   }

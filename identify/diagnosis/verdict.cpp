@@ -114,6 +114,7 @@ std::string sentence_of_effects(const Diagnosis& found, const std::vector<std::s
   if (found.shares.effects.size() > 1)
     sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
   std::vector<std::string> others;
+  others.reserve(doubtful.size() + found.alternatives.size());
   for (const std::string& id : doubtful)
     others.push_back("errors of what the case states or of the sensors instead of " + id);
   for (const Alternative& alternative : found.alternatives)

@@ -42,8 +42,8 @@ void set(const Model& model, VectorXd& p, const char* name, double value) {
 /// A chain from a ship to an anchor at this distance (m), whose lying part is as deep as the anchor. The anchor is
 /// the far end, or the ship.
 VectorXd moored(const Model& model, double distance, bool anchor_first) {
-  const int n = model.links();
-  const double length = kLength / n;
+  const Eigen::Index n = model.links();
+  const double length = kLength / static_cast<double>(n);
   VectorXd p = model.default_parameters();
   p.segment(0, n).setConstant(length);
   p.segment(n, n).setConstant(kDensity * length);
