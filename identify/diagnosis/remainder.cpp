@@ -20,8 +20,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kDraws = 199;
-constexpr std::uint64_t kSeed = 4;
+constexpr int kRemainders = 199;
+constexpr std::uint64_t kSeedOfRemainders = 4;
 /// The relative error of a noise level from n residuals is sqrt(1.5 / n): it is three times less sure
 /// than a standard deviation of n independent values (GapTest).
 constexpr double kErrorOfLevel = 1.5;
@@ -131,8 +131,8 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
   const double error_of_level =
       std::sqrt(kErrorOfLevel / std::max(1.0, static_cast<double>(residuals)));
   OfParts as_large{1, 1};
-  for (int draw = 0; draw < kDraws; ++draw) {
-    std::mt19937_64 random(kSeed + static_cast<std::uint64_t>(draw));
+  for (int draw = 0; draw < kRemainders; ++draw) {
+    std::mt19937_64 random(kSeedOfRemainders + static_cast<std::uint64_t>(draw));
     std::vector<MatrixXd> fitted, held_out;
     for (std::size_t e = 0; e < errors.size(); ++e) {
       const MatrixXd error = errors[e].draw(random);
@@ -151,7 +151,7 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
     as_large.fitted += excess(VectorXd(of_fitted.head(residuals))) >= observed.fitted;
     as_large.held_out += excess(of_held_out) >= observed.held_out;
   }
-  return {as_large.fitted / (1 + kDraws), as_large.held_out / (1 + kDraws)};
+  return {as_large.fitted / (1 + kRemainders), as_large.held_out / (1 + kRemainders)};
 }
 
 Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise) {
