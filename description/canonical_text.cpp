@@ -95,7 +95,8 @@ class CanonicalText {
       line("signal", s.name + " [" + with_single_spaces(s.unit) + "]");
     }
     for (const Coordinate& c : effect.coordinates) {
-      line("coordinate", c.name + " [" + with_single_spaces(c.unit) + "]");
+      line("coordinate", c.name + " [" + with_single_spaces(c.unit) + "]" +
+                             (c.at == Place::kLoad ? " load" : ""));
     }
     for (const ExtraState& s : effect.states) {
       line("state", s.name + " [" + with_single_spaces(s.unit) + "] " + word(s.at));
@@ -115,6 +116,8 @@ class CanonicalText {
       line("across", f.across);
       line("normal", f.normal);
       line("tangential", f.tangential);
+      line("along", f.along);
+      line("value", f.value);
     }
     for (const ScalarTerm& s : effect.scalars) {
       line(word(s.kind), std::string(word(s.at)) + (s.per_length ? " per length" : ""));
@@ -139,6 +142,9 @@ class CanonicalText {
     line("held_end.clamp_damping", effect.held_end.clamp_damping);
     line("centre_offset", effect.kinematics.centre_offset);
     line("load_offset", effect.kinematics.load_offset);
+    line("load_side", effect.kinematics.load_side);
+    line("load_down", effect.kinematics.load_down);
+    line("load_across", effect.kinematics.load_across);
     line("load_inertia", effect.kinematics.load_inertia);
     line("load_mass", effect.kinematics.load_mass);
     line("rest_angle", effect.kinematics.rest_angle);

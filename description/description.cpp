@@ -84,8 +84,9 @@ std::string plane_alone(const Effect& effect) {
   };
   for (const auto& [expression, why] : of_the_plane)
     if (expression->given()) return at(*expression, why);
-  if (!effect.coordinates.empty())
-    return "it adds coordinates, which links in space do not have yet";
+  for (const Coordinate& coordinate : effect.coordinates)
+    if (coordinate.at == Place::kLink)
+      return "it adds coordinates to links, which links in space do not have yet";
   std::vector<const Expression*> expressions;
   std::set<std::string> vectors = {"joint_rate"};  // and what may be made of them
   for (const ExtraState& state : effect.states) vectors.insert(state.name);
@@ -104,7 +105,8 @@ std::string plane_alone(const Effect& effect) {
   }
   for (const ForceTerm& force : effect.forces)
     for (const Expression* part :
-         {&force.side, &force.down, &force.across, &force.normal, &force.tangential})
+         {&force.side, &force.down, &force.across, &force.normal, &force.tangential, &force.along,
+          &force.value})
       expressions.push_back(part);
   for (const Definition& definition : effect.definitions) expressions.push_back(&definition.value);
   for (const Expression* expression : expressions)
@@ -138,8 +140,14 @@ Description parse_description(const std::string& text, const std::string& name) 
 std::vector<std::string> space_words() { return {"plane", "3d"}; }
 
 std::string why_not_in(Space space, const Effect& effect) {
+  const std::string word = space_words()[static_cast<std::size_t>(space)];
+  if (!effect.space.empty() && effect.space != word)
+    return "needs space = \"" + effect.space + "\", as its file says, and space is \"" + word +
+           "\"";
   if (space == Space::kPlane) {
     if (effect.held_end.holds()) return "holds the far end, which needs space = \"3d\"";
+    if (effect.kinematics.load_across.given())
+      return "moves the load across the plane, which needs space = \"3d\"";
     if (effect.support.across.given() || effect.support.turns() || effect.support.has_bend_axis())
       return "moves the support across the plane or turns its clamp, which needs space = \"3d\"";
     return "";
@@ -151,7 +159,7 @@ std::string why_not_in(Space space, const Effect& effect) {
 }
 
 std::string conflict_in(const Description& description) {
-  bool clamped = false, held = false, has_axis = false;
+  bool clamped = false, held = false, has_axis = false, swings = false;
   for (const Effect& effect : description.effects) {
     if (const std::string why = why_not_in(description.space, effect); !why.empty())
       return in_quotes(effect.id) + " " + why;
@@ -167,6 +175,11 @@ std::string conflict_in(const Description& description) {
     if (effect.held_end.holds() && held)
       return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
     held = held || effect.held_end.holds();
+    swings = swings || effect.moves_load();
+    if (held && swings)
+      return in_quotes(effect.id) +
+             ": a far end that is held has no load with coordinates of its own (per = \"load\"); "
+             "leave one away";
   }
   // What a held end adds to a model has names of these kinds.
   for (const Effect& effect : description.effects)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -78,6 +79,9 @@ struct ForceTerm {
   /// (cos a, -sin a); in space along the part of the velocity, or of the relative one, that is normal to
   /// the link: an odd function of velocity_normal, or of relative_normal, gives its size.
   Expression normal, tangential;
+  /// Instead of all these, at any place: `value` times the velocity `along`, which is linear in velocities
+  /// and rates, is the power of the force. Along the rate of an angle it is a moment, N m.
+  Expression along, value;
 };
 
 /// Velocity of the fluid around the chain, m/s, where a force asks for it: a function of the position
@@ -148,6 +152,7 @@ struct HeldEnd {
 struct Kinematics {
   Expression centre_offset;     ///< m, mass centre of link i past its middle, away from the support
   Expression load_offset;       ///< m, load past the end of link n, along link n
+  Expression load_side, load_down, load_across;  ///< m, load from the end of link n; across: in space
   Expression load_inertia;      ///< kg m^2, of the load about its own centre; it turns with link n
   Expression load_mass;         ///< kg, added to the load
   Expression rest_angle;        ///< rad, at every joint i: V = 1/2 k_i (joint angle - rest)^2
@@ -155,25 +160,26 @@ struct Kinematics {
   Expression extension;         ///< m, added to the length of link i; may use coordinates
   Expression gravity_tilt;      ///< rad, gravity turned from down towards side
 
-  std::array<const Expression*, 8> all() const {
-    return {&centre_offset, &load_offset,      &load_inertia, &load_mass,
-            &rest_angle,    &pivot_rest_angle, &extension,    &gravity_tilt};
+  std::array<const Expression*, 11> all() const {
+    return {&centre_offset, &load_offset, &load_side,        &load_down, &load_across, &load_inertia,
+            &load_mass,     &rest_angle,  &pivot_rest_angle, &extension, &gravity_tilt};
   }
 };
 
-/// A further generalised coordinate, one for each link.
+/// A further generalised coordinate, one for each link, or one of the load.
 struct Coordinate {
   std::string name;
   std::string unit;
   std::string description;
+  Place at = Place::kLink;  ///< kLink or kLoad
 };
 
-/// A further state of first order, one for each joint or for the pivot alone.
+/// A further state of first order, one for each joint, or one for the pivot or the load alone.
 struct ExtraState {
   std::string name;
   std::string unit;
   std::string description;
-  Place at = Place::kJoint;  ///< kJoint or kPivot
+  Place at = Place::kJoint;  ///< kJoint, kPivot or kLoad
   Expression rate;           ///< unit of the state / s
 };
 
@@ -203,6 +209,7 @@ struct Effect {
   std::string description;
   std::string form_of;  ///< id of the effect of which this is another law; empty: of none
   bool rare = false;    ///< a diagnosis looks for it only where the case says that it is possible
+  std::string space;    ///< "plane" or "3d": the only one that has it; empty: both
   std::string source_file;  ///< path, or "built in: <id>"
   std::vector<EffectParameter> parameters;
   std::vector<Constant> constants;
@@ -217,6 +224,12 @@ struct Effect {
   std::vector<ExtraState> states;
   std::vector<SignalChannel> signals;
   Sensor sensor;
+
+  /// Whether the load has coordinates of its own by this effect.
+  bool moves_load() const {
+    return std::any_of(coordinates.begin(), coordinates.end(),
+                       [](const Coordinate& coordinate) { return coordinate.at == Place::kLoad; });
+  }
 };
 
 /// Reads and checks an effect file. Throws InputError that names file, line, key, value and rule.

@@ -78,6 +78,9 @@ class Checks {
     }
     for (const Coordinate& coordinate : effect_.coordinates)
       rates.insert(coordinate.name + "_rate");
+    if (effect_.moves_load())
+      for (const Definition& definition : effect_.definitions)
+        rates.insert(definition.name + "_rate");
     for (const ExtraState& state : effect_.states) states.insert(state.name);
     times = with_definitions(times), rates = with_definitions(rates);
     states = with_definitions(states), relative = with_definitions(relative);
@@ -108,7 +111,8 @@ class Checks {
     for (const Definition& definition : effect_.definitions) use(definition.value);
     for (const ForceTerm& force : effect_.forces) {
       for (const Expression* expression :
-           {&force.side, &force.down, &force.across, &force.normal, &force.tangential})
+           {&force.side, &force.down, &force.across, &force.normal, &force.tangential,
+            &force.along, &force.value})
         use(*expression);
     }
     for (const ScalarTerm& term : effect_.scalars) use(term.value);
@@ -129,7 +133,7 @@ class Checks {
           "symbols in a force, or leave the table out");
     }
     const auto check = [&](const std::string& name) {
-      if (!used.contains(name)) {
+      if (!used.contains(name) && !used.contains(name + "_rate")) {
         fail(in_quotes(name) + " stands in no expression; use it or take it away");
       }
     };

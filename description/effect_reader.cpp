@@ -2,6 +2,7 @@
 #include "description/effect_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <set>
@@ -11,6 +12,7 @@
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
+#include "description/description.hpp"
 #include "description/effect.hpp"
 #include "description/effect_checks.hpp"
 #include "description/unit.hpp"
@@ -77,6 +79,7 @@ class EffectReader {
     effect_.form_of = file_.optional_text("form_of").value_or("");
     if (!effect_.form_of.empty()) check_identifier(file_, "form_of", effect_.form_of);
     effect_.rare = file_.optional_flag("rare").value_or(false);
+    if (file_.has("space")) effect_.space = space_words()[file_.choice("space", space_words())];
     read_parameters();
     read_constants();
     read_signals();
@@ -259,7 +262,7 @@ class EffectReader {
       add_name(table, "name", coordinate.name + "_rate");
       coordinate.unit = unit(table);
       coordinate.description = table.optional_text("description").value_or("");
-      table.choice("per", {"link"});
+      coordinate.at = table.choice("per", {"link", "load"}) == 0 ? Place::kLink : Place::kLoad;
       effect_.coordinates.push_back(coordinate);
     }
   }
@@ -271,7 +274,8 @@ class EffectReader {
       add_name(table, "name", state.name);
       state.unit = unit(table);
       state.description = table.optional_text("description").value_or("");
-      state.at = table.choice("per", {"joint", "pivot"}) == 0 ? Place::kJoint : Place::kPivot;
+      state.at = std::array{Place::kJoint, Place::kPivot,
+                            Place::kLoad}[table.choice("per", {"joint", "pivot", "load"})];
       state.rate = required(table, "rate");
       effect_.states.push_back(state);
     }
@@ -338,6 +342,8 @@ class EffectReader {
         definition.at = place(
             table, {Place::kJoint, Place::kPivot, Place::kLink, Place::kLinkCentre, Place::kLoad});
       }
+      if (definition.at == Place::kLoad && effect_.moves_load())
+        add_name(table, "name", definition.name + "_rate");
       definition.value = required(table, "value");
       effect_.definitions.push_back(definition);
     }
@@ -355,7 +361,11 @@ class EffectReader {
   void read_forces() {
     for (const TomlTable& table : file_.tables("force")) {
       ForceTerm force;
-      force.at = place(table, {Place::kJoint, Place::kLinkCentre, Place::kLoad});
+      const bool generalised = table.has("along") || table.has("value");
+      force.at = place(table, generalised
+                                  ? std::vector{Place::kJoint, Place::kPivot, Place::kLink,
+                                                Place::kLinkCentre, Place::kLoad}
+                                  : std::vector{Place::kJoint, Place::kLinkCentre, Place::kLoad});
       force.per_length = per_length(table, force.at);
       force.side = expression(table, "side");
       force.down = expression(table, "down");
@@ -364,8 +374,14 @@ class EffectReader {
       force.tangential = expression(table, "tangential");
       const bool cartesian = force.side.given() || force.down.given() || force.across.given();
       const bool along_link = force.normal.given() || force.tangential.given();
-      if (cartesian == along_link) {
-        table.fail("give the force as side, down and across, or as normal and tangential");
+      if (cartesian + along_link + generalised != 1) {
+        table.fail(
+            "give the force as side, down and across, or as normal and tangential, or as value and "
+            "along");
+      }
+      if (generalised) {
+        force.along = required(table, "along");
+        force.value = required(table, "value");
       }
       if (along_link && force.at == Place::kJoint) {
         table.fail("a joint has no normal of its own; give side and down, or at = \"link_centre\"");
@@ -431,6 +447,9 @@ class EffectReader {
       Kinematics& kinematics = effect_.kinematics;
       kinematics.centre_offset = expression(*table, "centre_offset");
       kinematics.load_offset = expression(*table, "load_offset");
+      kinematics.load_side = expression(*table, "load_side");
+      kinematics.load_down = expression(*table, "load_down");
+      kinematics.load_across = expression(*table, "load_across");
       kinematics.load_inertia = expression(*table, "load_inertia");
       kinematics.load_mass = expression(*table, "load_mass");
       kinematics.rest_angle = expression(*table, "rest_angle");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/chain.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "common/in_quotes.hpp"
@@ -203,6 +204,7 @@ void Chain::make_inputs() {
   }
   for (const Effect& effect : description_.effects) {
     for (const Coordinate& coordinate : effect.coordinates) {
+      if (coordinate.at == Place::kLoad) continue;
       const std::string name = effect.id + "_" + coordinate.name;
       auto& symbols = effect_symbols_[effect.id + "." + coordinate.name];
       symbols.resize(1);
@@ -213,6 +215,11 @@ void Chain::make_inputs() {
       }
     }
     for (const ExtraState& state : effect.states) {
+      if (state.at == Place::kLoad) {
+        effect_symbols_[effect.id + "." + state.name] = {
+            definitions_.input(effect.id + "_" + state.name)};
+        continue;
+      }
       const Link last = state.at == Place::kPivot ? 1 : links_;
       for (const std::string& component : state_components()) {
         auto& symbols = effect_symbols_[effect.id + "." + state.name + component];
@@ -225,8 +232,7 @@ void Chain::make_inputs() {
       for (const Axis axis : axes()) {
         const std::string name = "hold" + ending(axis);
         hold_.push_back(definitions_.input(name));
-        add_coordinate(hold_.back(), definitions_.input(name + "_dot"),
-                       definitions_.input(name + "_ddot"));
+        add_border_coordinate(name);
       }
     }
     for (const SignalChannel& signal : effect.signals) {
@@ -237,6 +243,20 @@ void Chain::make_inputs() {
       time_.set(rate, definitions_.input(name + "_acceleration"));
     }
   }
+  for (const Effect& effect : description_.effects) {
+    for (const Coordinate& coordinate : effect.coordinates) {
+      if (coordinate.at != Place::kLoad) continue;
+      const std::string name = effect.id + "_" + coordinate.name;
+      effect_symbols_[effect.id + "." + coordinate.name] = {definitions_.input(name)};
+      add_border_coordinate(name);
+    }
+  }
+}
+
+void Chain::add_border_coordinate(const std::string& name) {
+  add_coordinate(definitions_.input(name), definitions_.input(name + "_dot"),
+                 definitions_.input(name + "_ddot"));
+  ++border_;
 }
 
 ex Chain::define_variable(const std::string& family, int index, const ex& value) {
@@ -255,13 +275,53 @@ ex Chain::define_variable(const std::string& family, int index, const ex& value)
   return variable;
 }
 
+// A variable of the load. Functions in its value have names; these are variables, too.
+ex Chain::define_shape(const std::string& family, const ex& value) {
+  const ex variable = define_variable(family, kNoIndex, value);
+  differentiate_names_in(definitions_[definitions_.number_of(variable)].value);
+  return variable;
+}
+
+void Chain::differentiate_names_in(const ex& value) {
+  for (const int number : definitions_.symbols_of(value)) {
+    const Symbol symbol = definitions_[number];
+    if (symbol.is_input || symbol.family == "sine" || symbol.family == "cosine" ||
+        variable_of_rate_.contains(number) || quasi_velocities_.contains(number) ||
+        variables_.contains(number) || time_.of(symbol.symbol).is_zero())
+      continue;
+    variables_.insert(number);
+    differentiate_names_in(symbol.value);
+  }
+}
+
+// The coefficients of the rates and quasi-velocities in an expression that is linear in them, by their
+// numbers. None, if it is a function of the shape; nothing, if it is not linear.
+std::optional<std::map<int, ex>> Chain::coefficients_of_rates(const ex& velocity) const {
+  const auto is_rate = [&](int number) {
+    return variable_of_rate_.contains(number) || quasi_velocities_.contains(number);
+  };
+  std::map<int, ex> coefficients;
+  ex rest = velocity;
+  for (const int number : definitions_.symbols_of(velocity)) {
+    if (!is_rate(number)) continue;
+    const ex symbol = definitions_[number].symbol;
+    const ex coefficient = velocity.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+    const std::vector<int> inside = definitions_.symbols_of(coefficient);
+    if (std::any_of(inside.begin(), inside.end(), is_rate)) return {};
+    coefficients[number] = coefficient;
+    rest -= coefficient * symbol;
+  }
+  if (!coefficients.empty() && !rest.expand().is_zero()) return {};
+  return coefficients;
+}
+
 // (2.24)-(2.27), with the changes that effects make
 void Chain::make_kinematics() {
   ex support[3];
   for (const Effect& effect : description_.effects) {
-    support[kSide] += evaluate(effect, effect.support.side, kShape, Place::kLoad, 0, "m");
-    support[kDown] += evaluate(effect, effect.support.down, kShape, Place::kLoad, 0, "m");
-    support[kAcross] += evaluate(effect, effect.support.across, kShape, Place::kLoad, 0, "m");
+    support[kSide] += evaluate(effect, effect.support.side, kShape, Place::kAnywhere, 0, "m");
+    support[kDown] += evaluate(effect, effect.support.down, kShape, Place::kAnywhere, 0, "m");
+    support[kAcross] += evaluate(effect, effect.support.across, kShape, Place::kAnywhere, 0, "m");
   }
   if (!in_plane()) {
     turn_clamp();
@@ -304,16 +364,18 @@ void Chain::make_kinematics() {
     joint_angle_.push_back(define_variable("joint_angle", i, theta_[i] - above - rest));
   }
   const ex load_offset = kinematic(&Kinematics::load_offset, "m", Place::kLoad, 0);
+  Expression Kinematics::*const displacement[] = {&Kinematics::load_side, &Kinematics::load_down,
+                                                  &Kinematics::load_across};
   for (const Axis axis : axes()) {
     const ex& end = joint_[axis][links_];
-    load_.push_back(load_offset.is_zero()
-                        ? end
-                        : define_variable("load" + ending(axis), kNoIndex,
-                                          end + load_offset * direction_[axis][links_]));
+    const ex displaced = load_offset * direction_[axis][links_] +
+                         kinematic(displacement[axis], "m", Place::kLoad, 0);
+    load_.push_back(displaced.is_zero() ? end
+                                        : define_shape("load" + ending(axis), end + displaced));
   }
-  load_mass_ += kinematic(&Kinematics::load_mass, "kg", Place::kLoad, 0);
-  load_inertia_ = kinematic(&Kinematics::load_inertia, "kg m^2", Place::kLoad, 0);
-  const ex tilt = kinematic(&Kinematics::gravity_tilt, "rad", Place::kLoad, 0);
+  load_mass_ += kinematic(&Kinematics::load_mass, "kg", Place::kAnywhere, 0);
+  load_inertia_ = kinematic(&Kinematics::load_inertia, "kg m^2", Place::kAnywhere, 0);
+  const ex tilt = kinematic(&Kinematics::gravity_tilt, "rad", Place::kAnywhere, 0);
   cos_tilt_ =
       tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
@@ -389,6 +451,12 @@ void Chain::add_momentum(int rate, const ex& momentum) {
     if (of != variable_of_rate_.end()) add_generalised_force(of->second, time_.of(p * partial));
     if (variables_.count(number)) add_generalised_force(number, -p * partial);
     if (quasi_velocities_.count(number)) add_momentum(number, p * partial);
+    if (of == variable_of_rate_.end() && definitions_[number].family == "sine")
+      add_generalised_force(theta_[definitions_[number].index],
+                            -p * partial * cosine_[definitions_[number].index]);
+    if (of == variable_of_rate_.end() && definitions_[number].family == "cosine")
+      add_generalised_force(theta_[definitions_[number].index],
+                            p * partial * sine_[definitions_[number].index]);
   }
 }
 

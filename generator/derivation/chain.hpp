@@ -41,6 +41,10 @@
 // mu nor mu' enters the equations. A force on mu, -(2 a g' + a^2 g), lets a gap close as
 // exp(-a t) (Baumgarte), so that errors of steps do not add up.
 //
+// A load with coordinates of its own, such as the angle of a hook, is a point whose position depends on them,
+// too. They belong to no link and come last, like mu; what effects name at such a load are variables y, or
+// quasi-velocities, so that T of a body that turns freely is written in its angular velocity.
+//
 // The velocity v of a point, normal to its link, is a vector in space. Effects are written in its size,
 // which is that of v x e, and the force along it is (a number) e x (v x e). In the plane v x e has one
 // component, across, which is the velocity along the normal (cos a, -sin a).
@@ -49,6 +53,7 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -110,6 +115,8 @@ class Chain {
   const std::vector<std::vector<GiNaC::ex>>& direction_forces() const { return direction_force_; }
   /// Of the last coordinates, how many belong to the constraint of a held end: three, or none.
   int constraints() const { return static_cast<int>(hold_.size()); }
+  /// Of the last coordinates, how many belong to no link: those of the load, or of that constraint.
+  int border() const { return border_; }
   /// The gap of that constraint, m, by axis: empty where the end is free.
   const std::vector<GiNaC::ex>& gap() const { return gap_; }
   /// What holds an end exerts on the chain, by axis: force, N, and moment, N m (in the plane one).
@@ -171,6 +178,7 @@ class Chain {
                               const std::vector<const Expression*>& components,
                               const std::string& name, const std::string& unit_name, int index);
   void add_coordinate(const ex& q, const ex& v, const ex& a);
+  void add_border_coordinate(const std::string& name);
   void add_chain_terms();
   void add_joint_terms(Link k);
   void add_effect_terms(const Effect& effect);
@@ -196,6 +204,9 @@ class Chain {
   std::vector<ex> moment_of_joint(Link i);
   ex define_variable(const std::string& family, int index, const ex& value);
   ex define_quasi_velocity(const std::string& family, int index, const ex& value);
+  ex define_shape(const std::string& family, const ex& value);
+  void differentiate_names_in(const ex& value);
+  std::optional<std::map<int, ex>> coefficients_of_rates(const ex& velocity) const;
 
   /// The symbols that an expression at link or joint i may use (docs/effects.md): those of the
   /// shape, or those of the motion too.
@@ -218,13 +229,17 @@ class Chain {
   };
   Surroundings surroundings(const Effect& effect, Knowledge knowledge, Place place, Link i);
   void add_definitions(const Effect& effect, Knowledge knowledge, Place place,
-                       ExpressionContext& known);
+                       Surroundings& here);
+  void add_load_definition(const Effect& effect, const Definition& definition, Surroundings& here);
+  ex without_sizes(ex value, const Expression& expression, const Surroundings& here,
+                   bool in_energy = false) const;
   void add_size(Surroundings& here, const std::string& name, const char* unit,
                 const std::vector<ex>& components, const std::vector<ex>& direction = {});
   void add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here);
   std::vector<ex> flow(const Effect& effect, Place place, Link i);
   void add_force_term(const Effect& effect, const ForceTerm& force, Link i);
   void add_torque_of_joint(const Effect& effect, const ScalarTerm& term, Link i);
+  void add_force_along(const Effect& effect, const ForceTerm& force, Link i);
   void add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i);
   /// What follows the name of a state; in space it is a vector.
   std::vector<std::string> state_components() const;
@@ -265,7 +280,9 @@ class Chain {
   std::vector<std::vector<ex>> rest_bend_;  ///< in space, [joint][axis]: empty if straight at rest
   std::vector<ex> load_;                    ///< by axis
   ex cos_tilt_, sin_tilt_;
-  std::map<std::string, std::vector<ex>> effect_symbols_;  ///< coordinates, states: by "id.name"
+  /// Coordinates, states: by "id.name"; of links and joints from 1 on, at 0 that of the load.
+  std::map<std::string, std::vector<ex>> effect_symbols_;
+  std::map<std::string, ex> load_definitions_;  ///< by "id.name"
 
   std::vector<ex> coordinates_, rates_, accelerations_, residual_, states_, state_rates_;
   Points point_;
@@ -273,6 +290,7 @@ class Chain {
   std::vector<EnergyItem> energies_;
   EnergyFunctions energy_functions_;
   Sensor sensor_;
+  int border_ = 0;
   std::vector<ex> hold_, end_, gap_;  ///< by axis: mu, where the end is held, what is between
   bool end_is_clamped_ = false;
   std::vector<Reaction> reactions_;

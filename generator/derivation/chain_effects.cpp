@@ -34,6 +34,14 @@ bool has_root_of(const ex& expression, const ex& square) {
   return false;
 }
 
+// Whether all names in an expression are known there.
+bool has_meaning(const Expression& expression, const ExpressionContext& known) {
+  const std::set<std::string> names = names_in(expression);
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return name == "pi" || known.symbols.contains(name);
+  });
+}
+
 }  // namespace
 
 ex Chain::effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i) {
@@ -69,7 +77,7 @@ void Chain::add_size(Surroundings& here, const std::string& name, const char* un
 // The velocity of the fluid, by axis.
 std::vector<ex> Chain::flow(const Effect& effect, Place place, Link i) {
   Surroundings here = surroundings(effect, kPosition, place, i);
-  add_definitions(effect, kPosition, place, here.known);
+  add_definitions(effect, kPosition, place, here);
   std::vector<ex> velocity;
   const std::string prefix = effect.id + "_" + at_load(place) + "flow_";
   for (const auto& [axis, part] : {std::pair{"side", &effect.flow.side},
@@ -199,6 +207,7 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
     add("inertia", inertia_[i], "kg m^2");
     add("arc", arc_[i - 1] + length_[i] / 2, "m");
     for (const Coordinate& coordinate : effect.coordinates) {
+      if (coordinate.at == Place::kLoad) continue;
       const ex symbol = effect_symbols_.at(effect.id + "." + coordinate.name)[i];
       add(coordinate.name, symbol, coordinate.unit);
       add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
@@ -223,7 +232,7 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
         add_size(here, "joint_rate", "rad/s", turning, turning);
       }
       for (const ExtraState& state : effect.states) {
-        if (state.at == Place::kPivot && i != 1) continue;
+        if (state.at == Place::kLoad || (state.at == Place::kPivot && i != 1)) continue;
         std::vector<ex> symbols;
         for (const std::string& component : state_components())
           symbols.push_back(effect_symbols_.at(effect.id + "." + state.name + component)[i]);
@@ -234,7 +243,19 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
         }
       }
     }
-  } else if (place == Place::kLoad && knowledge != kShape) {
+  } else if (place == Place::kLoad) {
+    for (const Coordinate& coordinate : effect.coordinates) {
+      if (coordinate.at != Place::kLoad) continue;
+      const ex symbol = effect_symbols_.at(effect.id + "." + coordinate.name)[0];
+      add(coordinate.name, symbol, coordinate.unit);
+      if (motion) add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
+    }
+    if (knowledge == kShape) return here;
+    if (motion) {
+      for (const ExtraState& state : effect.states)
+        if (state.at == Place::kLoad)
+          add(state.name, effect_symbols_.at(effect.id + "." + state.name)[0], state.unit);
+    }
     add("load_mass", load_mass_, "kg");
     if (motion) add_angle(links_);
     add_point();
@@ -244,21 +265,47 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
 }
 
 void Chain::add_definitions(const Effect& effect, Knowledge knowledge, Place place,
-                            ExpressionContext& known) {
+                            Surroundings& here) {
   for (const Definition& definition : effect.definitions) {
-    const bool here =
+    const bool at_place =
         definition.at == place || (definition.at == Place::kJoint && place == Place::kPivot);
-    if (definition.at != Place::kAnywhere && (!here || knowledge != kMotion)) continue;
-    add_definition(definition, known);
+    if (at_place && place == Place::kLoad && effect.moves_load()) {
+      // What moves the load is a function of its shape, and so are some of the definitions.
+      if (knowledge == kMotion || has_meaning(definition.value, here.known))
+        add_load_definition(effect, definition, here);
+    } else if (definition.at == Place::kAnywhere || (at_place && knowledge == kMotion)) {
+      add_definition(definition, here.known);
+    }
   }
 }
 
-ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge,
-                   Place place, Link i, const char* unit, bool in_energy) {
-  if (!expression.given()) return 0;
-  Surroundings here = surroundings(effect, knowledge, place, i);
-  add_definitions(effect, knowledge, place, here.known);
-  ex value = parse_expression(expression, here.known, Unit::parse(unit));
+// At a load with coordinates of its own, a definition of the shape is a variable, whose rate has a name, too,
+// and one that is linear in rates is a quasi-velocity. Others are written out where they are used.
+void Chain::add_load_definition(const Effect& effect, const Definition& definition,
+                                Surroundings& here) {
+  const auto [value, unit] = parse_expression(definition.value, here.known);
+  const bool of_sizes =
+      std::any_of(here.sizes.begin(), here.sizes.end(),
+                  [&, &v = value](const Size& size) { return v.has(size.placeholder); });
+  if (of_sizes) return here.known.add(definition.name, value, unit);
+
+  const auto rates = coefficients_of_rates(value);
+  const bool of_shape = rates && rates->empty();
+  const auto [named, is_new] = load_definitions_.emplace(effect.id + "." + definition.name, value);
+  const std::string family = effect.id + "_" + definition.name;
+  if (is_new && of_shape && !time_.of(value).is_zero()) {
+    named->second = define_shape(family, value);
+  } else if (is_new && rates && !of_shape) {
+    named->second = define_quasi_velocity(family, kNoIndex, value);
+    differentiate_names_in(definitions_[definitions_.number_of(named->second)].value);
+  }
+  here.known.add(definition.name, named->second, unit);
+  if (of_shape)
+    here.known.add(definition.name + "_rate", time_.of(named->second), unit / Unit::parse("s"));
+}
+
+ex Chain::without_sizes(ex value, const Expression& expression, const Surroundings& here,
+                        bool in_energy) const {
   for (const Size& size : here.sizes) {
     if (has_root_of(value, size.placeholder))
       fail_at(expression, in_quotes(size.name) +
@@ -269,6 +316,15 @@ ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge
                        GiNaC::subs_options::no_pattern);
   }
   return value;
+}
+
+ex Chain::evaluate(const Effect& effect, const Expression& expression, Knowledge knowledge,
+                   Place place, Link i, const char* unit, bool in_energy) {
+  if (!expression.given()) return 0;
+  Surroundings here = surroundings(effect, knowledge, place, i);
+  add_definitions(effect, knowledge, place, here);
+  return without_sizes(parse_expression(expression, here.known, Unit::parse(unit)), expression,
+                       here, in_energy);
 }
 
 std::vector<std::string> Chain::state_components() const {
@@ -282,7 +338,7 @@ std::vector<std::string> Chain::state_components() const {
 std::vector<ex> Chain::evaluate_vector(const Effect& effect, const Expression& expression,
                                        Place place, Link i, const char* unit) {
   Surroundings here = surroundings(effect, kMotion, place, i);
-  add_definitions(effect, kMotion, place, here.known);
+  add_definitions(effect, kMotion, place, here);
   const ex value = parse_expression(expression, here.known, Unit::parse(unit)).expand();
   std::vector<ex> vector(axes().size());
   const auto add_term = [&](const ex& term) {
@@ -315,7 +371,7 @@ std::vector<ex> Chain::evaluate_vector(const Effect& effect, const Expression& e
 std::vector<ex> Chain::force_along_normal(const Effect& effect, const ForceTerm& force, Link i,
                                           const ex& scale, const char* unit) {
   Surroundings here = surroundings(effect, kMotion, force.at, i);
-  add_definitions(effect, kMotion, force.at, here.known);
+  add_definitions(effect, kMotion, force.at, here);
   const ex value = parse_expression(force.normal, here.known, Unit::parse(unit));
   const auto is_even = [&](const ex& factor) {
     return std::none_of(here.sizes.begin(), here.sizes.end(),
@@ -362,6 +418,13 @@ void Chain::add_effect_terms(const Effect& effect) {
   };
   for (const ExtraState& state : effect.states) {
     const std::string unit = state.unit + "/s";
+    if (state.at == Place::kLoad) {
+      states_.push_back(effect_symbols_.at(effect.id + "." + state.name)[0]);
+      state_rates_.push_back(
+          definitions_.named(evaluate(effect, state.rate, kMotion, state.at, 0, unit.c_str()),
+                             effect.id + "_" + state.name + "_rate", kNoIndex));
+      continue;
+    }
     const std::vector<std::string> components = state_components();
     std::vector<std::vector<ex>> rates(1);  // [joint][component]
     each(state.at, [&](Link i) {
@@ -389,7 +452,31 @@ void Chain::add_effect_terms(const Effect& effect) {
     each(term.at, [&](Link i) { add_scalar_term(effect, term, i); });
 }
 
+void Chain::add_force_along(const Effect& effect, const ForceTerm& force, Link i) {
+  Surroundings here = surroundings(effect, kMotion, force.at, i);
+  add_definitions(effect, kMotion, force.at, here);
+  const auto [velocity, unit] = parse_expression(force.along, here.known);
+  const ex along = without_sizes(velocity, force.along, here);
+  const auto coefficients = coefficients_of_rates(along);
+  if (!coefficients || coefficients->empty())
+    fail_at(force.along,
+            "it is not linear in velocities and rates; a force does work along one of them, such as "
+            "velocity_side, or along a sum of them times functions of the shape");
+  const Unit wanted = Unit::parse(force.per_length ? "W/m" : "W") / unit;
+  const ex value = definitions_.define(
+      effect.id + "_" + at_load(force.at) + "force_along", index_at(force.at, i),
+      (force.per_length ? length_[i] : ex(1)) *
+          without_sizes(parse_expression(force.value, here.known, wanted), force.value, here));
+  for (const auto& [rate, coefficient] : *coefficients) {
+    const auto variable = variable_of_rate_.find(rate);
+    add_generalised_force(variable == variable_of_rate_.end() ? rate : variable->second,
+                          -value * coefficient);
+  }
+  add_energy(effect.id, EnergyItem::kSupplied, value * along);
+}
+
 void Chain::add_force_term(const Effect& effect, const ForceTerm& force, Link i) {
+  if (force.along.given()) return add_force_along(effect, force, i);
   const char* unit = force.per_length ? "N/m" : "N";
   const ex scale = force.per_length ? length_[i] : ex(1);
   const auto part = [&](const char* what, const Expression& expression) {
@@ -468,20 +555,15 @@ void Chain::add_sensors() {
   for (const Effect& effect : description_.effects) {
     if (!effect.sensor.given()) continue;
     sensor_.given = true;
-    ExpressionContext symbols = surroundings(effect, kShape, Place::kLoad, 0).known;
+    ExpressionContext symbols = surroundings(effect, kShape, Place::kAnywhere, 0).known;
     ExpressionContext clock_symbols = symbols;
     symbols.add("side", sensor_.side, Unit::parse("m"));
     symbols.add("down", sensor_.down, Unit::parse("m"));
     symbols.add("angle", sensor_.angle, Unit::parse("rad"));
     for (const Definition& definition : effect.definitions) {
       if (definition.at != Place::kAnywhere) continue;
-      for (ExpressionContext* known : {&symbols, &clock_symbols}) {
-        const std::set<std::string> names = names_in(definition.value);
-        const bool has_meaning = std::all_of(names.begin(), names.end(), [&](const auto& name) {
-          return name == "pi" || known->symbols.contains(name);
-        });
-        if (has_meaning) add_definition(definition, *known);
-      }
+      for (ExpressionContext* known : {&symbols, &clock_symbols})
+        if (has_meaning(definition.value, *known)) add_definition(definition, *known);
     }
     const auto replace = [&](ex& what, const Expression& by, const ExpressionContext& known,
                              const char* unit) {

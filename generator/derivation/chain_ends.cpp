@@ -30,7 +30,7 @@ std::vector<ex> Chain::unit_vector(const Effect& effect,
   for (const Axis axis : axes()) {
     vector.push_back(
         define_variable(name + ending(axis), kNoIndex,
-                        evaluate(effect, *components[axis], kShape, Place::kLoad, 0, "1")));
+                        evaluate(effect, *components[axis], kShape, Place::kAnywhere, 0, "1")));
     square += vector.back() * vector.back();
   }
   const ex scale =
@@ -95,7 +95,7 @@ void Chain::place_held_end() {
   const Expression* const place[] = {&held.side, &held.down, &held.across};
   for (const Axis axis : axes())
     end_.push_back(define_variable("end" + ending(axis), kNoIndex,
-                                   evaluate(effect, *place[axis], kShape, Place::kLoad, 0, "m")));
+                                   evaluate(effect, *place[axis], kShape, Place::kAnywhere, 0, "m")));
   for (const Axis axis : axes())
     gap_.push_back(
         define_variable("gap" + ending(axis), kNoIndex, joint_[axis][links_] - end_[axis]));
@@ -112,10 +112,10 @@ void Chain::place_held_end() {
     const ex usual = of_joints[links_] * shorter;
     ex value = usual;
     if (given.given()) {
-      Surroundings here = surroundings(effect, kShape, Place::kLoad, 0);
+      Surroundings here = surroundings(effect, kShape, Place::kAnywhere, 0);
       here.known.add("stiffness", stiffness_[links_] * shorter, Unit::parse("N m/rad"));
       here.known.add("damping", damping_[links_] * shorter, Unit::parse("N m s/rad"));
-      add_definitions(effect, kShape, Place::kLoad, here.known);
+      add_definitions(effect, kShape, Place::kAnywhere, here);
       value = parse_expression(given, here.known, Unit::parse(unit));
     }
     of_joints.push_back(definitions_.define(name, kNoIndex, value));

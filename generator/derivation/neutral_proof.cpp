@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/neutral_proof.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/number_text.hpp"
@@ -54,6 +55,26 @@ class AtNeutral {
   GiNaC::exmap shared_;
 };
 
+// What a load with coordinates of its own has beyond the plain chain must not see the chain: the same with
+// other coordinates of the links, and rates and accelerations, is the same expression.
+class OtherLinks {
+ public:
+  explicit OtherLinks(const Chain& plain) {
+    const auto replace = [&](const std::vector<ex>& symbols) {
+      for (std::size_t k = 0; k < plain.coordinates().size(); ++k)
+        other_[symbols[k]] = GiNaC::realsymbol("other_" + std::to_string(other_.size()));
+    };
+    replace(plain.coordinates()), replace(plain.rates()), replace(plain.accelerations());
+  }
+
+  ex of(const ex& expression) const {
+    return expression.subs(other_, GiNaC::subs_options::no_pattern);
+  }
+
+ private:
+  GiNaC::exmap other_;
+};
+
 ex sum_of(const std::vector<ex>& parts) {
   ex sum = 0;
   for (const ex& part : parts) sum += part;
@@ -74,7 +95,10 @@ NeutralProofs prove_neutral(const Description& description, int links) {
       }
       own = own || !std::isnan(parameter.neutral);
     }
-    if (!effect.coordinates.empty() || effect.held_end.holds()) {
+    const bool stretches =
+        std::any_of(effect.coordinates.begin(), effect.coordinates.end(),
+                    [](const Coordinate& coordinate) { return coordinate.at == Place::kLink; });
+    if (stretches || effect.held_end.holds()) {
       result.why_not = effect.id + " has coordinates that the plain chain does not have";
     } else if (!own) {
       result.why_not = effect.id + " has no parameter with a neutral value";
@@ -93,10 +117,17 @@ NeutralProofs prove_neutral(const Description& description, int links) {
     return at_neutral.of(of_model) - written_out.of(of_plain);
   };
 
+  const OtherLinks other_links(plain);
+  const auto change_with_links = [&](const ex& of_model) {
+    const ex at_these = at_neutral.of(of_model);
+    return at_these - other_links.of(at_these);
+  };
   EntryComparison residual("residual");
   for (std::size_t i = 0; i < model.residual().size(); ++i) {
+    const bool of_load = i >= plain.residual().size();
     residual.entry("(" + std::to_string(i + 1) + ")",
-                   difference(model.residual()[i], plain.residual()[i]));
+                   of_load ? change_with_links(model.residual()[i])
+                           : difference(model.residual()[i], plain.residual()[i]));
   }
   result.proofs.push_back(residual.proof());
 
@@ -106,7 +137,11 @@ NeutralProofs prove_neutral(const Description& description, int links) {
     for (const EnergyItem& other : plain.energies()) {
       if (other.name == item.name && other.kind == item.kind) expected = sum_of(other.parts);
     }
-    energies.entry(" of " + item.name, difference(sum_of(item.parts), expected));
+    const bool of_load = std::any_of(
+        description.effects.begin(), description.effects.end(),
+        [&](const Effect& effect) { return effect.id == item.name && effect.moves_load(); });
+    energies.entry(" of " + item.name, of_load ? change_with_links(sum_of(item.parts))
+                                               : difference(sum_of(item.parts), expected));
   }
   result.proofs.push_back(energies.proof());
 

@@ -112,7 +112,7 @@ class Linearisation {
 
   /// Of u at one link.
   int components() const {
-    return (static_cast<int>(chain_.coordinates().size()) - chain_.constraints()) / links_;
+    return (static_cast<int>(chain_.coordinates().size()) - chain_.border()) / links_;
   }
 
   const std::set<std::string>& down() const { return down_; }
@@ -323,13 +323,41 @@ void require_only(const Form& form, const std::string& family, int i, bool allow
   }
 }
 
+// The derivative along one coordinate of no link, in an implicit step. Extra states follow as
+// Linearisation::change_of_state says.
+Differential along_border(Chain& chain, const Weights& weights, size_t coordinate) {
+  Definitions& definitions = chain.definitions();
+  const auto seeded = [&] {
+    Differential along(definitions, [](const std::string& family) { return family + "_held"; });
+    along.set(chain.coordinates()[coordinate], weights.position);
+    along.set(chain.rates()[coordinate], weights.velocity);
+    along.set(chain.accelerations()[coordinate], weights.acceleration);
+    return along;
+  };
+  Differential along = seeded(), with_states_held = seeded();
+  for (size_t k = 0; k < chain.states().size() && !weights.velocity.is_zero(); ++k) {
+    const ex& state = chain.states()[k];
+    const ex change = with_states_held.of(chain.state_rates()[k]);
+    if (change.is_zero()) continue;
+    Differential by_state(definitions,
+                          [](const std::string& family) { return family + "_by_state"; });
+    by_state.set(state, 1);
+    const Symbol symbol = definitions[definitions.number_of(state)];
+    const ex gain = definitions.define(
+        symbol.family + "_gain", symbol.index,
+        weights.velocity / (1 - weights.velocity * by_state.of(chain.state_rates()[k])));
+    along.set(state, gain * change);
+  }
+  return along;
+}
+
 using Columns = std::vector<std::vector<ex>>;  // [component][rank] or [component][component]
 
 void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasiseparable& result) {
   Definitions& definitions = chain.definitions();
   const int n = chain.links(), before = definitions.size();
   const size_t block = chain.axes().size() == 2 ? 1 : 3;
-  const size_t inner = block * static_cast<size_t>(n), border = chain.constraints();
+  const size_t inner = block * static_cast<size_t>(n), border = chain.border();
   if (chain.coordinates().size() != inner + border) {
     throw NotOfThisForm("there are coordinates besides one angle a link");
   }
@@ -391,28 +419,30 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   }
   result.border = static_cast<int>(border);
   result.border_column = result.border_row = table(border);
+  result.corner.assign(border, std::vector<ex>(border));
+  const auto numbered = [](size_t k) { return "_" + std::to_string(k); };
   for (size_t k = 0; k < border; ++k) {
-    Differential along_hold(definitions,
-                            [](const std::string& family) { return family + "_held"; });
-    along_hold.set(chain.accelerations()[inner + k], weights.acceleration);
-    const Form constraint = linearisation.at_link(chain.residual()[inner + k], n + 1);
-    for (const auto& [basis, coefficient] : constraint)
-      if (basis.kind != Basis::kCarriedDown) throw NotOfThisForm("a constraint is not of the end");
+    Differential along = along_border(chain, weights, inner + k);
+    const Form row = linearisation.at_link(chain.residual()[inner + k], n + 1);
+    for (const auto& [basis, coefficient] : row)
+      if (basis.kind == Basis::kCarriedUp)
+        throw NotOfThisForm("an equation of no link depends on cut forces");
     for (int i = 1; i <= n; ++i) {
       for (size_t a = 0; a < block; ++a) {
         const ex& r = chain.residual()[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
         result.border_column[i][a][k] =
-            definitions.named(along_hold.of(r), joined({"border_column", ending(a), ending(k)}), i);
-        ex by_link = 0;
+            definitions.named(along.of(r), joined({"border_column", ending(a), numbered(k)}), i);
+        ex by_link = i == n ? entry(row, perturbation(a, n)) : ex(0);
         for (size_t f = 0; f < down.size(); ++f)
-          by_link += entry(constraint, {Basis::kCarriedDown, down[f], n}) * B[i][a][f];
+          by_link += entry(row, {Basis::kCarriedDown, down[f], n}) * B[i][a][f];
         result.border_row[i][a][k] =
-            definitions.named(by_link, joined({"border_row", ending(a), ending(k)}), i);
+            definitions.named(by_link, joined({"border_row", ending(a), numbered(k)}), i);
       }
     }
     for (size_t l = 0; l < border; ++l)
-      if (!along_hold.of(chain.residual()[inner + l]).is_zero())
-        throw NotOfThisForm("a constraint depends on what holds the end");
+      result.corner[l][k] = definitions.named(along.of(chain.residual()[inner + l]),
+                                              joined({"corner", numbered(l), numbered(k)}),
+                                              kNoIndex);
   }
   std::set<int> sums;
   for (int i = n; i >= 1; --i) {
@@ -515,16 +545,22 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       for (size_t b = 0; same && b < a; ++b)
         same = equal(result.diagonal[i][a][b], result.diagonal[i][b][a]);
     }
+    for (size_t a = 0; a < block; ++a)
+      for (size_t k = 0; same && k < border; ++k)
+        same = equal(result.border_row[i][a][k], result.border_column[i][a][k]);
     result.symmetric = result.symmetric && same;
   }
+  for (size_t k = 0; k < border; ++k)
+    for (size_t l = 0; l < k; ++l)
+      result.symmetric = result.symmetric && equal(result.corner[k][l], result.corner[l][k]);
   result.below = below;
   result.above = above;
-  // One link has nothing to couple. Blocks have arrays all the same, of zeros.
+  // One link has nothing to couple. Blocks, and what has a border, have arrays all the same, of zeros.
   for (auto* list :
        {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {
     for (Columns& rows : *list)
       for (std::vector<ex>& row : rows)
-        if (block > 1 && row.empty()) row.push_back(0);
+        if ((block > 1 || border > 0) && row.empty()) row.push_back(0);
   }
   result.block = static_cast<int>(block);
   result.upper_rank = static_cast<int>(result.upper_row[1][0].size());

@@ -22,10 +22,10 @@
 // Whether the definitions have this form is decided exactly, coefficient by coefficient, for each
 // link. In space u_i has three components, and what has the index i above are blocks.
 //
-// The constraints of a held end have coordinates mu of their own, which border N by their columns and rows,
-// one each for a component of mu. Their accelerations are in the residual where the definitions that are
-// carried up begin, so that columns are derivatives along mu''; the rows are Hx of the constraint times the
-// B_j of what is carried down. No constraint depends on mu.
+// Coordinates s of no link, those of the load and of the constraint of a held end, border N by their columns
+// and rows, one each. The load and the end are functions of what is carried down to the end, so rows are Hx of
+// the equation of s times the B_j; nothing that is carried down depends on s, so columns are derivatives along
+// s; the corner where both meet is the derivative of the equations of s along s.
 //
 // Extra states have rates f(q, v, z); the rate of a state must not depend on another state. In an
 // implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
@@ -52,9 +52,10 @@ struct Quasiseparable {
   using Entries = std::vector<std::vector<std::vector<GiNaC::ex>>>;
   Entries upper_row, upper_column, lower_row, lower_column;
   Entries diagonal, below, above;  ///< T_{i,i} with all of N_ii; e_i; f_i
-  int border = 0;                  ///< rows and columns of constraints beyond N
+  int border = 0;                  ///< rows and columns of coordinates of no link, beyond N
   Entries border_column,
-      border_row;  ///< [i][a][k]: of residual a of link i by mu_k, and of constraint k
+      border_row;  ///< [i][a][k]: of residual a of link i by s_k, and of equation k by link i
+  std::vector<std::vector<GiNaC::ex>> corner;  ///< [k][l]: of equation k by s_l
 };
 
 /// Weights of accelerations, velocities and coordinates in N.

@@ -42,6 +42,8 @@ ModelFunctions derive(const Description& description, int links) {
 // The functions for any number of links; throws std::logic_error where there are none.
 ModelFunctions functions_for_any_links(const Description& description) {
   ModelFunctions any = derive(description, kGivesProgram);
+  if (any.summary.border > 0)
+    throw std::logic_error("the rows of coordinates of the load stand behind a fixed number of links");
   const ModelFunctions more = derive(description, kGivesProgram + 1);
   require_alike(any, more);
   for (std::size_t k = 0; k < any.functions.size(); ++k) {

@@ -303,10 +303,10 @@ static void @matrix_solve_transposed_in_place(@Matrix* m, double* x) {
 
 inline const char* const kBorderMembers =
     "  double border_column[@block * @border][kLinks], border_row[@block * @border][kLinks];\n"
-    "  double schur[@border * @border];\n";
+    "  double corner[@border * @border], schur[@border * @border];\n";
 
 inline const char* const kBordered = R"(
-/* x of the rows of multipliers -= left' x of the links: all (a, k) of left in array a * @border + k. */
+/* x of the rows beyond the links -= left' x of the links: all (a, k) of left in array a * @border + k. */
 static void @whole_border_rest(double (*const left)[kLinks], double* x) {
   for (int k = 0; k < @border; ++k) {
     for (int a = 0; a < @block; ++a) {
@@ -316,8 +316,8 @@ static void @whole_border_rest(double (*const left)[kLinks], double* x) {
   }
 }
 
-/* Multipliers from what is left of their rows, entries of schur stride and other apart; then x of the
-   links -= right times multipliers. */
+/* Unknowns beyond the links from what is left of their rows, entries of schur stride and other apart; then x of the
+   links -= right times these. */
 static void @whole_border_solve(const double* schur, int stride, int other,
                                 double (*const right)[kLinks], double* x) {
   double rest[@border];
@@ -336,7 +336,7 @@ static void @whole_border_solve(const double* schur, int stride, int other,
 /* Factors in place: border_column is multiplied by the inverse of the links' matrix, schur is the inverse
    of the complement. Returns 0, or the 1-based number of an unknown whose pivot vanished. */
 static int32_t @whole_factor_in_place(@Matrix* m) {
-  double complement[@border * @border] = {0.0};
+  double complement[@border * @border];
   int32_t failed = @matrix_factor_in_place(m);
   if (failed != 0) return failed;
   for (int k = 0; k < @border; ++k) {
@@ -351,6 +351,7 @@ static int32_t @whole_factor_in_place(@Matrix* m) {
   }
   for (int k = 0; k < @border; ++k) {
     for (int l = 0; l < @border; ++l) {
+      complement[k * @border + l] = m->corner[k * @border + l];
       for (int a = 0; a < @block; ++a) {
         for (int i = 0; i < kLinks; ++i)
           complement[k * @border + l] -=
@@ -405,6 +406,10 @@ static void to_dense(const MassMatrix* m, double* M) {
         M[(@block * kLinks + k) * kCoordinates + a * kLinks + i] = m->border_row[a * @border + k][i];
       }
     }
+  }
+  for (int k = 0; k < @border; ++k) {
+    for (int l = 0; l < @border; ++l)
+      M[(@block * kLinks + k) * kCoordinates + @block * kLinks + l] = m->corner[k * @border + l];
   }
 }
 )";

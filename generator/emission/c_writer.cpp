@@ -313,7 +313,7 @@ std::string filled_in(const std::string& text, const std::string& type, const Ma
   const std::map<std::string, std::string> values = {
       {"members", form.border > 0 ? kBorderMembers : ""},
       {"Matrix", type == "mass" ? "MassMatrix" : "NewtonMatrix"},
-      {"Solved", form.block > 1 ? "NewtonMatrix" : "const NewtonMatrix"},
+      {"Solved", is_in_blocks(form) ? "NewtonMatrix" : "const NewtonMatrix"},
       {"border", std::to_string(form.border)},
       {"block", std::to_string(form.block)},
       {"matrix", type + (form.border > 0 ? "_links" : "")},
@@ -337,7 +337,7 @@ std::string filled_in(const std::string& text, const std::string& type, const Ma
 
 // The type of a matrix without symmetry, its factors and the solution.
 std::string quasiseparable_text(const MatrixForm& form) {
-  return (form.block > 1 ? kBlockQuasiseparable : kQuasiseparable) +
+  return (is_in_blocks(form) ? kBlockQuasiseparable : kQuasiseparable) +
          std::string(form.border > 0 ? kBordered : "");
 }
 
@@ -360,7 +360,7 @@ std::string matrices_text(const ModelFunctions& functions) {
   }
   if (!functions.summary.structured) return text;
   return text + filled_in(quasiseparable_text(newton) +
-                              (newton.block > 1 ? kBlockSolveTransposed : kSolveTransposed) +
+                              (is_in_blocks(newton) ? kBlockSolveTransposed : kSolveTransposed) +
                               (newton.border > 0 ? kBorderedTransposed : ""),
                           "newton", newton);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/emitted_files.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -39,6 +40,7 @@ std::string summary_text(const Description& description, const ModelSummary& s) 
                                 {"rank_below", s.newton_lower_rank}};
   if (s.block > 1) structure["rows_of_a_block"] = s.block;
   if (s.constraints > 0) structure["rows_of_constraints"] = s.constraints;
+  if (s.border > s.constraints) structure["rows_of_the_load"] = s.border - s.constraints;
   structure["stiffness_matrix"] = {{"constant_symmetric_tridiagonal", s.stiffness_tridiagonal}};
   structure["damping_matrix"] = {{"constant_symmetric_tridiagonal", s.damping_tridiagonal}};
   structure["obstacle"] = s.why_not;
@@ -91,10 +93,13 @@ std::string cmake_list(const std::vector<std::string>& names) {
 
 EmittedFiles support_for(const Description& description) {
   EmittedFiles files = support_text();
+  const bool moves_load =
+      std::any_of(description.effects.begin(), description.effects.end(),
+                  [](const Effect& effect) { return effect.moves_load(); });
   if (description.space == Space::kPlane) {
-    for (const char* name : {"angle_over_sine.hpp", "block_quasiseparable.hpp",
-                             "block_semiseparable.hpp", "bordered.hpp"})
-      files.erase(name);
+    for (const char* name : {"angle_over_sine.hpp", "block_semiseparable.hpp"}) files.erase(name);
+    if (!moves_load)
+      for (const char* name : {"block_quasiseparable.hpp", "bordered.hpp"}) files.erase(name);
   }
   return files;
 }

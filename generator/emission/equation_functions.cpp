@@ -64,10 +64,10 @@ void FunctionBuilder::adjoint() {
   Inputs inputs = at_;
   // A family of weights for each family of coordinates or states.
   const auto add_all = [&](const std::vector<ex>& values, const std::string& weight,
-                           int constraints = 0) {
-    const int of_links = static_cast<int>(values.size()) - constraints;
+                           int border = 0) {
+    const int of_links = static_cast<int>(values.size()) - border;
     for (int i = of_links; i < static_cast<int>(values.size()); ++i) {
-      const std::string name = weight + "_of_constraint_" + std::to_string(i - of_links + 1);
+      const std::string name = weight + "_beyond_links_" + std::to_string(i - of_links + 1);
       gradient.add(values[static_cast<size_t>(i)], definitions_.input(name), kNoIndex);
       inputs[name] = Input{InputKind::kEntry, Type::kScalar, name, {"", weight + "s", {}}, i};
     }
@@ -80,7 +80,7 @@ void FunctionBuilder::adjoint() {
           Input{InputKind::kArray, Type::kScalar, name, {"", weight + "s", {}}, family * links_};
     }
   };
-  add_all(chain_.residual(), "weight", chain_.constraints());
+  add_all(chain_.residual(), "weight", chain_.border());
   add_all(chain_.state_rates(), "rate_weight");
   gradient.accumulate();
   std::vector<Output> outputs;

@@ -52,6 +52,7 @@ ModelFunctions FunctionBuilder::build() {
   s.layout = layout_;
   s.coordinates = static_cast<int>(table.coordinates.size());
   s.constraints = chain_.constraints();
+  s.border = chain_.border();
   s.states = static_cast<int>(table.states.size());
   s.signals = static_cast<int>(table.signals.size());
   s.parameters = static_cast<int>(table.parameters.size());

@@ -106,7 +106,7 @@ class FunctionBuilder {
   std::vector<Output> from_coordinates(const std::string& array,
                                        const std::vector<GiNaC::ex>& values) const {
     std::vector<Output> outputs;
-    const int of_links = static_cast<int>(values.size()) - chain_.constraints();
+    const int of_links = static_cast<int>(values.size()) - chain_.border();
     for (int i = 0; i < static_cast<int>(values.size()); ++i) {
       const int link = i % links_ + 1;
       const long family = i / links_;

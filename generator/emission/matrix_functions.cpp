@@ -30,7 +30,13 @@ void add_entries(std::vector<Output>& outputs, const std::string& array,
 
 std::vector<Output> all_entries(const Quasiseparable& q, bool symmetric) {
   std::vector<Output> outputs;
-  const bool blocks = q.block > 1;
+  const bool blocks = q.block > 1 || q.border > 0;
+  for (size_t k = 0, number = 0; k < q.corner.size(); ++k)
+    for (const ex& entry : q.corner[k])
+      outputs.push_back({{"matrix", "corner", {}},
+                         kNoIndex,
+                         ArrayPlace{{}, false, static_cast<long>(number++)},
+                         entry});
   if (q.border > 0) {
     add_entries(outputs, "border_column", q.border_column, true);
     add_entries(outputs, "border_row", q.border_row, true);

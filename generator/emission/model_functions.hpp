@@ -59,9 +59,12 @@ struct MatrixForm {
   enum Kind { kDense, kSymmetricSemiseparable, kQuasiseparable } kind = kDense;
   int upper_rank = 0, lower_rank = 0;  ///< of the semiseparable parts
   int block = 1;                       ///< rows of the blocks that are its entries
-  int border = 0;                      ///< rows and columns beyond them, of constraints
+  int border = 0;                      ///< rows and columns beyond them, of no link
   bool operator==(const MatrixForm&) const = default;
 };
+
+/// Whether its arrays are those of blocks, be they of one entry.
+inline bool is_in_blocks(const MatrixForm& form) { return form.block > 1 || form.border > 0; }
 
 /// The function of double precision behind a member of the table.
 struct TableEntry {

@@ -401,6 +401,9 @@ std::string structure_text(const ModelFunctions& functions) {
   } else {
     out << "//   Newton matrix: general form: " << s.why_not << "\n";
   }
+  if (s.border > 0 && s.structured)
+    out << "//   both bordered by " << s.border
+        << " rows and columns of no link, which a Schur complement eliminates\n";
   if (s.stiffness_tridiagonal) out << "//   K: constant, symmetric, tridiagonal\n";
   if (s.damping_tridiagonal) out << "//   C: constant, symmetric, tridiagonal\n";
   return out.str();
@@ -423,13 +426,13 @@ std::string in_lines(std::string head, const std::vector<std::string>& arguments
 }
 
 std::string space_include(const ModelFunctions& functions) {
-  if (functions.space == Space::kPlane) return "";
-  std::string text =
-      "#include \"angle_over_sine.hpp\"\n"
-      "#include \"block_quasiseparable.hpp\"\n"
-      "#include \"block_semiseparable.hpp\"\n";
-  if (functions.summary.constraints > 0) text += "#include \"bordered.hpp\"\n";
-  return text;
+  const std::string bordered =
+      functions.summary.border > 0 ? "#include \"bordered.hpp\"\n" : "";
+  if (functions.space == Space::kPlane) return bordered;
+  return "#include \"angle_over_sine.hpp\"\n"
+         "#include \"block_quasiseparable.hpp\"\n"
+         "#include \"block_semiseparable.hpp\"\n" +
+         bordered;
 }
 
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {

@@ -26,7 +26,8 @@ struct ModelSummary {
   bool mass_symmetric = false;   ///< proved from its rows and columns
   int mass_rank = 0, newton_upper_rank = 0, newton_lower_rank = 0;
   int block = 1;        ///< both are of blocks of so many rows
-  int constraints = 0;  ///< of a held end, which border both
+  int constraints = 0;  ///< of a held end
+  int border = 0;       ///< rows and columns of no link, of the load or of constraints, beyond both
   bool stiffness_tridiagonal = false, damping_tridiagonal = false;
   std::string why_not;  ///< what stands in the way of a structure
   Layout layout = Layout::kLoops;

@@ -48,11 +48,11 @@ int copies(const EffectParameter& parameter, int links) {
   return parameter.scope == Scope::kModel ? 1 : links;
 }
 
-int copies(const ExtraState& state, int links) { return state.at == Place::kPivot ? 1 : links; }
+int copies(const ExtraState& state, int links) { return state.at == Place::kJoint ? links : 1; }
 
-// What follows the name of a state: in space it is a vector.
-std::vector<std::string> components_of_states(const Description& description) {
-  if (description.space == Space::kPlane) return {""};
+// What follows the name of a state: in space that of a joint is a vector.
+std::vector<std::string> components_of(const ExtraState& state, const Description& description) {
+  if (description.space == Space::kPlane || state.at == Place::kLoad) return {""};
   return {"_side", "_down", "_across"};
 }
 
@@ -82,18 +82,23 @@ TableFamilies table_families(const Description& description) {
            parameter.scope != Scope::kModel});
     }
     for (const Coordinate& coordinate : effect.coordinates)
-      table.coordinates.push_back({{id + coordinate.name, coordinate.unit}, true});
+      if (coordinate.at == Place::kLink)
+        table.coordinates.push_back({{id + coordinate.name, coordinate.unit}, true});
     if (effect.held_end.holds())
       for (const char* name : kHold) table.coordinates.push_back({{name, "N s^2"}});
     for (const ExtraState& state : effect.states) {
-      const bool of_each_link = state.at != Place::kPivot;
-      for (const std::string& component : components_of_states(description))
+      const std::string number = state.at == Place::kPivot ? "_1" : "";
+      for (const std::string& component : components_of(state, description))
         table.states.push_back(
-            {{id + state.name + component + (of_each_link ? "" : "_1"), state.unit}, of_each_link});
+            {{id + state.name + component + number, state.unit}, state.at == Place::kJoint});
     }
     for (const SignalChannel& signal : effect.signals)
       table.signals.push_back({{id + signal.name, signal.unit}});
   }
+  for (const Effect& effect : description.effects)
+    for (const Coordinate& coordinate : effect.coordinates)
+      if (coordinate.at == Place::kLoad)
+        table.coordinates.push_back({{effect.id + "." + coordinate.name, coordinate.unit}});
   return table;
 }
 
@@ -141,12 +146,14 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
     for (const EffectParameter& row : effect.parameters) {
       parameter(name(row), copies(row, links), row.scope != Scope::kModel);
     }
-    for (const Coordinate& row : effect.coordinates) coordinate(name(row), true);
+    for (const Coordinate& row : effect.coordinates)
+      if (row.at == Place::kLink) coordinate(name(row), true);
     if (effect.held_end.holds())
       for (const char* hold : kHold) coordinate(hold, false);
     for (const ExtraState& state : effect.states) {
-      for (const std::string& component : components_of_states(description)) {
-        places.push_back({name(state) + component, 'z', z, copies(state, links), true});
+      for (const std::string& component : components_of(state, description)) {
+        places.push_back(
+            {name(state) + component, 'z', z, copies(state, links), state.at != Place::kLoad});
         z += copies(state, links);
       }
     }
@@ -156,6 +163,9 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
       }
     }
   }
+  for (const Effect& effect : description.effects)
+    for (const Coordinate& row : effect.coordinates)
+      if (row.at == Place::kLoad) coordinate(effect.id + "_" + row.name, false);
   return places;
 }
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Linear equations of models whose far end is held: those of block_quasiseparable.hpp, N, with a few more
-// rows and columns for the multipliers of constraints,
+// Linear equations of models with coordinates of no link, those of the load or the multipliers of a held end:
+// those of block_quasiseparable.hpp, N, with a few more rows and columns,
 //
 //     ( N  C ) (x)
-//     ( R  0 ) (m)
+//     ( R  E ) (m)
 //
-// in time proportional to the number of links, by the Schur complement S = -R N^-1 C.
+// in time proportional to the number of links, by the Schur complement S = E - R N^-1 C.
 //
-// Entry (a, k) of border_column and border_row is in array a * border + k: of row a of link i and multiplier k,
-// and of constraint k and unknown a of link i. Multipliers stand after all links.
+// Entry (a, k) of border_column and border_row is in array a * border + k: of row a of link i and unknown k of
+// m, and of row k beyond the links and unknown a of link i. m stands after all links. Entry (k, l) of E is
+// corner[k * border + l].
 #pragma once
 
 #include "block_quasiseparable.hpp"
@@ -21,6 +22,7 @@ struct Bordered : BlockQuasiseparable<T, links, upper_rank, lower_rank, block> {
   using Inner = BlockQuasiseparable<T, links, upper_rank, lower_rank, block>;
   static constexpr int n = block * links;
   T border_column[block * border][links], border_row[block * border][links];
+  T corner[border * border];
   T schur[border][border];
 
   /// Factors in place; afterwards border_column holds N^-1 C and schur the inverse of S. Returns 0, or the
@@ -38,7 +40,7 @@ struct Bordered : BlockQuasiseparable<T, links, upper_rank, lower_rank, block> {
     Square complement, inverse;
     for (int k = 0; k < border; ++k) {
       for (int l = 0; l < border; ++l) {
-        T sum = T(0);
+        T sum = corner[k * border + l];
         for (int a = 0; a < block; ++a)
           for (int i = 0; i < links; ++i)
             sum = negative_multiply_add(border_row[a * border + k][i],
@@ -105,7 +107,7 @@ struct Bordered : BlockQuasiseparable<T, links, upper_rank, lower_rank, block> {
     for (int i = n - 1; i >= 0; --i)
       for (int j = n - 1; j >= 0; --j) matrix[i * whole + j] = matrix[i * n + j];
     for (int k = 0; k < border; ++k) {
-      for (int l = 0; l < border; ++l) matrix[(n + k) * whole + n + l] = T(0);
+      for (int l = 0; l < border; ++l) matrix[(n + k) * whole + n + l] = corner[k * border + l];
       for (int a = 0; a < block; ++a) {
         for (int i = 0; i < links; ++i) {
           matrix[(a * links + i) * whole + n + k] = border_column[a * border + k][i];
