@@ -90,6 +90,7 @@ class Search {
         parameters_(parameters),
         t_(t),
         links_(model.links()),
+        movable_(model.coordinates() - (model.held() ? 3 : 0)),
         u_(static_cast<std::size_t>(3 * model.signals())),
         zero_(VectorXd::Zero(std::max(model.coordinates(), model.states()))),
         a_(VectorXd::Zero(model.coordinates())),
@@ -123,19 +124,19 @@ class Search {
       return Status::kSingular;
     }
     // What moves an end by a function of time acts on the constraint at all shapes alike.
-    const Index links = 3 * links_, constraints = model_.coordinates() - links;
+    const Index constraints = model_.coordinates() - movable_;
     a_.tail(constraints) = a.tail(constraints);
     model_.residual(at(a_), r_.data());
     const VectorXd offset = r_.tail(constraints);
     const auto evaluate = [&] {
       model_.residual(at(a_), r_.data());
       r_.tail(constraints) -= offset;
-      return r_.head(links).norm();
+      return r_.head(movable_).norm();
     };
     double size = evaluate();
     // In a plumb chain all forces vanish, in numbers too.
     if (size == 0) return Status::kSuccess;
-    double weight = a.head(links).cwiseAbs().maxCoeff() / kFirstStep;
+    double weight = a.head(movable_).cwiseAbs().maxCoeff() / kFirstStep;
     const double first = size, slowest = 1e-6 * weight;
     for (int count = 0; count < kMostSteps; ++count) {
       if (model_.newton_factor(at(a_), weight, 0.0, 1.0, work_.data()) != 0) {
@@ -149,9 +150,9 @@ class Search {
         continue;
       }
       const VectorXd before = state_.q;
-      const double longest = step.head(links).cwiseAbs().maxCoeff();
+      const double longest = step.head(movable_).cwiseAbs().maxCoeff();
       step *= std::min(1.0, kLongestStep / longest);
-      state_.q.head(links) += step.head(links);
+      state_.q.head(movable_) += step.head(movable_);
       a_.tail(constraints) += weight * step.tail(constraints);
       normalise();
       const double moved = (state_.q - before).cwiseAbs().maxCoeff();
@@ -184,7 +185,7 @@ class Search {
   const Model& model_;
   const VectorXd& parameters_;
   double t_;
-  Index links_;
+  Index links_, movable_;  ///< movable: the coordinates of links and load
   std::vector<double> u_;
   VectorXd zero_, a_, r_;
   std::vector<double> work_;

@@ -79,6 +79,7 @@ void require_neutral(const Description& description) {
   for (const Effect& effect : description.effects) {
     Description alone = plain_chain();
     alone.effects = {effect};
+    if (!why_not_in(alone.space, effect).empty()) alone.space = description.space;
     for (const Proof& proof : prove_neutral(alone, kLinks).proofs) {
       if (proof.equal) continue;
       std::string values;

@@ -84,6 +84,12 @@ enum class Shape {
   kHanging,   ///< the equilibrium; straight down for the plain chain
 };
 
+/// The start of one coordinate of the load.
+struct LoadStart {
+  std::string coordinate;  ///< as the model's table names it: "swinging_load.swing"
+  double value = 0, rate = 0;
+};
+
 struct InitialSpec {
   Shape shape = Shape::kHanging;
   int terms = 6;                        ///< kSmooth
@@ -104,6 +110,9 @@ struct InitialSpec {
   /// In space, of the angles out of that plane, rad, towards growing azimuth, as many as
   /// coefficients; and of their rates, rad/s, as many as velocity_coefficients. Empty: as azimuths.
   std::vector<double> out_of_plane, out_of_plane_rates;
+
+  /// Coordinates of the load that are not named are in equilibrium where the shape is, and zero elsewhere.
+  std::vector<LoadStart> load;
 
   /// The lists of coefficients in the order in which unknowns count them.
   std::array<std::vector<double>*, 4> coefficient_lists() {

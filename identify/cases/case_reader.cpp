@@ -221,6 +221,16 @@ InitialSpec read_initial(const TomlTable& table, int links) {
   if (linear)
     initial.out_of_plane =
         read_out_of_plane(table, "out_of_plane", initial.coefficients, coefficients);
+  for (const TomlTable& entry : table.tables("load")) {
+    LoadStart start{entry.text("coordinate"), entry.number("value"),
+                    entry.optional_number("rate").value_or(0)};
+    for (const LoadStart& other : initial.load)
+      if (other.coordinate == start.coordinate)
+        entry.fail("coordinate", in_quotes(start.coordinate) + " stands there twice; leave one away");
+    if (!std::isfinite(start.value) || !std::isfinite(start.rate))
+      entry.fail("value and rate must be finite");
+    initial.load.push_back(std::move(start));
+  }
   return initial;
 }
 

@@ -114,6 +114,12 @@ void write_initial(Writer& out, const InitialSpec& initial, const std::string& t
   out.flag("free", initial.free);
   out.numbers("azimuths", initial.azimuths);
   out.numbers("out_of_plane", initial.out_of_plane);
+  for (const LoadStart& start : initial.load) {
+    out.header("[[" + table + ".load]]");
+    out.text("coordinate", start.coordinate);
+    out.number("value", start.value);
+    out.number("rate", start.rate);
+  }
   if (initial.at_rest) return;
   out.header("[" + table + ".velocity]");
   out.text("shape", word(kShapeWords, initial.velocity_shape));

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "common/impossible_value.hpp"
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
 #include "identify/problem/parameter_map.hpp"
 #include "linear_algebra/decompositions.hpp"
 #include "runtime/held_end.hpp"
@@ -174,6 +176,27 @@ LinkDirections directions_at_start(const Model& model, const State& shape,
   return links;
 }
 
+/// Puts what the case says of the load's coordinates into the state.
+void start_load(const Model& model, const InitialSpec& initial, State& state) {
+  const catena_model& table = model.table();
+  const Eigen::Index first = (model.in_space() ? 3 : 1) * model.links(),
+                     end = model.coordinates() - (model.held() ? 3 : 0);
+  for (const LoadStart& start : initial.load) {
+    std::vector<std::string> names;
+    bool found = false;
+    for (Eigen::Index i = first; i < end; ++i) {
+      names.emplace_back(table.coordinate[i].name);
+      if (names.back() != start.coordinate) continue;
+      state.q[i] = start.value;
+      state.v[i] = start.rate;
+      found = true;
+    }
+    if (!found)
+      throw ImpossibleValue("load: the model has no coordinate " + in_quotes(start.coordinate) +
+                            suggestion(start.coordinate, names));
+  }
+}
+
 /// How many coefficients a shape of the angles has.
 int coefficient_count(Shape shape, int links, int terms) {
   switch (shape) {
@@ -225,10 +248,15 @@ State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
   const Eigen::VectorXd lengths = link_lengths(model, parameters);
   State state = shape_at_start(model, parameters, initial, signals, time);
   if (model.in_space()) {
+    const Eigen::Index of_load = model.coordinates() - 3 * model.links();
+    const Eigen::VectorXd load = state.q.tail(of_load);
     state = from_directions(model, directions_at_start(model, state, initial, lengths));
-    return model.held() ? closed_end(model, parameters, state, time, signals) : state;
+    if (model.held()) return closed_end(model, parameters, state, time, signals);
+    state.q.tail(of_load) = load;
+  } else {
+    state.v.head(model.links()) = initial_rates(initial, lengths);
   }
-  state.v.head(model.links()) = initial_rates(initial, lengths);
+  start_load(model, initial, state);
   return state;
 }
 

@@ -34,6 +34,7 @@ TEST_CASE("each effect as emitted computes what was derived") {
     CAPTURE(id);
     Description description = plain_chain();
     description.effects.push_back(built_in_effect(id));
+    if (description.effects[0].space == "3d") description.space = Space::kThreeDimensional;
     check(description, 5, 2, Language::kCpp);
   }
 }
@@ -41,7 +42,8 @@ TEST_CASE("each effect as emitted computes what was derived") {
 TEST_CASE("all effects at once as emitted compute what was derived") {
   Description description = plain_chain();
   for (const std::string& id : built_in_effect_ids()) {
-    description.effects.push_back(built_in_effect(id));
+    const Effect effect = built_in_effect(id);
+    if (effect.space != "3d") description.effects.push_back(effect);
   }
   check(description, 3, 2, Language::kCpp);
   check(description, 3, 2, Language::kC);

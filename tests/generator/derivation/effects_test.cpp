@@ -30,7 +30,7 @@ ex random_value(const std::string& name, unsigned seed) {
   std::mt19937 generator(sequence);
   generator.discard(seed);
   const int draw = static_cast<int>(generator() % 1801) - 900;
-  for (const char* family : {"theta", "support_series_support", "joint_hysteresis_slip",
+  for (const char* family : {"theta", "swinging_load_swing", "support_series_support", "joint_hysteresis_slip",
                              "steady_wind_wind", "torque", "support_motion_side_phase"}) {
     if (name.starts_with(family)) return numeric(2 * draw + 1, 1000);
   }
@@ -66,7 +66,8 @@ bool is_sensor_alone(const Effect& effect) {
 std::vector<std::string> physical_effects() {
   std::vector<std::string> ids;
   for (const std::string& id : built_in_effect_ids()) {
-    if (!is_sensor_alone(built_in_effect(id))) ids.push_back(id);
+    const Effect effect = built_in_effect(id);
+    if (!is_sensor_alone(effect) && why_not_in(Space::kPlane, effect).empty()) ids.push_back(id);
   }
   return ids;
 }

@@ -53,7 +53,8 @@ bool NaiveChain::knows(const std::string& effect) {
                                               "sea_floor",
                                               "steady_wind",
                                               "support_motion",
-                                              "support_series"};
+                                              "support_series",
+                                              "swinging_load"};
   return known.contains(effect);
 }
 
@@ -98,6 +99,7 @@ void NaiveChain::make_coordinates() {
   if (has("axial_stretch")) {
     for (int i = 1; i <= n_; ++i) add("axial_stretch_strain", i);
   }
+  if (has("swinging_load")) add("swinging_load_swing", 0);
   // The support moves as prescribed; its rows give the force that makes it.
   add("support_side", 0);
   add("support_down", 0);
@@ -161,6 +163,11 @@ void NaiveChain::make_shape() {
     at_side += offset * sin(theta);
     at_down += offset * cos(theta);
   }
+  if (has("swinging_load")) {
+    const ex reach = parameter("swinging_load", "reach"), swing = symbol("swinging_load_swing");
+    at_side += reach * sin(swing);
+    at_down += reach * cos(swing);
+  }
   side.push_back(at_side);
   down.push_back(at_down);
 }
@@ -215,6 +222,10 @@ void NaiveChain::add_energies() {
   potential_ += -load * g * depth(s, d);
   if (has("load_inertia")) {
     kinetic_ += kHalf * parameter("load_inertia", "about_centre") * w * w;
+  }
+  if (has("swinging_load")) {
+    const ex swing_rate = symbol("swinging_load_swing_dot");
+    kinetic_ += kHalf * parameter("swinging_load", "about_centre") * swing_rate * swing_rate;
   }
   if (has("added_mass")) kinetic_ += kHalf * parameter("added_mass", "load") * squared_speed(s, d);
   if (has("buoyancy")) potential_ += parameter("buoyancy", "load_displaced") * g * depth(s, d);
@@ -362,6 +373,12 @@ void NaiveChain::add_load_forces() {
     const ex us = vs - fluid.side;
     const ex size = sqrt(us * us + vd * vd + fluid.across * fluid.across + kFloor * kFloor);
     add_force(s, d, -parameter(effect, "load") * size * us, -parameter(effect, "load") * size * vd);
+  }
+  if (has("swinging_load")) {
+    const ex moment = parameter("swinging_load", "hinge_damping") *
+                      (symbol("swinging_load_swing_dot") - symbol("theta_dot", n_));
+    force_[static_cast<std::size_t>(n_) - 1] += moment;
+    force_[force_.size() - 3] -= moment;  // before the two of the support
   }
   if (!has("load_drag")) return;
   const ex c = parameter("load_drag", "coefficient") * sqrt(vs * vs + vd * vd + kFloor * kFloor);

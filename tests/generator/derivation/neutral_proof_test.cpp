@@ -17,6 +17,7 @@ constexpr int kLinks = 3;
 Description with(const std::vector<Effect>& effects) {
   Description description = plain_chain();
   description.effects = effects;
+  if (effects.size() == 1 && effects[0].space == "3d") description.space = Space::kThreeDimensional;
   return description;
 }
 
@@ -43,7 +44,7 @@ TEST_CASE("every built-in effect vanishes at its neutral values, all together to
     CHECK(result.why_not.empty());
     CHECK(all_equal(result));
     CHECK(result.proofs.size() == (effect.sensor.given() ? 4u : 3u));
-    all.push_back(effect);
+    if (effect.space != "3d") all.push_back(effect);
   }
   CHECK(all_equal(prove_neutral(with(all), kLinks)));
   CHECK(prove_neutral(plain_chain(), kLinks).proofs.empty());
@@ -59,7 +60,11 @@ TEST_CASE("a wrong neutral value is found") {
                          {"gravity_tilt", "tilt", 0.1},
                          {"joint_hysteresis", "moment", 1e-3},
                          {"support_motion", "side_amplitude", 0.25},
-                         {"load_mass", "correction", 1}}) {
+                         {"load_mass", "correction", 1},
+                         {"swinging_load", "reach", 0.5},
+                         {"swinging_load", "hinge_damping", 0.5},
+                         {"load_body", "centre_vertical", 0.5},
+                         {"load_body", "drag_lateral", 0.5}}) {
     CAPTURE(row.effect);
     Effect effect = built_in_effect(row.effect);
     for (EffectParameter& parameter : effect.parameters) {
