@@ -59,10 +59,11 @@ RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) 
   RandomPoint point;
   point.t = uniform(generator, 0, 2);
   point.q = uniform_list(table.coordinates, 1.5, generator);
-  if (table.positions_across == nullptr) {
-    // Further coordinates (strains) are small compared with 1.
-    for (int i = table.links; i < table.coordinates; ++i) point.q[static_cast<std::size_t>(i)] /= 5;
-  } else {
+  const bool in_space = table.positions_across != nullptr;
+  // Further coordinates (strains, parts of a quaternion less one) are small compared with 1.
+  for (int i = (in_space ? 3 : 1) * table.links; i < table.coordinates; ++i)
+    point.q[static_cast<std::size_t>(i)] /= 5;
+  if (in_space) {
     // Links that hang more or less: where one folds back on another, bending has no derivative.
     for (int i = table.links; i < 2 * table.links; ++i) {
       double& down = point.q[static_cast<std::size_t>(i)];

@@ -63,8 +63,7 @@ TEST_CASE("a wrong neutral value is found") {
                          {"load_mass", "correction", 1},
                          {"swinging_load", "reach", 0.5},
                          {"swinging_load", "hinge_damping", 0.5},
-                         {"load_body", "centre_vertical", 0.5},
-                         {"load_body", "drag_lateral", 0.5}}) {
+                         {"load_body", "displaced", 0.5}}) {
     CAPTURE(row.effect);
     Effect effect = built_in_effect(row.effect);
     for (EffectParameter& parameter : effect.parameters) {

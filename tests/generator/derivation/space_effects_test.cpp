@@ -238,6 +238,7 @@ TEST_CASE("in a vertical plane an effect in space is the effect of the plane") {
 TEST_CASE("every built-in effect that space does not refuse is compared with the plane") {
   for (const std::string& id : built_in_effect_ids()) {
     CAPTURE(id);
+    if (built_in_effect(id).space == "3d") continue;  // of no plane
     const bool taken = conflict_in(with({id}, Space::kThreeDimensional)).empty();
     CHECK(taken == (std::find(kEffects.begin(), kEffects.end(), id) != kEffects.end()));
   }
