@@ -104,9 +104,8 @@ std::string plane_alone(const Effect& effect) {
     expressions.push_back(&term.value);
   }
   for (const ForceTerm& force : effect.forces)
-    for (const Expression* part :
-         {&force.side, &force.down, &force.across, &force.normal, &force.tangential, &force.along,
-          &force.value})
+    for (const Expression* part : {&force.side, &force.down, &force.across, &force.normal,
+                                   &force.tangential, &force.along, &force.value})
       expressions.push_back(part);
   for (const Definition& definition : effect.definitions) expressions.push_back(&definition.value);
   for (const Expression* expression : expressions)

@@ -150,9 +150,10 @@ struct HeldEnd {
 
 /// Changes of the kinematics. Changes by several effects are added.
 struct Kinematics {
-  Expression centre_offset;     ///< m, mass centre of link i past its middle, away from the support
-  Expression load_offset;       ///< m, load past the end of link n, along link n
-  Expression load_side, load_down, load_across;  ///< m, load from the end of link n; across: in space
+  Expression centre_offset;  ///< m, mass centre of link i past its middle, away from the support
+  Expression load_offset;    ///< m, load past the end of link n, along link n
+  Expression load_side, load_down,
+      load_across;              ///< m, load from the end of link n; across: in space
   Expression load_inertia;      ///< kg m^2, of the load about its own centre; it turns with link n
   Expression load_mass;         ///< kg, added to the load
   Expression rest_angle;        ///< rad, at every joint i: V = 1/2 k_i (joint angle - rest)^2
@@ -161,8 +162,9 @@ struct Kinematics {
   Expression gravity_tilt;      ///< rad, gravity turned from down towards side
 
   std::array<const Expression*, 11> all() const {
-    return {&centre_offset, &load_offset, &load_side,        &load_down, &load_across, &load_inertia,
-            &load_mass,     &rest_angle,  &pivot_rest_angle, &extension, &gravity_tilt};
+    return {&centre_offset,    &load_offset,  &load_side,   &load_down,
+            &load_across,      &load_inertia, &load_mass,   &rest_angle,
+            &pivot_rest_angle, &extension,    &gravity_tilt};
   }
 };
 

@@ -110,9 +110,8 @@ class Checks {
     const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
     for (const Definition& definition : effect_.definitions) use(definition.value);
     for (const ForceTerm& force : effect_.forces) {
-      for (const Expression* expression :
-           {&force.side, &force.down, &force.across, &force.normal, &force.tangential,
-            &force.along, &force.value})
+      for (const Expression* expression : {&force.side, &force.down, &force.across, &force.normal,
+                                           &force.tangential, &force.along, &force.value})
         use(*expression);
     }
     for (const ScalarTerm& term : effect_.scalars) use(term.value);

@@ -362,10 +362,10 @@ class EffectReader {
     for (const TomlTable& table : file_.tables("force")) {
       ForceTerm force;
       const bool generalised = table.has("along") || table.has("value");
-      force.at = place(table, generalised
-                                  ? std::vector{Place::kJoint, Place::kPivot, Place::kLink,
-                                                Place::kLinkCentre, Place::kLoad}
-                                  : std::vector{Place::kJoint, Place::kLinkCentre, Place::kLoad});
+      force.at =
+          place(table, generalised ? std::vector{Place::kJoint, Place::kPivot, Place::kLink,
+                                                 Place::kLinkCentre, Place::kLoad}
+                                   : std::vector{Place::kJoint, Place::kLinkCentre, Place::kLoad});
       force.per_length = per_length(table, force.at);
       force.side = expression(table, "side");
       force.down = expression(table, "down");

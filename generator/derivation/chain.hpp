@@ -228,8 +228,7 @@ class Chain {
     std::vector<Size> sizes;
   };
   Surroundings surroundings(const Effect& effect, Knowledge knowledge, Place place, Link i);
-  void add_definitions(const Effect& effect, Knowledge knowledge, Place place,
-                       Surroundings& here);
+  void add_definitions(const Effect& effect, Knowledge knowledge, Place place, Surroundings& here);
   void add_load_definition(const Effect& effect, const Definition& definition, Surroundings& here);
   ex without_sizes(ex value, const Expression& expression, const Surroundings& here,
                    bool in_energy = false) const;

@@ -459,9 +459,10 @@ void Chain::add_force_along(const Effect& effect, const ForceTerm& force, Link i
   const ex along = without_sizes(velocity, force.along, here);
   const auto coefficients = coefficients_of_rates(along);
   if (!coefficients || coefficients->empty())
-    fail_at(force.along,
-            "it is not linear in velocities and rates; a force does work along one of them, such as "
-            "velocity_side, or along a sum of them times functions of the shape");
+    fail_at(
+        force.along,
+        "it is not linear in velocities and rates; a force does work along one of them, such as "
+        "velocity_side, or along a sum of them times functions of the shape");
   const Unit wanted = Unit::parse(force.per_length ? "W/m" : "W") / unit;
   const ex value = definitions_.define(
       effect.id + "_" + at_load(force.at) + "force_along", index_at(force.at, i),

@@ -94,8 +94,9 @@ void Chain::place_held_end() {
   const HeldEnd& held = effect.held_end;
   const Expression* const place[] = {&held.side, &held.down, &held.across};
   for (const Axis axis : axes())
-    end_.push_back(define_variable("end" + ending(axis), kNoIndex,
-                                   evaluate(effect, *place[axis], kShape, Place::kAnywhere, 0, "m")));
+    end_.push_back(
+        define_variable("end" + ending(axis), kNoIndex,
+                        evaluate(effect, *place[axis], kShape, Place::kAnywhere, 0, "m")));
   for (const Axis axis : axes())
     gap_.push_back(
         define_variable("gap" + ending(axis), kNoIndex, joint_[axis][links_] - end_[axis]));

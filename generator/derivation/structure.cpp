@@ -440,9 +440,9 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       }
     }
     for (size_t l = 0; l < border; ++l)
-      result.corner[l][k] = definitions.named(along.of(chain.residual()[inner + l]),
-                                              joined({"corner", numbered(l), numbered(k)}),
-                                              kNoIndex);
+      result.corner[l][k] =
+          definitions.named(along.of(chain.residual()[inner + l]),
+                            joined({"corner", numbered(l), numbered(k)}), kNoIndex);
   }
   std::set<int> sums;
   for (int i = n; i >= 1; --i) {

@@ -43,7 +43,8 @@ ModelFunctions derive(const Description& description, int links) {
 ModelFunctions functions_for_any_links(const Description& description) {
   ModelFunctions any = derive(description, kGivesProgram);
   if (any.summary.border > 0)
-    throw std::logic_error("the rows of coordinates of the load stand behind a fixed number of links");
+    throw std::logic_error(
+        "the rows of coordinates of the load stand behind a fixed number of links");
   const ModelFunctions more = derive(description, kGivesProgram + 1);
   require_alike(any, more);
   for (std::size_t k = 0; k < any.functions.size(); ++k) {

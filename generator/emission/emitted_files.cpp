@@ -93,9 +93,8 @@ std::string cmake_list(const std::vector<std::string>& names) {
 
 EmittedFiles support_for(const Description& description) {
   EmittedFiles files = support_text();
-  const bool moves_load =
-      std::any_of(description.effects.begin(), description.effects.end(),
-                  [](const Effect& effect) { return effect.moves_load(); });
+  const bool moves_load = std::any_of(description.effects.begin(), description.effects.end(),
+                                      [](const Effect& effect) { return effect.moves_load(); });
   if (description.space == Space::kPlane) {
     for (const char* name : {"angle_over_sine.hpp", "block_semiseparable.hpp"}) files.erase(name);
     if (!moves_load)

@@ -226,7 +226,8 @@ InitialSpec read_initial(const TomlTable& table, int links) {
                     entry.optional_number("rate").value_or(0)};
     for (const LoadStart& other : initial.load)
       if (other.coordinate == start.coordinate)
-        entry.fail("coordinate", in_quotes(start.coordinate) + " stands there twice; leave one away");
+        entry.fail("coordinate",
+                   in_quotes(start.coordinate) + " stands there twice; leave one away");
     if (!std::isfinite(start.value) || !std::isfinite(start.rate))
       entry.fail("value and rate must be finite");
     initial.load.push_back(std::move(start));

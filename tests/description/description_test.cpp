@@ -66,6 +66,12 @@ TEST_CASE("the plane is the default; space is another model, and is written") {
 TEST_CASE("errors in a description name their line") {
   const testing::TemporaryFolder folder;
   folder.write("push.toml", kEffect);
+  folder.write("holds.toml",
+               "format = 1\nkind = \"effect\"\nid = \"holds\"\ntitle = \"Holds\"\n"
+               "description = \"Holds the end\"\n[held_end]\nside = \"0.5\"\n");
+  folder.write("lift.toml",
+               "format = 1\nkind = \"effect\"\nid = \"lift\"\ntitle = \"Lift\"\n"
+               "description = \"Moves the load\"\n[kinematics]\nload_across = \"0.5\"\n");
   struct Row {
     std::string body, said;
   };
@@ -86,6 +92,15 @@ TEST_CASE("errors in a description name their line") {
        "kinematics.extension: links in space do not stretch yet. Space is \"3d\"; leave one of "
        "them "
        "away"},
+      {"effects = [\"load_body\"]\n",
+       ":4: effects: \"load_body\" needs space = \"3d\", as its file says, and space is \"plane\""},
+      {"space = \"3d\"\neffects = [\"swinging_load\"]\n",
+       ":5: effects: \"swinging_load\" needs space = \"plane\", as its file says, and space is "
+       "\"3d\""},
+      {"space = \"3d\"\neffects = [\"load_body\", \"holds.toml\"]\n",
+       ":5: effects: \"holds\": a far end that is held has no load with coordinates of its own"},
+      {"effects = [\"lift.toml\"]\n",
+       ":4: effects: \"lift\" moves the load across the plane, which needs space = \"3d\""},
       {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
   };
   for (const Row& row : rows) {

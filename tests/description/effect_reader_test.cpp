@@ -184,6 +184,22 @@ TEST_CASE("errors in an effect name their line") {
        "drag.toml:7: unknown key \"kinematics.center_offset\"; did you mean \"centre_offset\"?"},
       {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"joint\"\n" + kForce,
        "drag.toml:9: coordinate.per: \"joint\" is not known here"},
+      {"[[state]]\nname = \"x\"\nunit = \"m\"\nper = \"link\"\nrate = \"1\"\n" + kForce,
+       "drag.toml:9: state.per: \"link\" is not known here"},
+      {"[[force]]\nat = \"load\"\nvalue = \"1\"\n", "drag.toml:6: force: \"along\" is missing"},
+      {"[[force]]\nat = \"load\"\nside = \"1\"\nalong = \"rate\"\nvalue = \"1\"\n",
+       "drag.toml:6: force: give the force as side, down and across, or as normal and tangential, "
+       "or "
+       "as value and along"},
+      {"space = \"4d\"\n" + kForce, "drag.toml:6: space: \"4d\" is not known here"},
+      {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"load\"\n[[definition]]\nname = "
+       "\"x\"\nat = \"load\"\nvalue = \"1\"\n" +
+           kForce,
+       "drag.toml:11: definition.name: \"x\" is given twice"},
+      {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"load\"\n[[potential]]\nat = "
+       "\"load\"\nvalue = \"load_mass*x_rate^2\"\n",
+       "drag.toml:12: potential.value: in \"load_mass*x_rate^2\": \"x_rate\" cannot stand in a "
+       "potential"},
       {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"link\"\n[kinematics]\nextension = "
        "\"x\"\n",
        "drag.toml:1: a new coordinate needs a potential, dissipation or force"},

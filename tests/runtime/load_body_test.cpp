@@ -39,8 +39,8 @@ void set(const Model& model, VectorXd& p, const char* name, double value) {
 
 VectorXd accelerations(const Model& model, const VectorXd& p, const State& state) {
   VectorXd a = VectorXd::Zero(model.coordinates());
-  const catena_point at{0, state.q.data(), state.v.data(), a.data(), state.z.data(), nullptr,
-                        p.data()};
+  const catena_point at{0,       state.q.data(), state.v.data(), a.data(), state.z.data(),
+                        nullptr, p.data()};
   REQUIRE(model.acceleration(at, a.data()) == 0);
   return a;
 }
@@ -56,8 +56,8 @@ State random_state(const Model& model, unsigned seed) {
 double energy_item(const Model& model, const VectorXd& p, const State& state,
                    const std::string& name) {
   VectorXd energies(model.energies()), a = VectorXd::Zero(model.coordinates());
-  const catena_point at{0, state.q.data(), state.v.data(), a.data(), state.z.data(), nullptr,
-                        p.data()};
+  const catena_point at{0,       state.q.data(), state.v.data(), a.data(), state.z.data(),
+                        nullptr, p.data()};
   model.energy(at, energies.data());
   double sum = 0;
   for (int k = 0; k < model.energies(); ++k)
@@ -97,7 +97,8 @@ void compare_with_link(const Model& model, double tolerance) {
   const VectorXd p = swinging(model), q = with_link(longer, p, n);
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const State state = random_state(model, seed);
-    const VectorXd expected = accelerations(longer, q, state), found = accelerations(model, p, state);
+    const VectorXd expected = accelerations(longer, q, state),
+                   found = accelerations(model, p, state);
     CHECK((found - expected).norm() < tolerance * expected.norm());
     // The other energies are the same in sum; that of the body's turning has its own name.
     const double kinetic = energy_item(model, p, state, "kinetic"),
@@ -203,9 +204,11 @@ void check_derivatives(const Model& model, const VectorXd& p, const State& initi
   const auto objective = [&](const catena::Trajectory& motion, catena::Trajectory& by) {
     by.q(slope.row, motion.q.cols() - 1) = 1.0;
   };
-  const auto gradient = simulate_with_gradient(model, p, initial, times, objective, tight(), signals);
+  const auto gradient =
+      simulate_with_gradient(model, p, initial, times, objective, tight(), signals);
   REQUIRE_MESSAGE(gradient.status == catena::Status::kSuccess, gradient.message);
-  CHECK(gradient.gradient.parameters[parameter] == doctest::Approx(change[slope.row]).epsilon(1e-5));
+  CHECK(gradient.gradient.parameters[parameter] ==
+        doctest::Approx(change[slope.row]).epsilon(1e-5));
 }
 
 TEST_CASE("derivatives of a load with a coordinate and a state agree with differences") {
@@ -236,7 +239,8 @@ void set_attitude(State& state, const Quaterniond& attitude, const Vector3d& tur
                   double stretch = 1) {
   const Quaterniond half(0, turning[0] / 2, turning[1] / 2, turning[2] / 2);
   const Quaterniond rate = attitude * half;
-  state.q.tail(4) = stretch * Eigen::Vector4d(attitude.w(), attitude.x(), attitude.y(), attitude.z());
+  state.q.tail(4) =
+      stretch * Eigen::Vector4d(attitude.w(), attitude.x(), attitude.y(), attitude.z());
   state.q[state.q.size() - 4] -= 1;
   state.v.tail(4) = stretch * Eigen::Vector4d(rate.w(), rate.x(), rate.y(), rate.z());
 }
@@ -265,19 +269,14 @@ VectorXd hung(const Model& model) {
 
 VectorXd submerged(const Model& model) {
   VectorXd p = hung(model);
-  const std::pair<const char*, double> values[] = {{"centre_longitudinal", -0.1},
-                                                   {"added_longitudinal", 0.05},
-                                                   {"added_vertical", 0.3},
-                                                   {"added_lateral", 0.2},
-                                                   {"drag_longitudinal", 0.4},
-                                                   {"drag_vertical", 1.5},
-                                                   {"drag_lateral", 1.0},
-                                                   {"pressure", -0.2},
-                                                   {"turning_damping", 0.002},
-                                                   {"displaced", 0.1},
-                                                   {"buoyancy_above", 0.05},
-                                                   {"current_side", 0.5},
-                                                   {"current_across", -0.3}};
+  const std::pair<const char*, double> values[] = {
+      {"centre_longitudinal", -0.1}, {"added_longitudinal", 0.05},
+      {"added_vertical", 0.3},       {"added_lateral", 0.2},
+      {"drag_longitudinal", 0.4},    {"drag_vertical", 1.5},
+      {"drag_lateral", 1.0},         {"pressure", -0.2},
+      {"turning_damping", 0.002},    {"displaced", 0.1},
+      {"buoyancy_above", 0.05},      {"current_side", 0.5},
+      {"current_across", -0.3}};
   for (const auto& [name, value] : values)
     set(model, p, (std::string("load_body.") + name).c_str(), value);
   return p;
@@ -308,7 +307,8 @@ TEST_CASE("in any vertical plane a body swings as in the plane") {
   set(plane, of_plane, "swinging_load.about_centre", kInertias[2]);
   set(plane, of_plane, "swinging_load.hinge_damping", 0);
   const std::vector<double> times{0, 0.5, 1};
-  const auto expected = run(plane, of_plane, flat, times), found = run(space, of_space, tilted, times);
+  const auto expected = run(plane, of_plane, flat, times),
+             found = run(space, of_space, tilted, times);
   for (Index k = 0; k < 3; ++k) {
     const double t = times[static_cast<std::size_t>(k)];
     const auto there = positions(plane, of_plane, t, expected.trajectory.q.col(k));
@@ -342,7 +342,8 @@ TEST_CASE("a body held at its centre of mass turns as a free top") {
       CHECK((turning(path.q.col(k), path.v.col(k)) - start).norm() > 0.3);
     }
   }
-  SUBCASE("a body of revolution: its angular velocity goes round at (I_yaw - I) / I times its spin") {
+  SUBCASE(
+      "a body of revolution: its angular velocity goes round at (I_yaw - I) / I times its spin") {
     set(model, p, "load_body.inertia_roll", 0.02);
     const auto path = run(model, p, initial, {0, 1.7}).trajectory;
     const double precession = (0.03 - 0.02) / 0.02 * start[1];
@@ -431,7 +432,8 @@ TEST_CASE("fins behind the centre of mass turn a towed body into the stream") {
   CHECK(nose[2] == doctest::Approx(std::sin(azimuth)).epsilon(5e-3));
   // The drag is then that along the body, and the cable slants by it.
   const double below = (0.3 - 0.1 + p[1] / 2) * kGravity;
-  CHECK(std::hypot(q[0], q[2]) / q[1] == doctest::Approx(0.1 * speed * speed / below).epsilon(1e-6));
+  CHECK(std::hypot(q[0], q[2]) / q[1] ==
+        doctest::Approx(0.1 * speed * speed / below).epsilon(1e-6));
 }
 
 TEST_CASE("derivatives of a body in a current agree with differences") {

@@ -30,8 +30,9 @@ ex random_value(const std::string& name, unsigned seed) {
   std::mt19937 generator(sequence);
   generator.discard(seed);
   const int draw = static_cast<int>(generator() % 1801) - 900;
-  for (const char* family : {"theta", "swinging_load_swing", "support_series_support", "joint_hysteresis_slip",
-                             "steady_wind_wind", "torque", "support_motion_side_phase"}) {
+  for (const char* family :
+       {"theta", "swinging_load_swing", "support_series_support", "joint_hysteresis_slip",
+        "steady_wind_wind", "torque", "support_motion_side_phase"}) {
     if (name.starts_with(family)) return numeric(2 * draw + 1, 1000);
   }
   if (name.starts_with("axial_stretch_strain")) return numeric(draw, 5000);

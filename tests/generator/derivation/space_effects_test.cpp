@@ -521,3 +521,42 @@ TEST_CASE("laws that only the plane has are refused in space with their line") {
     Chain(description, 2);
   }
 }
+
+TEST_CASE("what a load with coordinates of its own cannot mean is refused with its line") {
+  const testing::TemporaryFolder folder;
+  const std::string head =
+      "format = 1\nkind = \"effect\"\nid = \"own\"\ntitle = \"Own\"\ndescription = \"One\"\n"
+      "[parameters.c]\nunit = \"N\"\nneutral = 0.0\ndescription = \"c\"\n[[coordinate]]\nname = "
+      "\"swing\"\nunit = \"rad\"\nper = \"load\"\n";
+  struct Row {
+    std::string body, said;
+  };
+  const Row rows[] = {
+      {"[[force]]\nat = \"load\"\nalong = \"sqrt(velocity_side^2 + velocity_down^2)\"\nvalue = "
+       "\"c*cos(swing)\"\n",
+       ":16: force.along: in \"sqrt(velocity_side^2 + velocity_down^2)\": it is not linear in "
+       "velocities"},
+      {"[[force]]\nat = \"load\"\nalong = \"cos(swing)\"\nvalue = \"c\"\n",
+       ":16: force.along: in \"cos(swing)\": it is not linear in velocities"},
+      {"[[force]]\nat = \"load\"\nalong = \"swing_rate\"\nvalue = \"c\"\n",
+       ":17: force.value: in \"c\": it is in N where N m is wanted"},
+      {"[[force]]\nat = \"joint\"\nalong = \"velocity_side\"\nvalue = \"c*cos(swing)\"\n",
+       ":17: force.value: in \"c*cos(swing)\": \"swing\" has no meaning here"},
+      {"[kinematics]\nload_side = \"swing_rate*c\"\n[[kinetic]]\nat = \"load\"\nvalue = "
+       "\"load_mass*velocity_side^2/2\"\n",
+       ":15: kinematics.load_side: in \"swing_rate*c\": \"swing_rate\" has no meaning here"},
+      {"[kinematics]\nload_mass = \"swing*c\"\n[[kinetic]]\nat = \"load\"\nvalue = "
+       "\"load_mass*velocity_side^2/2\"\n",
+       ":15: kinematics.load_mass: in \"swing*c\": \"swing\" has no meaning here"},
+  };
+  for (const Row& row : rows) {
+    const auto path = folder.write("own.toml", head + row.body);
+    for (const Space space : {Space::kPlane, Space::kThreeDimensional}) {
+      Description description = with({}, space);
+      description.effects.push_back(read_effect(path));
+      const std::string said = failure([&] { Chain(description, 2); });
+      CAPTURE(said);
+      CHECK(said.find(path.string() + row.said) == 0);
+    }
+  }
+}

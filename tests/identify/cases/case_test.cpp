@@ -256,6 +256,13 @@ coefficients = [0.5, 0.1]
 azimuth = 0.4
 out_of_plane = [0.2, -0.1]
 free = true
+[[initial.load]]
+coordinate = "load_body.turn_roll"
+value = 0.1
+[[initial.load]]
+coordinate = "load_body.turn_yaw"
+value = 0.3
+rate = -1.5
 [initial.velocity]
 shape = "straight"
 rates = [0.25]
@@ -279,6 +286,10 @@ markers = [{name = "knot", side = "x", down = "z", across = "y", joint = 2}]
   };
   const Case the_case = read(case_text(read(text), folder.path()));
   CHECK(the_case.initial.azimuths == std::vector<double>(4, 0.4));
+  REQUIRE(the_case.initial.load.size() == 2);
+  CHECK(the_case.initial.load[0].coordinate == "load_body.turn_roll");
+  CHECK(the_case.initial.load[1].value == 0.3);
+  CHECK(the_case.initial.load[1].rate == -1.5);
   CHECK(the_case.initial.out_of_plane == std::vector<double>{0.2, -0.1});
   CHECK(the_case.initial.azimuth_rates == std::vector<double>{1, 2, 3, 4});
   CHECK(the_case.initial.out_of_plane_rates == std::vector<double>{0.75});
@@ -294,6 +305,10 @@ markers = [{name = "knot", side = "x", down = "z", across = "y", joint = 2}]
       {"out_of_plane_rates = [0.75]", "out_of_plane_rates = [inf]",
        "out_of_plane_rates: inf; must lie within"},
       {"axes = [\"x\", \"z\", \"y\"]", "axes = [\"x\"]", "axes: must be two names"},
+      {"value = 0.3", "value = inf", "initial.load: value and rate must be finite"},
+      {"coordinate = \"load_body.turn_yaw\"", "coordinate = \"load_body.turn_roll\"",
+       "coordinate: \"load_body.turn_roll\" stands there twice"},
+      {"coordinate = \"load_body.turn_yaw\"\n", "", "\"coordinate\" is missing"},
       {"origin = [1, 2, 3]", "origin = [1, 2, 3, 4]", "origin: must be two numbers"},
       {"markers = [", "axes = [\"x\", \"z\", \"y\"]\nmarkers = [", "axes: names columns"},
   };
