@@ -456,18 +456,20 @@ void Chain::add_force_along(const Effect& effect, const ForceTerm& force, Link i
   Surroundings here = surroundings(effect, kMotion, force.at, i);
   add_definitions(effect, kMotion, force.at, here);
   const auto [velocity, unit] = parse_expression(force.along, here.known);
+  const Unit wanted = Unit::parse(force.per_length ? "W/m" : "W") / unit;
+  const ex size =
+      without_sizes(parse_expression(force.value, here.known, wanted), force.value, here);
   const ex along = without_sizes(velocity, force.along, here);
+  if (along.is_zero()) return;  // a point that does not move, such as the support
   const auto coefficients = coefficients_of_rates(along);
   if (!coefficients || coefficients->empty())
     fail_at(
         force.along,
         "it is not linear in velocities and rates; a force does work along one of them, such as "
         "velocity_side, or along a sum of them times functions of the shape");
-  const Unit wanted = Unit::parse(force.per_length ? "W/m" : "W") / unit;
-  const ex value = definitions_.define(
-      effect.id + "_" + at_load(force.at) + "force_along", index_at(force.at, i),
-      (force.per_length ? length_[i] : ex(1)) *
-          without_sizes(parse_expression(force.value, here.known, wanted), force.value, here));
+  const ex value =
+      definitions_.define(effect.id + "_" + at_load(force.at) + "force_along",
+                          index_at(force.at, i), (force.per_length ? length_[i] : ex(1)) * size);
   for (const auto& [rate, coefficient] : *coefficients) {
     const auto variable = variable_of_rate_.find(rate);
     add_generalised_force(variable == variable_of_rate_.end() ? rate : variable->second,

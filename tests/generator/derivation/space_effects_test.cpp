@@ -536,7 +536,8 @@ TEST_CASE("what a load with coordinates of its own cannot mean is refused with i
        "\"c*cos(swing)\"\n",
        ":16: force.along: in \"sqrt(velocity_side^2 + velocity_down^2)\": it is not linear in "
        "velocities"},
-      {"[[force]]\nat = \"load\"\nalong = \"cos(swing)\"\nvalue = \"c\"\n",
+      {"[[force]]\nat = \"load\"\nalong = \"cos(swing)\"\nvalue = "
+       "\"c*velocity_side\"\n",
        ":16: force.along: in \"cos(swing)\": it is not linear in velocities"},
       {"[[force]]\nat = \"load\"\nalong = \"swing_rate\"\nvalue = \"c\"\n",
        ":17: force.value: in \"c\": it is in N where N m is wanted"},
@@ -557,6 +558,42 @@ TEST_CASE("what a load with coordinates of its own cannot mean is refused with i
       const std::string said = failure([&] { Chain(description, 2); });
       CAPTURE(said);
       CHECK(said.find(path.string() + row.said) == 0);
+    }
+  }
+}
+
+TEST_CASE("a force along a velocity is that force, in the plane and in space") {
+  GiNaC::Digits = kDigits;
+  const testing::TemporaryFolder folder;
+  const std::string head =
+      "format = 1\nkind = \"effect\"\nid = \"own\"\ntitle = \"Own\"\ndescription = \"One\"\n"
+      "[parameters.c]\nunit = \"N s/m\"\nneutral = 0.0\ndescription = \"c\"\n[[force]]\n";
+  for (const std::string place : {"load", "joint", "link_centre"}) {
+    for (const Space space : {Space::kPlane, Space::kThreeDimensional}) {
+      CAPTURE(place);
+      std::vector<std::vector<ex>> residuals;
+      std::vector<ex> powers;
+      for (const std::string law : {"side = \"-c*velocity_down\"\n",
+                                    "along = \"velocity_side\"\nvalue = \"-c*velocity_down\"\n"}) {
+        Description description = with({}, space);
+        description.effects.push_back(
+            read_effect(folder.write("own.toml", head + "at = \"" + place + "\"\n" + law)));
+        Chain chain(description, kLinks, "own");
+        ExactEvaluation evaluation(chain.definitions(),
+                                   [&](const std::string& name) { return draw(name, 1); });
+        std::vector<ex> residual;
+        for (const ex& r : chain.residual()) residual.push_back(evaluation.of(r));
+        residuals.push_back(residual);
+        ex power = 0;
+        for (const EnergyItem& item : chain.energies())
+          if (item.name == "own")
+            for (const ex& part : item.parts) power += evaluation.of(part);
+        powers.push_back(power);
+      }
+      CHECK(size(residuals[0][0]) > 1e-3);
+      CHECK(difference(powers[0], powers[1]) < kTolerance);
+      for (std::size_t i = 0; i < residuals[0].size(); ++i)
+        CHECK(difference(residuals[0][i], residuals[1][i]) < kTolerance);
     }
   }
 }
