@@ -196,10 +196,14 @@ class Document {
     std::size_t k = i - n;
     for (const Effect& effect : description_.effects) {
       for (const Coordinate& own : effect.coordinates) {
+        if (own.at == Place::kLoad) continue;
         if (k < n) return shown(effect, own.name, dot) + "_{" + number(k) + "}";
         k -= n;
       }
     }
+    for (const Effect& effect : description_.effects)
+      for (const Coordinate& own : effect.coordinates)
+        if (own.at == Place::kLoad && k-- == 0) return shown(effect, own.name, dot);
     return "";
   }
 
@@ -347,13 +351,17 @@ class Document {
 
   // Where the coordinates are not the angles alone
   std::string coordinates_in_order() const {
-    std::string own;
+    std::string own, of_load;
     for (const Effect& effect : description_.effects) {
       for (const Coordinate& coordinate : effect.coordinates) {
         const std::string name = shown(effect, coordinate.name, "");
-        own += ", " + numbered(name);
+        if (coordinate.at == Place::kLoad)
+          of_load += ", " + name;
+        else
+          own += ", " + numbered(name);
       }
     }
+    own += of_load;
     if (own.empty()) return "";
     return "\\vec{\\theta} = (" + numbered("\\theta") + own + ")\n";
   }
