@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <set>
+#include <vector>
 
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
@@ -21,26 +24,27 @@ namespace {
 class AtNeutral {
  public:
   AtNeutral(const Description& description, Chain& model, Chain& plain)
-      : neutral_(model.definitions(), "_neutral"), written_out_(model.definitions()) {
-    Definitions& definitions = model.definitions();
+      : definitions_(model.definitions()),
+        neutral_(model.definitions(), "_neutral"),
+        written_out_(model.definitions()) {
     for (const Effect& effect : description.effects) {
       for (const EffectParameter& parameter : effect.parameters) {
         if (std::isnan(parameter.neutral)) continue;
         const ex value = exact_number(shortest_number(parameter.neutral));
         const std::string family = effect.id + "_" + parameter.name;
         if (parameter.scope == Scope::kModel) {
-          neutral_.set(definitions.input(family), value);
+          neutral_.set(definitions_.input(family), value);
           continue;
         }
         for (int i = 1; i <= model.links(); ++i) {
-          neutral_.set(definitions.input(family, i), value);
+          neutral_.set(definitions_.input(family, i), value);
         }
       }
     }
     for (int k = 0, count = plain.definitions().size(); k < count; ++k) {
       const Symbol symbol = plain.definitions()[k];
       if (symbol.is_input) {
-        shared_[definitions.input(symbol.family, symbol.index)] = symbol.symbol;
+        shared_[definitions_.input(symbol.family, symbol.index)] = symbol.symbol;
       }
     }
   }
@@ -49,30 +53,29 @@ class AtNeutral {
     return written_out_.of(neutral_.of(expression)).subs(shared_, GiNaC::subs_options::no_pattern);
   }
 
+  // The sum of those of `symbols` that the expression is made of, which need not be written out for it: the
+  // equations of a body's attitude would fill the memory.
+  ex uses(const ex& expression, const std::vector<ex>& symbols) {
+    std::set<int> seen;
+    std::vector<int> waiting = definitions_.symbols_of(neutral_.of(expression));
+    while (!waiting.empty()) {
+      const int number = waiting.back();
+      waiting.pop_back();
+      if (!seen.insert(number).second) continue;
+      for (const int below : definitions_.symbols_of(definitions_[number].value))
+        waiting.push_back(below);
+    }
+    ex sum = 0;
+    for (const ex& symbol : symbols)
+      if (seen.contains(definitions_.number_of(symbol))) sum += symbol;
+    return sum;
+  }
+
  private:
+  Definitions& definitions_;
   Substitution neutral_;
   WrittenOut written_out_;
   GiNaC::exmap shared_;
-};
-
-// What a load with coordinates of its own has beyond the plain chain must not see the chain: the same with
-// other coordinates of the links, and rates and accelerations, is the same expression.
-class OtherLinks {
- public:
-  explicit OtherLinks(const Chain& plain) {
-    const auto replace = [&](const std::vector<ex>& symbols) {
-      for (std::size_t k = 0; k < plain.coordinates().size(); ++k)
-        other_[symbols[k]] = GiNaC::realsymbol("other_" + std::to_string(other_.size()));
-    };
-    replace(plain.coordinates()), replace(plain.rates()), replace(plain.accelerations());
-  }
-
-  ex of(const ex& expression) const {
-    return expression.subs(other_, GiNaC::subs_options::no_pattern);
-  }
-
- private:
-  GiNaC::exmap other_;
 };
 
 ex sum_of(const std::vector<ex>& parts) {
@@ -117,16 +120,18 @@ NeutralProofs prove_neutral(const Description& description, int links) {
     return at_neutral.of(of_model) - written_out.of(of_plain);
   };
 
-  const OtherLinks other_links(plain);
-  const auto change_with_links = [&](const ex& of_model) {
-    const ex at_these = at_neutral.of(of_model);
-    return at_these - other_links.of(at_these);
-  };
+  // What a load with coordinates of its own has beyond the plain chain must not see the chain.
+  std::vector<ex> of_links;
+  for (const std::vector<ex>* symbols :
+       {&model.coordinates(), &model.rates(), &model.accelerations()}) {
+    of_links.insert(of_links.end(), symbols->begin(),
+                    symbols->begin() + static_cast<std::ptrdiff_t>(plain.coordinates().size()));
+  }
   EntryComparison residual("residual");
   for (std::size_t i = 0; i < model.residual().size(); ++i) {
     const bool of_load = i >= plain.residual().size();
     residual.entry("(" + std::to_string(i + 1) + ")",
-                   of_load ? change_with_links(model.residual()[i])
+                   of_load ? at_neutral.uses(model.residual()[i], of_links)
                            : difference(model.residual()[i], plain.residual()[i]));
   }
   result.proofs.push_back(residual.proof());
@@ -140,7 +145,7 @@ NeutralProofs prove_neutral(const Description& description, int links) {
     const bool of_load = std::any_of(
         description.effects.begin(), description.effects.end(),
         [&](const Effect& effect) { return effect.id == item.name && effect.moves_load(); });
-    energies.entry(" of " + item.name, of_load ? change_with_links(sum_of(item.parts))
+    energies.entry(" of " + item.name, of_load ? at_neutral.uses(sum_of(item.parts), of_links)
                                                : difference(sum_of(item.parts), expected));
   }
   result.proofs.push_back(energies.proof());

@@ -18,8 +18,9 @@ struct NeutralProofs {
 
 /// Derives the model and the plain chain, inserts the neutral values and compares. All other
 /// symbols stay: parameters without a neutral value, states and signals. Together with the closed
-/// forms of the plain chain this proves those of the model. No proof is possible if a neutral value
-/// is infinite, or if the model has coordinates that the plain chain does not have.
+/// forms of the plain chain this proves those of the model. The equations and energies of a load with
+/// coordinates of its own, which the plain chain lacks, must then contain nothing of the links. No proof is
+/// possible if a neutral value is infinite, if links have further coordinates, or if the end is held.
 NeutralProofs prove_neutral(const Description& description, int links);
 
 }  // namespace catena

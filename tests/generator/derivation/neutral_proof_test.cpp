@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <utility>
 
 using namespace catena;
 
@@ -72,5 +73,19 @@ TEST_CASE("a wrong neutral value is found") {
     const NeutralProofs result = prove_neutral(with({effect}), kLinks);
     CHECK(std::any_of(result.proofs.begin(), result.proofs.end(),
                       [](const Proof& proof) { return !proof.equal; }));
+  }
+}
+
+TEST_CASE("a moment on a load's own coordinate is found if it depends on the links") {
+  for (const auto& [moment, depends] :
+       {std::pair{"about_centre*rate^2", true}, {"about_centre*swing_rate^2", false}}) {
+    CAPTURE(moment);
+    Effect effect = built_in_effect("swinging_load");
+    ForceTerm force;
+    force.at = Place::kLoad;
+    force.along.text = "swing_rate";
+    force.value.text = moment;
+    effect.forces = {force};
+    CHECK(all_equal(prove_neutral(with({effect}), kLinks)) == !depends);
   }
 }
