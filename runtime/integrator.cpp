@@ -394,7 +394,8 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
           dynamics_.table().positions_across == nullptr
               ? "the equations give no finite number"
               : "the equations give no finite number (a joint folded by half a turn, straight up "
-                "at the support, bends in no direction of space; start beside that)";
+                "at the support, bends in no direction of space; start beside that; a clamp whose "
+                "direction is zero has none)";
       break;
     case Status::kSingular:
       what = "the mass or Newton matrix loses its pivot";

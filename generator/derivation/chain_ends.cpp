@@ -4,6 +4,7 @@
 // the moments and the power of what holds them.
 #include <algorithm>
 
+#include "common/input_error.hpp"
 #include "description/expression_syntax.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/effect_expression.hpp"
@@ -27,11 +28,19 @@ std::vector<ex> Chain::unit_vector(const Effect& effect,
                                    int index) {
   std::vector<ex> vector, unit;
   ex square = 0;
+  bool has_length = false;
   for (const Axis axis : axes()) {
-    vector.push_back(
-        define_variable(name + ending(axis), kNoIndex,
-                        evaluate(effect, *components[axis], kShape, Place::kAnywhere, 0, "1")));
+    const ex value = evaluate(effect, *components[axis], kShape, Place::kAnywhere, 0, "1");
+    has_length = has_length || !value.is_zero();
+    vector.push_back(define_variable(name + ending(axis), kNoIndex, value));
     square += vector.back() * vector.back();
+  }
+  if (!has_length) {
+    const Expression& given = **std::find_if(components.begin(), components.end(),
+                                             [](const auto* each) { return each->given(); });
+    throw InputError(given.file + ":" + std::to_string(given.line) + ": " + given.key +
+                     ": all components are zero, and a vector of length zero has no direction; "
+                     "give one that is not zero");
   }
   const ex scale =
       definitions_.define(name + "_scale", kNoIndex,

@@ -6,8 +6,10 @@
 #include "common/impossible_value.hpp"
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/number_text.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
+#include "runtime/clamp_direction.hpp"
 
 namespace catena {
 namespace {
@@ -44,6 +46,19 @@ Model fitting_model(const Case& the_case, Model model) {
   return model;
 }
 
+/// Clamps have a direction at all these times.
+void check_clamps(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals,
+                  const std::vector<double>& times, const std::string& where) {
+  if (signals.count() < model.signals()) return;
+  for (const double t : times)
+    if (const std::string table = clamp_without_direction(model, parameters, t, signals);
+        !table.empty())
+      throw InputError(where + ": clamp_side, clamp_down and clamp_across of " + table +
+                       " are zero at t = " + number_text(t) +
+                       " s, and the clamp has no direction; change the parameters or signals that "
+                       "they are made of");
+}
+
 }  // namespace
 
 Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
@@ -52,12 +67,18 @@ Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
       map_(checked_map(case_, model_)),
       experiments_(experiments_of(case_, model_, map_, std::move(recordings))),
       unknowns_(case_, experiments_) {
-  for (const Experiment& experiment : experiments_)
-    check_start(model_, map_(case_values(case_, experiment.spec.name)), experiment.initial,
-                experiment.signals, experiment.spec.start, experiment.spec.where);
+  for (const Experiment& experiment : experiments_) {
+    const Eigen::VectorXd parameters = map_(case_values(case_, experiment.spec.name));
+    check_clamps(model_, parameters, experiment.signals, experiment.recording.time,
+                 experiment.spec.where);
+    check_start(model_, parameters, experiment.initial, experiment.signals, experiment.spec.start,
+                experiment.spec.where);
+  }
   const InitialSpec& own = case_.initial;
   const bool given =
       own.shape == Shape::kCatenary || own.shape == Shape::kHanging || !own.coefficients.empty();
+  if (experiments_.empty())
+    check_clamps(model_, map_(case_values(case_)), Signals(), {0}, case_.file.string());
   if (experiments_.empty() && given)
     check_start(model_, map_(case_values(case_)), own, Signals(), 0, case_.file.string());
 }

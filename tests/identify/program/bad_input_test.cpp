@@ -196,6 +196,42 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
   check_refused(folder, "identify", the_case, {"data.csv", "empty"});
 }
 
+TEST_CASE("clamps in space without a direction") {
+  const testing::TemporaryFolder folder;
+  const std::string parameter = "unit = \"1\"\ndefault = 1.0\ndescription = \"d\"\n";
+  const std::string grips =
+      "format = 1\nkind = \"effect\"\nid = \"grips\"\ntitle = \"t\"\ndescription = \"d\"\n"
+      "[constants.place]\nvalue = 0.6\nunit = \"m\"\ndescription = \"d\"\n"
+      "[parameters.above]\n" +
+      parameter + "[parameters.below]\n" + parameter +
+      "[support]\nclamp_down = \"above\"\n"
+      "[held_end]\nside = \"place\"\nclamp_side = \"below\"\n";
+  folder.write("grips.toml", grips);
+  folder.write("space.toml",
+               "format = 1\nkind = \"model\"\nid = \"gripped\"\nspace = \"3d\"\n"
+               "effects = [\"grips.toml\"]\n");
+  const std::string whole =
+      replaced(testing::kSwing, "links = 2", "links = 2\ndescription = \"space.toml\"");
+  const auto with = [&](const std::string& name, const std::string& value) {
+    return folder.write("case.toml",
+                        replaced(whole, "[[parameter]]",
+                                 "[[parameter]]\nname = \"grip\"\nsets = \"grips." + name +
+                                     "\"\nvalue = " + value + "\n[[parameter]]"));
+  };
+  check_refused(
+      folder, "simulate", with("above", "0.0"),
+      {"case.toml: clamp_side, clamp_down and clamp_across of [support] are zero at t = 0 s"});
+  check_refused(
+      folder, "simulate", with("below", "0.0"),
+      {"case.toml: clamp_side, clamp_down and clamp_across of [held_end] are zero at t = 0 s"});
+  const ProcessResult later =
+      run_catena({"simulate", with("above", "2.0"), "--output", folder.path() / "later"});
+  CHECK_MESSAGE(later.exit_status == 0, later.output);
+  folder.write("grips.toml", replaced(grips, "\"above\"", "\"0*above\""));
+  check_refused(folder, "simulate", with("below", "1.0"),
+                {"grips.toml:19: support.clamp_down: all components are zero"});
+}
+
 TEST_CASE("mistakes on the command line") {
   struct CommandRow {
     std::vector<std::string> arguments;
