@@ -23,7 +23,7 @@ std::string clamp_without_direction(const Model& model, const Eigen::VectorXd& p
     State state = State::zero(model);
     state.q.head(3 * n).setZero();
     state.q.segment(axis * n, n).setOnes();
-    const catena_point at{t,        state.q.data(), state.v.data(),   a.data(), state.z.data(),
+    const catena_point at{t,        state.q.data(),   state.v.data(), a.data(), state.z.data(),
                           u.data(), parameters.data()};
     Eigen::VectorXd moment(n), tension(n), curvature(n);
     model.internal_forces(at, moment.data(), tension.data(), curvature.data());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/impossible_value.hpp"
@@ -50,13 +51,16 @@ Model fitting_model(const Case& the_case, Model model) {
 void check_clamps(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals,
                   const std::vector<double>& times, const std::string& where) {
   if (signals.count() < model.signals()) return;
-  for (const double t : times)
-    if (const std::string table = clamp_without_direction(model, parameters, t, signals);
-        !table.empty())
-      throw InputError(where + ": clamp_side, clamp_down and clamp_across of " + table +
-                       " are zero at t = " + number_text(t) +
-                       " s, and the clamp has no direction; change the parameters or signals that "
-                       "they are made of");
+  std::string table;
+  const auto at = std::find_if(times.begin(), times.end(), [&](double t) {
+    table = clamp_without_direction(model, parameters, t, signals);
+    return !table.empty();
+  });
+  if (at == times.end()) return;
+  throw InputError(where + ": clamp_side, clamp_down and clamp_across of " + table +
+                   " are zero at t = " + number_text(*at) +
+                   " s, and the clamp has no direction; change the parameters or signals that they "
+                   "are made of");
 }
 
 }  // namespace
