@@ -220,14 +220,23 @@ bool leaves_no_more(const FittedModel& model, const std::vector<NoiseModel>& noi
          (!in_held_out || chance.held_out > kThresholds.chance);
 }
 
-bool closes_gap(const FittedModel& model, const FittedModel& bare,
-                const std::vector<NoiseModel>& noise) {
-  const OfParts explained = excess(remainder_of(bare, noise));
-  const auto tolerated = [](double of_explained) {
-    return std::pow(kThresholds.gap_misfit, 2) +
-           std::pow(kThresholds.law_error, 2) * std::max(0.0, of_explained);
+bool only_errors_of_laws(const Remainder& left, const Remainder& without_laws, GapIn gap) {
+  if (!gap.fitted && !gap.held_out) return true;
+  const OfParts with = excess(left), without = excess(without_laws);
+  const auto error = [](double before, double after) {
+    return std::pow(kThresholds.law_error, 2) * std::max(0.0, before - after);
   };
-  return leaves_no_more(model, noise, {tolerated(explained.fitted), tolerated(explained.held_out)});
+  const OfParts chance = chance_of_remainder(
+      left, {error(without.fitted, with.fitted), error(without.held_out, with.held_out)});
+  return (!gap.fitted || chance.fitted > kThresholds.chance) &&
+         (!gap.held_out || chance.held_out > kThresholds.chance);
+}
+
+bool closes_gap(const FittedModel& model, const FittedModel& without_laws,
+                const std::vector<NoiseModel>& noise) {
+  const GapIn gap{fit_gap(model, noise).present, tested_held_out_gap(model, noise).present};
+  if (!gap.fitted && !gap.held_out) return true;
+  return only_errors_of_laws(remainder_of(model, noise), remainder_of(without_laws, noise), gap);
 }
 
 bool nearly_closes(const GapTest& fit, const GapTest& before) {

@@ -55,10 +55,20 @@ GapTest tested_held_out_gap(const FittedModel& model, const std::vector<NoiseMod
 bool leaves_no_more(const FittedModel& model, const std::vector<NoiseModel>& noise,
                     const OfParts& tolerated);
 
-/// Whether a model leaves so little of what `bare`, without effects, leaves that the right effects
-/// would leave as much: no gap, or none beyond what laws get wrong
-/// (DiagnosisThresholds::law_error). In both parts.
-bool closes_gap(const FittedModel& model, const FittedModel& bare,
+/// In which parts there is a gap.
+struct GapIn {
+  bool fitted = false, held_out = false;
+};
+
+/// Whether what is left where there is a gap is no more than noise and errors of laws
+/// (DiagnosisThresholds::law_error) leave by chance. Laws are wrong by a share of what they explain:
+/// of what is left without them (`without_laws`). What is exact, a mass or the tilt of a camera, has
+/// no such errors: beside it a gap is a gap.
+bool only_errors_of_laws(const Remainder& left, const Remainder& without_laws, GapIn gap);
+
+/// Whether a model leaves no gap, or only errors of its laws. `without_laws`: the model with those
+/// of its effects only that are exact; the model itself where all are.
+bool closes_gap(const FittedModel& model, const FittedModel& without_laws,
                 const std::vector<NoiseModel>& noise);
 /// The same of what was fitted, at a glance: without a test. `before`: without the effects.
 bool nearly_closes(const GapTest& fit, const GapTest& before);

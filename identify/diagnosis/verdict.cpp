@@ -15,6 +15,7 @@
 #include "identify/diagnosis/same_model.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/wrong_knowns.hpp"
 #include "identify/fit/estimated_noise.hpp"
 
@@ -154,6 +155,32 @@ std::string wrong_knowns_in_words(const DiagnosisState& state) {
   return words;
 }
 
+/// The model with those of its effects only that are no laws, fitted again: errors of what is known
+/// and of sensors. The model itself where all are, or where that cannot be fitted.
+FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
+                         const std::vector<std::string>& effects) {
+  std::vector<std::string> exact;
+  std::copy_if(
+      effects.begin(), effects.end(), std::back_inserter(exact),
+      [&](const std::string& id) { return is_error_of_known(*state.context.find(id)); });
+  if (exact.size() == effects.size()) return model;
+  if (exact.empty()) return last_without_effects(state.found.stages).model;
+  Case the_case = model.problem->the_case();
+  for (const std::string& id : effects)
+    if (std::find(exact.begin(), exact.end(), id) == exact.end())
+      the_case = without_effect(the_case, id);
+  const auto problem = std::make_shared<const Problem>(
+      the_case, state.context.model_with(exact, the_case.links));
+  FittedModel fitted = fit_model(problem, transfer(*model.problem, model.x, *problem),
+                                 state.found.noise, state.context.least_squares, state.context.stop);
+  return fitted.ok ? fitted : model;
+}
+
+bool effects_close_gap(DiagnosisState& state, const FittedModel& model,
+                       const std::vector<std::string>& effects) {
+  return closes_gap(model, without_laws(state, model, effects), state.found.noise);
+}
+
 }  // namespace
 
 bool gap_left(const Stage& stage) { return stage.fit.present || stage.held_out.present; }
@@ -167,11 +194,10 @@ bool trace_left(const Stage& stage) {
          stage.fit.misfit > kThresholds.trace_misfit * stage.fit.noise;
 }
 
-bool explained(const DiagnosisState& state) {
-  return !gap_left(state.last()) ||
-         (!state.last().effects.empty() &&
-          closes_gap(state.last().model, last_without_effects(state.found.stages).model,
-                     state.found.noise));
+bool explained(DiagnosisState& state) {
+  if (!gap_left(state.last())) return true;
+  return !state.last().effects.empty() &&
+         effects_close_gap(state, state.last().model, state.last().effects);
 }
 
 bool one_may_imitate_two(const Stage& last) { return last.effects.size() == 1 && trace_left(last); }
@@ -217,8 +243,7 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
-  const FittedModel& bare = last_without_effects(found.stages).model;
-  const bool is_closed = !found.effects.empty() && closes_gap(found.final, bare, found.noise);
+  const bool is_closed = !found.effects.empty() && effects_close_gap(state, found.final, found.effects);
   // Beside a gap an effect has to be worth something of the whole misfit; where the gap is closed,
   // of its own part.
   const auto errors_could_explain = [&](const std::string& id) {
@@ -254,8 +279,11 @@ void conclude(DiagnosisState& state, const Case& asked) {
     return;
   }
   std::erase_if(found.alternatives, [&](const Alternative& alternative) {
-    return !alternative.explanation.is_effect() ||
-           !closes_gap(alternative.explanation.model, bare, found.noise);
+    if (!alternative.explanation.is_effect()) return true;
+    std::vector<std::string> effects = found.effects;
+    std::replace(effects.begin(), effects.end(), alternative.instead_of,
+                 alternative.explanation.id);
+    return !effects_close_gap(state, alternative.explanation.model, effects);
   });
   std::vector<std::string> doubtful;
   std::copy_if(found.effects.begin(), found.effects.end(), std::back_inserter(doubtful),

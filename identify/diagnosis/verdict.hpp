@@ -17,7 +17,7 @@ bool trace_left(const Stage& stage);
 
 /// Whether the last stage explains the data: it leaves no gap, or so little that it is closed and
 /// not only imitated.
-bool explained(const DiagnosisState& state);
+bool explained(DiagnosisState& state);
 /// Whether the last stage has one effect and leaves a trace: it may imitate two.
 bool one_may_imitate_two(const Stage& last);
 
