@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/explanation.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
+#include "identify/diagnosis/shares.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/diagnosis/verdict.hpp"
 #include "identify/forces/law_effect.hpp"
@@ -105,22 +110,61 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
   return false;
 }
 
+/// Log odds of the effects, with the force that is missing beside them, against a force without any
+/// of them (`alone`). A force of no known form can do what effects do; what they imitate of it, they
+/// only imitate. Unknowns count by the Bayesian information criterion.
+double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& beside,
+                                    const FittedModel& without, const MissingForce& alone) {
+  if (!without.ok) return std::numeric_limits<double>::quiet_NaN();
+  const auto unknowns = [](const FittedModel& model) {
+    return static_cast<double>(model.problem->unknowns().size());
+  };
+  const double added = unknowns(found.final) - unknowns(without);
+  const double cost = 0.5 * added * std::log(static_cast<double>(found.final_fit.count));
+  return beside.log_probability - alone.log_probability - cost;
+}
+
 }  // namespace
 
 void discover(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
-  if (found.verdict != DiagnosisVerdict::kUnexplained && found.verdict != DiagnosisVerdict::kPartly)
-    return;
+  const bool gap = found.verdict == DiagnosisVerdict::kUnexplained ||
+                   found.verdict == DiagnosisVerdict::kPartly;
+  // Where effects close the gap, one cause may have been taken for several of them only.
+  if (!gap && found.effects.size() < 2) return;
   if (found.final.problem->model().in_space()) {
-    found.notes.emplace_back("the missing force is estimated in the plane only");
+    if (gap) found.notes.emplace_back("the missing force is estimated in the plane only");
     return;
   }
-  const Stage last = state.last(), bare = last_without_effects(found.stages);
-  found.force = force_missing_in(state, found.final);
-  // The effects may be there because they imitate the law.
-  if (!last.effects.empty() && take_law(state, bare, force_missing_in(state, bare.model), asked))
-    return;
-  take_law(state, last, *found.force, asked);
+  const Stage last = state.last();
+  const MissingForce beside = force_missing_in(state, found.final);
+  if (gap) found.force = beside;
+  if (!last.effects.empty()) {
+    Stage bare = last_without_effects(found.stages);
+    if (bare.links != last.links) {
+      bare.model = fit_with_effects(state, {});
+      bare.links = last.links;
+    }
+    const MissingForce alone =
+        bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
+    if (gap && take_law(state, bare, alone, asked)) return;
+    const double log_odds = log_odds_against_force_alone(found, beside, bare.model, alone);
+    const double decided = std::log(kThresholds.odds);
+    if (alone.found && log_odds < (gap ? decided : -decided)) {
+      if (!gap && take_law(state, bare, alone, asked)) return;
+      found.force = beside;
+      doubt_effects(state, alone.words.front());
+      return;
+    }
+    if (alone.found && log_odds < decided) {
+      add_force_as_rival(state, alone.words.front());
+    } else if (alone.found && std::isfinite(log_odds)) {
+      found.notes.push_back(
+          fmt::format("a force of no known form instead of {} is ruled out by log odds of {:.3g}",
+                      listed(found.effects), log_odds));
+    }
+  }
+  if (gap) take_law(state, last, beside, asked);
 }
 
 }  // namespace catena

@@ -297,6 +297,22 @@ void conclude(DiagnosisState& state, const Case& asked) {
       wrong_knowns_in_words(state);
 }
 
+void doubt_effects(DiagnosisState& state, const std::string& force) {
+  Diagnosis& found = state.found;
+  found.certain.clear();
+  found.verdict = DiagnosisVerdict::kUnexplained;
+  found.sentence = fmt::format("{} Without {}, a force of no known form does as well: {}.",
+                               sentence_of_unexplained(found, state.options),
+                               found.effects.size() > 1 ? "them" : "it", force);
+}
+
+void add_force_as_rival(DiagnosisState& state, const std::string& force) {
+  Diagnosis& found = state.found;
+  found.certain.clear();
+  found.verdict = DiagnosisVerdict::kAmbiguous;
+  found.sentence += fmt::format(" These data do not decide against a force of no known form instead: {}.", force);
+}
+
 const char* name_of(DiagnosisVerdict verdict) {
   switch (verdict) {
     case DiagnosisVerdict::kNone:

@@ -34,4 +34,10 @@ std::vector<std::string> standing_effects(const Diagnosis& found);
 /// std::runtime_error where it cannot be simulated, ModelError where it cannot be made.
 void conclude(DiagnosisState& state, const Case& asked);
 
+/// Without the effects found, a force of no known form does as well or better: none of them is certain.
+/// `force`: where and when it acts, in words.
+void doubt_effects(DiagnosisState& state, const std::string& force);
+/// The effects close the gap, and the data do not decide between them and such a force.
+void add_force_as_rival(DiagnosisState& state, const std::string& force);
+
 }  // namespace catena

@@ -463,6 +463,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   PlaceSearch search(paths, chain, size_of(paths, chain));
   if (!search.look_everywhere(missing)) return false;
   missing.log_evidence = everywhere->log_evidence - search.none();
+  missing.log_probability = std::max(everywhere->log_evidence, search.none());
   missing.found = missing.log_evidence > kForceThresholds.log_evidence &&
                   missing.share > kForceThresholds.share;
   if (!missing.found) {
@@ -486,6 +487,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   if (!there) return false;
   missing.best->log_evidence = there->log_evidence - search.none();
   missing.one_place = there->log_evidence >= everywhere->log_evidence;
+  missing.log_probability = std::max(missing.log_probability, there->log_evidence);
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
     missing.at_best.push_back(history_of(paths, r, problem, *there, chain, false));
   if (missing.one_place) {

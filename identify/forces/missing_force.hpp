@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ struct MissingForce {
   /// residuals. Everything else is empty where the motion cannot be followed, which `words` says.
   bool found = false;
   double log_evidence = 0;  ///< log of the odds against no force, for even odds before
+  /// Log of the probability of the recordings with the forces, everywhere or at the best place,
+  /// whichever is larger; up to a constant of the recordings and `sigmas`. So models compare. NaN
+  /// where the motion cannot be followed.
+  double log_probability = std::numeric_limits<double>::quiet_NaN();
   double share = 0;         ///< of the sum of the squared residuals that the forces take away
 
   struct Pattern {
