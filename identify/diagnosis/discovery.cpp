@@ -128,8 +128,8 @@ double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& 
 
 void discover(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
-  const bool gap = found.verdict == DiagnosisVerdict::kUnexplained ||
-                   found.verdict == DiagnosisVerdict::kPartly;
+  const bool gap =
+      found.verdict == DiagnosisVerdict::kUnexplained || found.verdict == DiagnosisVerdict::kPartly;
   // Where effects close the gap, one cause may have been taken for several of them only.
   if (!gap && found.effects.size() < 2) return;
   if (found.final.problem->model().in_space()) {
@@ -145,8 +145,7 @@ void discover(DiagnosisState& state, const Case& asked) {
       bare.model = fit_with_effects(state, {});
       bare.links = last.links;
     }
-    const MissingForce alone =
-        bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
+    const MissingForce alone = bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
     if (gap && take_law(state, bare, alone, asked)) return;
     const double log_odds = log_odds_against_force_alone(found, beside, bare.model, alone);
     const double decided = std::log(kThresholds.odds);

@@ -160,19 +160,19 @@ std::string wrong_knowns_in_words(const DiagnosisState& state) {
 FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
                          const std::vector<std::string>& effects) {
   std::vector<std::string> exact;
-  std::copy_if(
-      effects.begin(), effects.end(), std::back_inserter(exact),
-      [&](const std::string& id) { return is_error_of_known(*state.context.find(id)); });
+  std::copy_if(effects.begin(), effects.end(), std::back_inserter(exact),
+               [&](const std::string& id) { return is_error_of_known(*state.context.find(id)); });
   if (exact.size() == effects.size()) return model;
   if (exact.empty()) return last_without_effects(state.found.stages).model;
   Case the_case = model.problem->the_case();
   for (const std::string& id : effects)
     if (std::find(exact.begin(), exact.end(), id) == exact.end())
       the_case = without_effect(the_case, id);
-  const auto problem = std::make_shared<const Problem>(
-      the_case, state.context.model_with(exact, the_case.links));
-  FittedModel fitted = fit_model(problem, transfer(*model.problem, model.x, *problem),
-                                 state.found.noise, state.context.least_squares, state.context.stop);
+  const auto problem =
+      std::make_shared<const Problem>(the_case, state.context.model_with(exact, the_case.links));
+  FittedModel fitted =
+      fit_model(problem, transfer(*model.problem, model.x, *problem), state.found.noise,
+                state.context.least_squares, state.context.stop);
   return fitted.ok ? fitted : model;
 }
 
@@ -243,7 +243,8 @@ void conclude(DiagnosisState& state, const Case& asked) {
   for (const std::string& words : noise_in_words(*found.final.problem, found.noise))
     note("noise of " + words);
 
-  const bool is_closed = !found.effects.empty() && effects_close_gap(state, found.final, found.effects);
+  const bool is_closed =
+      !found.effects.empty() && effects_close_gap(state, found.final, found.effects);
   // Beside a gap an effect has to be worth something of the whole misfit; where the gap is closed,
   // of its own part.
   const auto errors_could_explain = [&](const std::string& id) {
@@ -310,7 +311,8 @@ void add_force_as_rival(DiagnosisState& state, const std::string& force) {
   Diagnosis& found = state.found;
   found.certain.clear();
   found.verdict = DiagnosisVerdict::kAmbiguous;
-  found.sentence += fmt::format(" These data do not decide against a force of no known form instead: {}.", force);
+  found.sentence +=
+      fmt::format(" These data do not decide against a force of no known form instead: {}.", force);
 }
 
 const char* name_of(DiagnosisVerdict verdict) {

@@ -43,7 +43,7 @@ struct MissingForce {
   /// whichever is larger; up to a constant of the recordings and `sigmas`. So models compare. NaN
   /// where the motion cannot be followed.
   double log_probability = std::numeric_limits<double>::quiet_NaN();
-  double share = 0;         ///< of the sum of the squared residuals that the forces take away
+  double share = 0;  ///< of the sum of the squared residuals that the forces take away
 
   struct Pattern {
     std::string name, unit;

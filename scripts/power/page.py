@@ -2,6 +2,7 @@
 """docs/power.md from the lines of the trials."""
 
 import math
+import re
 import statistics
 
 from power import design
@@ -31,7 +32,7 @@ sensors does not count, for it may be so; what is said of physics does. The othe
 
 An effect's strength is what a refitted
 baseline leaves of it, in units of the noise (`docs/power/strengths.csv`). Rates are the observed ones
-with their 95 % intervals (Wilson). The limits of the diagnosis were set while looking at other seeds of
+with their 95 % intervals (Clopper and Pearson). The limits of the diagnosis were set while looking at other seeds of
 the same kinds of recordings. An effect whose other form is named (`form_of`) counts as named. The true share of an
 effect is that of the same film without noise: the effects found are fitted to it in all subsets. {program}
 
@@ -51,20 +52,36 @@ KINDS = {
     "setup_quiet": "other cables, markers, durations, numbers of recordings; nothing missing",
     "setup_single": "the same, one effect, strength 3 or 10",
 }
+BOUNDS = """An asked bound is `met` where the whole interval lies within it, `missed` where all of it lies beyond,
+and `not shown` where the trials are too few to tell.
+
+"""
 KNOWN_PROGRAM = "All trials are of the sources with SHA-256 `{hash}` (`docs/power/program.txt`)."
 OLD_PROGRAM = """The trials so far were run before the sources' hash was
 kept, with rules of choice that have changed since: the held-out part now rules effects out, and a verdict
 may be `partly`."""
 
 
+def bounds(hits, count):
+    """95 % interval of a rate (Clopper and Pearson): outside of it, what was observed or more of it has 2.5 %."""
+    at_most = lambda k, p: sum(math.comb(count, i) * p**i * (1 - p)**(count - i) for i in range(k + 1))
+
+    def where(falling, level):  # bisection of a function that falls with p
+        low, high = 0.0, 1.0
+        for _ in range(50):
+            middle = (low + high) / 2
+            low, high = (middle, high) if falling(middle) > level else (low, middle)
+        return low
+
+    lower = where(lambda p: at_most(hits - 1, p), 0.975) if hits > 0 else 0.0
+    return lower, where(lambda p: at_most(hits, p), 0.025) if hits < count else 1.0
+
+
 def interval(hits, count):
     if count == 0:
         return "-"
-    z, p = 1.96, hits / count
-    middle = (p + z * z / (2 * count)) / (1 + z * z / count)
-    half = z * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count)) / (1 + z * z / count)
-    return f"{hits}/{count} = {100 * p:.1f} % ({100 * max(0, middle - half):.1f} to " \
-           f"{100 * min(1, middle + half):.1f})"
+    lower, upper = bounds(hits, count)
+    return f"{hits}/{count} = {100 * hits / count:.1f} % ({100 * lower:.1f} to {100 * upper:.1f})"
 
 
 def write(file, rows, seconds, program):
@@ -80,6 +97,18 @@ def write(file, rows, seconds, program):
 
 def of_kind(rows, kind):
     return [r for r in rows if r["kind"] == kind]
+
+
+def met(asked, observed):
+    """Whether the interval lies within what is asked, beyond it, or holds the bound."""
+    wanted = [float(number) for number in re.findall(r"\d+", asked)]
+    if not wanted:
+        return ""
+    lower, upper = map(float, re.search(r"\((.*) to (.*)\)", observed).groups())
+    least, most = (wanted if len(wanted) == 2 else [0, wanted[0]] if "most" in asked else [wanted[0], 100])
+    if least <= lower and upper <= most:
+        return "met"
+    return "missed" if upper < least or lower > most else "not shown"
 
 
 def table(header, lines):
@@ -138,7 +167,8 @@ def rates(rows, seconds):
         some = [r for r in single if int(r["strength"]) == s]
         lines.append([f"strength {s}: something found", "", count(some, lambda r: r["verdict"] != "none")])
         lines.append([f"strength {s}: right", "", count(some, right_name)])
-    text = "## Rates\n\n" + table(["what", "asked", "observed"], [line for line in lines if line[2] != "-"])
+    lines = [line + [met(line[1], line[2])] for line in lines if line[2] != "-"]
+    text = "## Rates\n\n" + BOUNDS + table(["what", "asked", "observed", "asked bound"], lines)
     if seconds:
         text += (f"CPU time of one diagnosis, compiling where the cache lacked a model: median "
                  f"{statistics.median(seconds):.1f} s, longest {max(seconds):.1f} s.\n\n")
