@@ -128,13 +128,23 @@ enum class DataSource { kCatena, kTracker, kKinovea, kDeepLabCut };
 /// joint (its far end), link and load says where it is.
 struct PointSpec {
   std::string name;
-  std::string side_column, down_column;  ///< markers
-  std::string across_column;             ///< markers in space
-  std::string angle_column;              ///< angles
-  double arc_length = kNotGiven;         ///< m from the support along the cable
-  int joint = 0;                         ///< marker at the far end of link `joint`, 1-based
-  int link = 0;                          ///< angle of this link, 1-based
-  bool load = false;                     ///< marker at the load
+  std::string side_column, down_column;   ///< markers
+  std::string across_column;              ///< markers in space
+  std::string angle_column;               ///< angles
+  double arc_length = kNotGiven;          ///< m from the support along the cable
+  int joint = 0;                          ///< marker at the far end of link `joint`, 1-based
+  int link = 0;                           ///< angle of this link, 1-based
+  bool load = false;                      ///< marker at the load
+  std::string camera;                     ///< in space, a marker in its picture; else empty
+  std::array<double, 2> centre = {0, 0};  ///< px, of that camera
+};
+
+/// A camera that looks at a cable in space. Where it stands, where it looks and its focal length are
+/// parameters (identify/problem/camera.hpp), which [[parameter]] sets.
+struct CameraSpec {
+  std::string name;
+  std::array<double, 2> centre = {0, 0};  ///< px: where its axis meets the picture
+  std::string where;                      ///< file and line
 };
 
 struct Table;  // identify/recordings/table.hpp
@@ -256,6 +266,7 @@ struct Case {
   int links = 0;
   CableGeometry cable;
   std::vector<ParameterSpec> parameters;
+  std::vector<CameraSpec> cameras;
   InitialSpec initial;
   std::vector<SignalSpec>
       signals;  ///< of a simulation without data, and of experiments that give none

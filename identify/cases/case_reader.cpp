@@ -251,7 +251,23 @@ std::vector<SignalSpec> read_signals(const TomlTable& table,
   return signals;
 }
 
-PointSpec read_point(const TomlTable& table, DataKind kind, int number, int links) {
+CameraSpec read_camera(const TomlTable& table) {
+  CameraSpec camera;
+  camera.where = table.file() + ":" + std::to_string(table.line());
+  camera.name = table.text("name");
+  const auto inner = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (camera.name.empty() || !std::all_of(camera.name.begin(), camera.name.end(), inner))
+    table.fail("name", in_quotes(camera.name) + "; give one of letters, digits and _");
+  const std::vector<double> centre = table.numbers("centre");
+  if (centre.size() != 2 || !std::isfinite(centre[0]) || !std::isfinite(centre[1]))
+    table.fail("centre",
+               "must be two numbers, px: the place in the picture that the camera's axis meets");
+  camera.centre = {centre[0], centre[1]};
+  return camera;
+}
+
+PointSpec read_point(const TomlTable& table, DataKind kind, int number, int links,
+                     const std::vector<CameraSpec>& cameras) {
   PointSpec point;
   const std::string index = std::to_string(number);
   if (kind == DataKind::kAngles) {
@@ -266,6 +282,17 @@ PointSpec read_point(const TomlTable& table, DataKind kind, int number, int link
   point.side_column = table.text("side");
   point.down_column = table.text("down");
   point.across_column = table.optional_text("across").value_or("");
+  point.camera = table.optional_text("camera").value_or("");
+  if (!point.camera.empty()) {
+    std::vector<std::string> names;
+    for (const CameraSpec& camera : cameras) {
+      names.push_back(camera.name);
+      if (camera.name == point.camera) point.centre = camera.centre;
+    }
+    if (std::find(names.begin(), names.end(), point.camera) == names.end())
+      table.fail("camera", in_quotes(point.camera) + " is no [[camera]] of this case" +
+                               suggestion(point.camera, names));
+  }
   const int places = table.has("arc_length") + table.has("joint") + table.has("load");
   if (places != 1)
     table.fail("arc_length", "say where the marker is by one of arc_length, joint and load");
@@ -311,6 +338,7 @@ void read_conventions(const TomlTable& table, ExperimentSpec& experiment) {
 }
 
 ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
+                               const std::vector<CameraSpec>& cameras,
                                const std::filesystem::path& directory, const HandedIn& recordings) {
   ExperimentSpec experiment;
   experiment.where = table.file() + ":" + std::to_string(table.line());
@@ -346,8 +374,8 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
   read_conventions(table, experiment);
   const std::string_view key = experiment.kind == DataKind::kMarkers ? "markers" : "angles";
   for (const TomlTable& point : table.tables(key))
-    experiment.points.push_back(
-        read_point(point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links));
+    experiment.points.push_back(read_point(
+        point, experiment.kind, static_cast<int>(experiment.points.size()) + 1, links, cameras));
   if (const auto initial = table.optional_table("initial"))
     experiment.initial = read_initial(*initial, links);
   experiment.signals = read_signals(table, directory);
@@ -508,10 +536,16 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
     the_case.initial = read_initial(*initial, the_case.links);
   the_case.signals = read_signals(file, directory);
   names.clear();
+  for (const TomlTable& table : file.tables("camera")) {
+    the_case.cameras.push_back(read_camera(table));
+    if (!names.insert(the_case.cameras.back().name).second)
+      table.fail("name", in_quotes(the_case.cameras.back().name) + "; names must differ");
+  }
+  names.clear();
   for (const TomlTable& table : file.tables("experiment")) {
     the_case.experiments.push_back(
         read_experiment(table, static_cast<int>(the_case.experiments.size()) + 1, the_case.links,
-                        directory, recordings));
+                        the_case.cameras, directory, recordings));
     if (!names.insert(the_case.experiments.back().name).second)
       table.fail("name", in_quotes(the_case.experiments.back().name) + "; names must differ");
   }

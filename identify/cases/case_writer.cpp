@@ -139,6 +139,7 @@ std::string point_text(const PointSpec& point, DataKind kind) {
   out +=
       ", side = " + toml_quoted(point.side_column) + ", down = " + toml_quoted(point.down_column);
   if (!point.across_column.empty()) out += ", across = " + toml_quoted(point.across_column);
+  if (!point.camera.empty()) out += ", camera = " + toml_quoted(point.camera);
   if (point.load)
     out += ", load = true";
   else if (point.joint)
@@ -227,6 +228,11 @@ std::string case_text(const Case& the_case, const std::filesystem::path& directo
   out.number("load_mass", the_case.cable.load_mass, 0);
   out.number("gravity", the_case.cable.gravity);
   for (const ParameterSpec& parameter : the_case.parameters) write_parameter(out, parameter);
+  for (const CameraSpec& camera : the_case.cameras) {
+    out.header("[[camera]]");
+    out.text("name", camera.name);
+    out.numbers("centre", {camera.centre[0], camera.centre[1]});
+  }
   write_initial(out, the_case.initial, "initial");
   write_signals(out, the_case.signals, "signal", directory);
   for (const ExperimentSpec& experiment : the_case.experiments)

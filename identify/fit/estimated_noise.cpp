@@ -40,11 +40,17 @@ std::vector<NoiseModel> estimated_noise(const Problem& problem,
       window.shows_noise = window.fitted > 0 ? window.fitted : window.residual.cols();
     }
     const Experiment& experiment = experiments[members.front()];
+    // Of several cameras only the first one may shake.
+    const std::vector<PointSpec>& points = experiment.recording.points;
     std::vector<int> direction;
-    for (const Channel& channel : experiment.recording.channels)
-      direction.push_back(channel.component == Component::kSide   ? 0
+    for (const Channel& channel : experiment.recording.channels) {
+      const bool first =
+          points[static_cast<std::size_t>(channel.point)].camera == points.front().camera;
+      direction.push_back(!first                                  ? -1
+                          : channel.component == Component::kSide ? 0
                           : channel.component == Component::kDown ? 1
                                                                   : -1);
+    }
     std::vector<NoiseModel> found = estimate_noise(parts, direction, experiment.spec.noise);
     for (std::size_t w = 0; w < members.size(); ++w) noise[members[w]] = std::move(found[w]);
   }

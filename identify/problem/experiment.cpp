@@ -6,6 +6,7 @@
 
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
+#include "identify/problem/camera.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/recordings/signal_reader.hpp"
@@ -19,9 +20,11 @@ using Eigen::Index;
 constexpr Index kFewestFramesOfWindow = 8;  // of a window: fewer say nothing beyond their own start
 
 /// A recording of a cable that hangs from the origin: markers less the support, where effects or
-/// signals move it.
-Recording seen_from_support(Recording recording, const Model& model,
+/// signals move it; from pictures, where they seem to be.
+Recording seen_from_support(Recording recording, const ExperimentSpec& spec, const Model& model,
                             const Eigen::VectorXd& parameters, const Signals& signals) {
+  if (model.in_space() && recording.components() == 2)
+    recording = positions_from_pictures(recording, model, parameters, spec.metres_per_pixel);
   if (signals.count() < model.signals()) return recording;
   const Eigen::VectorXd any_shape = Eigen::VectorXd::Ones(model.coordinates());
   for (Index k = 0; k < recording.measured.cols(); ++k) {
@@ -45,7 +48,7 @@ Recording read_plausible(const Case& the_case, const ExperimentSpec& spec, const
   Recording recording =
       read_recording(spec, the_case.links, the_case.cable.whole_length(), model.in_space());
   for (std::string& warning :
-       check_plausible(seen_from_support(recording, model, parameters, signals), spec,
+       check_plausible(seen_from_support(recording, spec, model, parameters, signals), spec,
                        spec.initial.value_or(the_case.initial), the_case.cable,
                        link_lengths(model, parameters), model))
     recording.warnings.push_back(std::move(warning));
@@ -155,7 +158,8 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
       part.initial = part.spec.initial.value_or(the_case.initial);
       part.signals = signals;
       const Eigen::VectorXd own = map(case_values(the_case, part.spec.name));
-      complete_from_data(part.initial, seen_from_support(part.recording, model, own, signals),
+      complete_from_data(part.initial,
+                         seen_from_support(part.recording, part.spec, model, own, signals),
                          link_lengths(model, own));
       if (std::isnan(part.spec.start)) part.spec.start = part.recording.time.front();
       experiments.push_back(std::move(part));

@@ -47,10 +47,20 @@ FrameClock frame_clock(const Model& model, const Experiment& experiment, const V
 
 Observer::Place Observer::place_of(const Model& model, const VectorXd& parameters,
                                    const PointSpec& point) {
-  if (point.load) return {{model.links() - 1, 1.0}, false, true};
-  if (point.joint) return {{point.joint - 1, 1.0}, false, false};
-  if (point.link) return {{point.link - 1, 0.0}, false, false};
-  return {point_at_arc_length(model, parameters, point.arc_length), true, false};
+  Place place;
+  if (!point.camera.empty()) place.camera.emplace(model, point.camera);
+  place.load = point.load;
+  place.at_arc_length = !point.load && !point.joint && !point.link;
+  place.point = point.load    ? MaterialPoint{model.links() - 1, 1.0}
+                : point.joint ? MaterialPoint{point.joint - 1, 1.0}
+                : point.link  ? MaterialPoint{point.link - 1, 0.0}
+                              : point_at_arc_length(model, parameters, point.arc_length);
+  return place;
+}
+
+Observer::Sight Observer::in_picture(const Eigen::Vector2d& picture) const {
+  const double scale = experiment_.spec.metres_per_pixel;
+  return {scale * picture[0], scale * picture[1], 0, 0};
 }
 
 Observer::Observer(const Model& model, const Experiment& experiment, const VectorXd& parameters,
@@ -90,7 +100,10 @@ void Observer::move_to(const Trajectory& path, Index column, double t) {
     const Place& place = places_[i];
     const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
     true_[i] = {there.side, there.down, path.q(place.point.link, column), there.across};
-    if (model_.table().observes)
+    if (place.camera)
+      seen_[i] =
+          in_picture(place.camera->picture(parameters_, {there.side, there.down, there.across}));
+    else if (model_.table().observes)
       model_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
     else
       seen_[i] = true_[i];
@@ -120,7 +133,11 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
     const Sight din{change.side, change.down,
                     sensitivity.q(link, column_) + clock_shift * path_->v(link, column_),
                     change.across};
-    if (model_.table().observes)
+    if (place.camera)
+      seen_[i] = in_picture(place.camera->picture_tangent(
+          parameters_, by_parameter, {true_[i][0], true_[i][1], true_[i][3]},
+          {change.side, change.down, change.across}));
+    else if (model_.table().observes)
       model_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
                              din.data(), seen_[i].data());
     else

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "identify/problem/camera.hpp"
 #include "identify/problem/experiment.hpp"
 #include "runtime/positions.hpp"
 #include "runtime/sensitivity.hpp"
@@ -53,13 +55,16 @@ class Observer {
     MaterialPoint point;
     bool at_arc_length = false;
     bool load = false;
+    std::optional<Camera> camera = {};  ///< in whose picture it is seen
   };
   /// What a sensor tells of a point, or its derivative, in the order of Component: side and down (m),
-  /// the angle of its link (rad), which has no meaning in space, and across (m).
+  /// the angle of its link (rad), which has no meaning in space, and across (m). In a picture: side to
+  /// its right and down in it, px times the metres per pixel of the experiment.
   using Sight = std::array<double, 4>;
 
   static Place place_of(const Model& model, const Eigen::VectorXd& parameters,
                         const PointSpec& point);
+  Sight in_picture(const Eigen::Vector2d& picture) const;
   catena_point point(const Trajectory& path, const Eigen::VectorXd& signals,
                      const Eigen::VectorXd& p) const;
 

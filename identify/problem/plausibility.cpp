@@ -17,8 +17,10 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
-using Place = Eigen::VectorXd;  // side, down and, in space, across
+using Position = Eigen::VectorXd;  // side, down and, in space, across
 
+constexpr const char* kCameras =
+    "are the places, the directions and the focal lengths of the cameras right?";
 constexpr double kMostFrames = 0.9;  // of the frames: the few that are worst are outliers
 
 /// The value that a share of the numbers does not exceed; NaN of none.
@@ -60,10 +62,13 @@ class Check {
     for (const char* effect : {"support_", "origin_offset", "scale", "marker_offset"})
       for (int i = 0; i < model.parameters(); ++i)
         movable_ = movable_ || std::string(model.table().parameter[i].name).starts_with(effect);
-    for (const PointSpec& point : recording.points)
+    for (const PointSpec& point : recording.points) {
+      in_pictures_ = in_pictures_ || !point.camera.empty();
       arcs_.push_back(point.load    ? length_
                       : point.joint ? lengths.head(point.joint).sum()
                                     : point.arc_length);
+    }
+    movable_ = movable_ || in_pictures_;  // the poses may be what is to be found
   }
 
   std::vector<std::string> warnings() {
@@ -95,12 +100,12 @@ class Check {
   double arc(Index p) const { return arcs_[static_cast<std::size_t>(p)]; }
   double time(Index k) const { return recording_.time[static_cast<std::size_t>(k)]; }
   std::string name(Index p) const { return recording_.points[static_cast<std::size_t>(p)].name; }
-  Place at(Index p, Index k) const {
+  Position at(Index p, Index k) const {
     const Index components = recording_.components();
     return recording_.measured.block(components * p, k, components, 1);
   }
   /// How far to the side, in any direction, and down.
-  static Vector2d side_and_down(const Place& place) {
+  static Vector2d side_and_down(const Position& place) {
     return {place.size() == 3 ? std::hypot(place[0], place[2]) : place[0], place[1]};
   }
 
@@ -164,6 +169,7 @@ class Check {
     const auto fits = [&](double factor) {
       return factor * ratio > limits_.hardly_shorter && factor * ratio < limits_.hardly_longer;
     };
+    if (in_pictures_) return kCameras;
     if (spec_.length_unit == "px")
       return "metres_per_pixel = " + rounded(spec_.metres_per_pixel / ratio) + " would fit";
     const double now = metres(spec_.length_unit);
@@ -183,7 +189,9 @@ class Check {
                                  : name(0) + " is " + rounded(ratio) +
                                        " times as far from the support as the cable to it is long";
     report(ratio > limits_.not_longer || ratio < limits_.not_shorter,
-           spec_.length_unit == "px" ? "metres_per_pixel" : "length_unit",
+           in_pictures_                ? "camera"
+           : spec_.length_unit == "px" ? "metres_per_pixel"
+                                       : "length_unit",
            what + "; " + scale_remedy(ratio) +
                "; or change `length` of the cable or the places of "
                "the markers");
@@ -217,6 +225,7 @@ class Check {
   /// Where the support would be if the cable went on straight above its first two markers; in the
   /// file's axes and unit.
   std::string origin_remedy() const {
+    if (in_pictures_) return kCameras;
     if (points() < 2 || arc(1) <= arc(0)) return "give `origin` where the support is";
     const double share = arc(0) / (arc(1) - arc(0));
     const double unit =
@@ -233,6 +242,8 @@ class Check {
     }
     return "`origin` would be about [" + text + "]";
   }
+
+  const char* origin_key() const { return in_pictures_ ? "camera" : "origin"; }
 
   bool listed_upwards() const {
     for (Index p = 0; p < points(); ++p)
@@ -252,7 +263,7 @@ class Check {
     }
     if (worst < 0) return check_first();
     const bool upwards = listed_upwards();
-    report(most > limits_.not_beyond, upwards ? "markers" : "origin",
+    report(most > limits_.not_beyond, upwards ? "markers" : origin_key(),
            name(worst) + " is " + rounded(beyond(worst, 0)) + " m from the support, but only " +
                rounded(arc(worst)) + " m along the cable; " +
                (upwards ? "the markers seem to be listed from the load upwards" : origin_remedy()));
@@ -262,16 +273,16 @@ class Check {
   void check_first() {
     const double distance = quantile(over_frames([&](Index k) { return at(0, k).norm(); }), 0.5);
     if (limits_.hardly_shorter * arc(0) - distance > limits_.hardly_beyond * length_)
-      warn("origin", name(0) + " is only " + rounded(distance) + " m from the support, and " +
-                         rounded(arc(0)) + " m along the cable; " + origin_remedy());
+      warn(origin_key(), name(0) + " is only " + rounded(distance) + " m from the support, and " +
+                             rounded(arc(0)) + " m along the cable; " + origin_remedy());
   }
 
   void check_direction() {
     if (time(frames() - 1) - time(0) < 0.5 * period_) return;  // one side of a swing
     const Index last = points() - 1;
-    Place sum = Place::Zero(recording_.components());
+    Position sum = Position::Zero(recording_.components());
     for (Index k = 0; k < frames(); ++k) {
-      const Place step = last > 0 ? Place(at(last, k) - at(0, k)) : at(0, k);
+      const Position step = last > 0 ? Position(at(last, k) - at(0, k)) : at(0, k);
       if (!step.hasNaN()) sum += step;
     }
     const Vector2d mean = side_and_down(sum);
@@ -311,7 +322,7 @@ class Check {
     std::vector<Vector2d> places;
     Vector2d middle = Vector2d::Zero();
     for (Index k = 0; k < frames(); ++k) {
-      const Place place = at(points() - 1, k);
+      const Position place = at(points() - 1, k);
       if (place.hasNaN()) continue;
       places.emplace_back(place[0], place[2]);
       middle += places.back();
@@ -385,7 +396,7 @@ class Check {
   }
 
   /// The place of a point, or the angle as an arc of the cable's length.
-  Place place(Index p, Index k) const {
+  Position place(Index p, Index k) const {
     if (spec_.kind == DataKind::kMarkers) return at(p, k);
     return Vector2d(length_ * recording_.measured(p, k), 0);
   }
@@ -466,7 +477,8 @@ class Check {
   const Eigen::VectorXd& lengths_;
   double length_, period_;  // m, s
   std::vector<double> arcs_;
-  bool movable_ = false;  // an effect moves the support, or what the camera shows
+  bool in_pictures_ = false;  // positions follow from the pictures of cameras
+  bool movable_ = false;      // an effect moves the support, or what the camera shows
   std::vector<std::string> warnings_;
 };
 

@@ -8,6 +8,7 @@
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
+#include "identify/problem/camera.hpp"
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "runtime/clamp_direction.hpp"
@@ -67,7 +68,7 @@ void check_clamps(const Model& model, const Eigen::VectorXd& parameters, const S
 
 Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
     : case_(std::move(the_case)),
-      model_(fitting_model(case_, std::move(model))),
+      model_(fitting_model(case_, with_cameras(case_, std::move(model)))),
       map_(checked_map(case_, model_)),
       experiments_(experiments_of(case_, model_, map_, std::move(recordings))),
       unknowns_(case_, experiments_) {

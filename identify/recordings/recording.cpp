@@ -83,6 +83,37 @@ std::span<const MarkerAxis> marker_axes(bool in_space) {
   return std::span(kMarkerAxes).first(in_space ? 3 : 2);
 }
 
+/// Whether a marker was measured in the picture of a camera.
+bool in_pictures(const ExperimentSpec& experiment) {
+  return std::any_of(experiment.points.begin(), experiment.points.end(),
+                     [](const PointSpec& point) { return !point.camera.empty(); });
+}
+
+/// Refuses pictures of cameras where they cannot be read as such.
+void check_pictures(const ExperimentSpec& experiment, bool in_space) {
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(experiment.where + ": " + problem);
+  };
+  if (!in_space)
+    refuse(
+        "markers: camera: the model moves in the plane, where a picture needs no camera; leave it "
+        "out, or give a model with space = \"3d\"");
+  if (experiment.length_unit != "px")
+    refuse(
+        "length_unit: " + in_quotes(experiment.length_unit) +
+        "; the pictures of cameras are in px; say length_unit = \"px\", and give metres_per_pixel");
+  if (!experiment.origin.empty())
+    refuse("origin: pictures have the centre of their camera; leave it out");
+  for (const PointSpec& point : experiment.points) {
+    if (point.camera.empty())
+      refuse("markers: " + point.name +
+             " has no camera, and others have one; give it one, or an experiment of its own");
+    if (!point.across_column.empty())
+      refuse("markers: " + point.name +
+             " has a column `across`; a picture has side and down only; leave it out");
+  }
+}
+
 /// Refuses what the case says of the plane where the model moves in space, and the other way round.
 void check_space(const ExperimentSpec& experiment, bool in_space) {
   const std::size_t count = marker_axes(in_space).size();
@@ -94,6 +125,10 @@ void check_space(const ExperimentSpec& experiment, bool in_space) {
     refuse("kind: \"angles\"; " + moves + ", where links have no one angle; give markers");
   if (in_space && experiment.source != DataSource::kCatena)
     refuse("source: a film of one camera; " + moves + "; give a file of side, down and across");
+  if (in_pictures(experiment)) {
+    check_pictures(experiment, in_space);
+    return;
+  }
   if (!experiment.axes.empty() && experiment.axes.size() != count)
     refuse("axes: " + std::to_string(experiment.axes.size()) + " names; " + moves + ": give " +
            std::to_string(count));
@@ -207,17 +242,19 @@ double length_factor(const ExperimentSpec& experiment) {
   return 1;
 }
 
-/// The rows of one column, in SI units and the model's axes.
-Eigen::RowVectorXd convert(const ExperimentSpec& experiment, const std::vector<double>& column,
-                           const std::vector<std::size_t>& rows, Component component) {
+/// The rows of one column of a point, in SI units and the model's axes, or those of its picture.
+Eigen::RowVectorXd convert(const ExperimentSpec& experiment, const PointSpec& point,
+                           const std::vector<double>& column, const std::vector<std::size_t>& rows,
+                           Component component) {
+  const bool picture = !point.camera.empty();
   double origin = 0, factor = 1;
   switch (component) {
     case Component::kSide:
-      origin = experiment.origin_of(0);
+      origin = picture ? point.centre[0] : experiment.origin_of(0);
       factor = length_factor(experiment) * (experiment.mirrored ? -1 : 1);
       break;
     case Component::kDown:
-      origin = experiment.origin_of(1);
+      origin = picture ? point.centre[1] : experiment.origin_of(1);
       factor = length_factor(experiment) * (experiment.upward ? -1 : 1);
       break;
     case Component::kAcross:
@@ -326,7 +363,8 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
       ++recording.fit_frames;
   }
   const bool markers = experiment.kind == DataKind::kMarkers;
-  const std::size_t per_point = markers ? marker_axes(in_space).size() : 1;
+  const std::span<const MarkerAxis> axes = marker_axes(in_space && !in_pictures(experiment));
+  const std::size_t per_point = markers ? axes.size() : 1;
   recording.measured.resize(static_cast<Eigen::Index>(per_point * recording.points.size()),
                             static_cast<Eigen::Index>(rows.size()));
   for (std::size_t p = 0; p < recording.points.size(); ++p) {
@@ -338,11 +376,11 @@ Recording read_recording(const ExperimentSpec& experiment, int links, double cab
     const auto add = [&](Component component, const std::string& column,
                          const std::string& suffix) {
       recording.measured.row(static_cast<Eigen::Index>(recording.channels.size())) =
-          convert(experiment, table.column(column), rows, component);
+          convert(experiment, point, table.column(column), rows, component);
       recording.channels.push_back({static_cast<int>(p), component, point.name + suffix});
     };
     if (markers)
-      for (const MarkerAxis& axis : marker_axes(in_space))
+      for (const MarkerAxis& axis : axes)
         add(axis.component, point.*axis.column, std::string(" ") + axis.word);
     else
       add(Component::kAngle, point.angle_column, "");

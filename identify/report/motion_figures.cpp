@@ -44,7 +44,10 @@ void add_measured(const Experiment& experiment, const Coordinate& coordinate,
     Figure figure;
     figure.title = title(coordinate.name, name);
     figure.x = {"time", "s"};
-    figure.y = {coordinate.name, coordinate.unit};
+    figure.y = {experiment.measured->in_pictures()
+                    ? std::string(coordinate.name) + " in the picture"
+                    : coordinate.name,
+                coordinate.unit};
     figure.series.push_back({"measured", time, measured[p], Mark::kPoints, 0});
     if (!predicted.empty()) {
       figure.series.push_back({"simulated", time, predicted[p], Mark::kLine, 1});
@@ -131,7 +134,9 @@ Series shape(const Channels& channels, const View& view, std::size_t frame, doub
 }
 
 const Channels* measured_positions(const Experiment& experiment) {
-  if (!experiment.measured || experiment.measured->values.side.empty()) return nullptr;
+  if (!experiment.measured || experiment.measured->values.side.empty() ||
+      experiment.measured->in_pictures())
+    return nullptr;
   const Channels& values = experiment.measured->values;
   return values.time.empty() ? nullptr : &values;
 }

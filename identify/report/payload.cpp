@@ -191,6 +191,7 @@ class Writer {
   /// Markers as measured; measured angles of every link as the chain they make.
   static Channels measured_positions(const Experiment& experiment) {
     const Channels& values = experiment.measured->values;
+    if (experiment.measured->in_pictures()) return {};
     if (!values.side.empty()) return values;
     const Channels& model = experiment.trajectory;
     if (model.side.size() < values.angle.size() + 1 || model.time.empty()) return {};

@@ -35,10 +35,14 @@ struct Point {
 };
 
 struct Measured {
-  std::string kind;  ///< "markers" or "angles"
+  std::string
+      kind;  ///< "markers", "pictures" (markers in pictures of cameras, in space) or "angles"
   std::vector<Point> points;
   Channels values;     ///< side and down, or angle alone
   Channels predicted;  ///< what the model says the sensor reports at the same times
+
+  /// Side is then to the right in a picture and down downwards, px times the metres per pixel.
+  bool in_pictures() const { return kind == "pictures"; }
 };
 
 /// Root mean square of the residuals, and what noise alone would leave.

@@ -123,7 +123,7 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
       archive.rule(across == (measured.values.across.empty() ? 0 : rows), key,
                    fmt::format("{} has {} rows of across where side has {}", key, across, rows));
     }
-    archive.rule(angles || experiment.drawn().side.empty() ||
+    archive.rule(angles || measured.in_pictures() || experiment.drawn().side.empty() ||
                      experiment.drawn().across.empty() == measured.values.across.empty(),
                  "measured",
                  "either the motion is in space and the markers are not, or the reverse");

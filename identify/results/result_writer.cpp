@@ -111,7 +111,8 @@ results::Measured measured_of(const Problem& problem, const Recording& recording
                               const Eigen::MatrixXd& predicted) {
   const bool angles = recording.channels.front().component == Component::kAngle;
   results::Measured measured;
-  measured.kind = angles ? "angles" : "markers";
+  const bool pictures = !recording.points.front().camera.empty();
+  measured.kind = angles ? "angles" : pictures ? "pictures" : "markers";
   measured.values.time = recording.time;
   for (const PointSpec& point : recording.points)
     measured.points.push_back(

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <tuple>
 
 #include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
@@ -237,6 +238,57 @@ TEST_CASE("what is written is read back the same") {
                            "held = {side = 0.5, down = 1.25}", "data = \"data.csv\"",
                            "growing_windows = [0.5, 1]", "per_experiment = true"})
     CHECK_MESSAGE(once.find(line) != std::string::npos, std::string(line));
+}
+
+TEST_CASE("what a case says of cameras is written and read back, and checked") {
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y\n");
+  const std::string text = R"(format = 1
+kind = "case"
+[model]
+links = 4
+[cable]
+length = 1.0
+density = 0.1
+[[camera]]
+name = "left"
+centre = [960, 540.5]
+[[camera]]
+name = "right_2"
+centre = [640, 360]
+[[experiment]]
+name = "first"
+data = "data.csv"
+kind = "markers"
+length_unit = "px"
+metres_per_pixel = 0.003
+markers = [{name = "knot", side = "x", down = "y", camera = "right_2", load = true}]
+)";
+  const auto read = [&](const std::string& source) {
+    return parse_case(source, "case.toml", folder.path());
+  };
+  const Case the_case = read(case_text(read(text), folder.path()));
+  REQUIRE(the_case.cameras.size() == 2);
+  CHECK(the_case.cameras[0].name == "left");
+  CHECK(the_case.cameras[0].centre == std::array<double, 2>{960, 540.5});
+  const PointSpec& knot = the_case.experiments[0].points[0];
+  CHECK(knot.camera == "right_2");
+  CHECK(knot.centre == std::array<double, 2>{640, 360});
+  const std::tuple<const char*, const char*, const char*> all[] = {
+      {"camera = \"right_2\"", "camera = \"right2\"",
+       "camera: \"right2\" is no [[camera]] of this case; did you mean \"right_2\"?"},
+      {"name = \"left\"", "name = \"left one\"",
+       "case.toml:9: camera.name: \"left one\"; give one of letters, digits and _"},
+      {"name = \"left\"", "name = \"right_2\"", "name: \"right_2\"; names must differ"},
+      {"centre = [960, 540.5]", "centre = [960]", "centre: must be two numbers, px"},
+      {"centre = [960, 540.5]", "", "centre"},
+      {"centre = [960, 540.5]", "centre = [960, 540.5]\nfocal_length = 1000", "focal_length"},
+  };
+  for (const auto& [right, wrong, rule] : all) {
+    CAPTURE(std::string(wrong));
+    const std::string message = failure([&] { read(replaced(text, right, wrong)); });
+    CHECK_MESSAGE(message.find(rule) != std::string::npos, message);
+  }
 }
 
 TEST_CASE("what a case says of space is written and read back, and checked") {

@@ -158,6 +158,49 @@ TEST_CASE("markers in space have three components, in the axes that the case nam
   refused(wrong, false, "markers: knot has a column `across`");
 }
 
+TEST_CASE("markers in pictures of cameras are px from the centre of their camera") {
+  const testing::TemporaryFolder folder;
+  ExperimentSpec spec = markers(folder.write("m.csv", "time_s,x,y\n0,420,10\n0.1,220,\n"));
+  spec.length_unit = "px";
+  spec.metres_per_pixel = 0.01;
+  PointSpec point;
+  point.name = "knot";
+  point.side_column = "x";
+  point.down_column = "y";
+  point.camera = "left";
+  point.centre = {320, 110};
+  point.arc_length = 1;
+  spec.points = {point};
+  const Recording recording = read_recording(spec, 2, 2.0, true);
+  CHECK(recording.components() == 2);
+  CHECK(recording.measured(0, 0) == doctest::Approx(1.0));   // 100 px to the right
+  CHECK(recording.measured(1, 0) == doctest::Approx(-1.0));  // 100 px above
+  CHECK(std::isnan(recording.measured(1, 1)));
+  spec.mirrored = spec.upward = true;
+  CHECK(read_recording(spec, 2, 2.0, true).measured(0, 0) == doctest::Approx(-1.0));
+  CHECK(read_recording(spec, 2, 2.0, true).measured(1, 0) == doctest::Approx(1.0));
+
+  const auto refused = [&](const ExperimentSpec& wrong, bool in_space, const std::string& said) {
+    const std::string message = message_of(wrong, in_space);
+    CHECK_MESSAGE(message.find("case.toml:9: " + said) != std::string::npos, message);
+  };
+  refused(spec, false, "markers: camera: the model moves in the plane");
+  ExperimentSpec wrong = spec;
+  wrong.length_unit = "m";
+  refused(wrong, true, "length_unit: \"m\"; the pictures of cameras are in px");
+  wrong = spec;
+  wrong.origin = {320, 110};
+  refused(wrong, true, "origin: pictures have the centre of their camera");
+  wrong = spec;
+  wrong.points[0].across_column = "y";
+  refused(wrong, true, "markers: knot has a column `across`; a picture has side and down only");
+  wrong = spec;
+  wrong.points.push_back(point);
+  wrong.points[1].camera = "";
+  wrong.points[1].name = "bead";
+  refused(wrong, true, "markers: bead has no camera, and others have one");
+}
+
 TEST_CASE(
     "semicolons with decimal commas, tabulators, a byte order mark, NaN for what was not seen") {
   const testing::TemporaryFolder folder;
