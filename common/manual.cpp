@@ -73,6 +73,7 @@ void write_options(std::ostream& page, const CLI::App& command) {
 std::string manual_page(const CLI::App& program) {
   const std::string name = program.get_name();
   std::ostringstream page;
+  page.exceptions(std::ios::badbit);  // where memory is refused
   page << ".TH " << roff(replaced(name, "\"", "")) << " 1 \"\" \"catena " << CATENA_VERSION
        << "\"\n"
        << ".SH NAME\n"
@@ -107,6 +108,7 @@ std::string function_name(const CLI::App& program) {
 
 std::string bash_completion(const CLI::App& program) {
   std::ostringstream script;
+  script.exceptions(std::ios::badbit);  // where memory is refused
   script << "# bash completion for " << program.get_name() << "\n"
          << function_name(program) << "() {\n"
          << "  local current=${COMP_WORDS[COMP_CWORD]} words=\n"
@@ -146,6 +148,7 @@ std::string zsh(const std::string& text) {
 
 std::string zsh_completion(const CLI::App& program) {
   std::ostringstream script;
+  script.exceptions(std::ios::badbit);  // where memory is refused
   script << "#compdef " << program.get_name() << "\n"
          << "local -a commands=(\n";
   for (const CLI::App* command : commands_of(program))

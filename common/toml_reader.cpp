@@ -67,6 +67,7 @@ const char* type_word(const toml::node& node) {
 std::string value_text(const toml::node& node) {
   if (node.is_array() || node.is_table()) return type_word(node);
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // where memory is refused
   node.visit([&](const auto& value) { text << value; });
   const std::string shown = text.str();
   return node.is_string() ? in_quotes(*node.value<std::string>()) : shown;

@@ -443,6 +443,7 @@ double read_tolerance(const TomlTable& table, std::string_view key) {
                                                       {"deg", std::numbers::pi / 180}};
   std::istringstream words(text);
   words.imbue(std::locale::classic());
+  words.exceptions(std::ios::badbit);  // where memory is refused
   double value = 0;
   std::string unit, rest;
   if (!(words >> value >> unit) || words >> rest || !units.contains(unit) || !(value > 0))

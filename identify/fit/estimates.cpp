@@ -51,11 +51,12 @@ WorkEstimate estimate_of(const Problem& problem, const std::function<double(doub
 }
 
 bool Forecast::goes_on(double done) {
-  constexpr double kPatience = 3;  // s; the beginning may be slower than the rest
+  // s; the beginning may be slower than the rest, but hardly so many times
+  constexpr double kFirstLook = 0.3, kPatience = 3, kTimesSlower = 30;
   const double seconds = cpu_seconds() - begin_;
-  if (yes_ || seconds < kPatience || !(done > 0)) return true;
+  if (yes_ || seconds < kFirstLook || !(done > 0)) return true;
   const double all = times_ * seconds * whole_ / done;
-  if (all <= kMostUnasked.seconds) return true;
+  if (all <= kMostUnasked.seconds * (seconds < kPatience ? kTimesSlower : 1)) return true;
   estimate_.seconds = all;
   return false;
 }

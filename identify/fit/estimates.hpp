@@ -39,7 +39,7 @@ class Forecast {
   Forecast(bool yes, double whole, double times) : yes_(yes), whole_(whole), times_(times) {}
 
   /// False where the work is too long. `done`: s of motion so far. Nothing is said in the first
-  /// 3 s.
+  /// 0.3 s, and up to 3 s only of what would take 30 times as long as is begun unasked.
   bool goes_on(double done);
   /// Throws InputError "WHAT needs about 3 hours; ..." where it was too long.
   void require_yes(const std::string& what) const { catena::require_yes(yes_, what, estimate_); }

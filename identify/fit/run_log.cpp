@@ -14,12 +14,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <sstream>
 
 #include "common/in_a_line.hpp"
 #include "common/input_error.hpp"
 #include "common/number_text.hpp"
 #include "common/sha256.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 
 namespace catena {
@@ -50,8 +50,9 @@ double number(const std::string& text) {
 
 Eigen::VectorXd numbers(const std::string& text) {
   std::vector<double> values;
-  std::istringstream in(text);
-  for (std::string cell; std::getline(in, cell, ',');) values.push_back(number(cell));
+  if (!text.empty())
+    for (const std::string_view cell : split(text, ','))
+      values.push_back(number(std::string(cell)));
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
@@ -66,15 +67,6 @@ std::string check_after(const std::string& check, const std::string& content) {
 bool is_an_end(FitStatus status) {
   return status == FitStatus::kConverged || status == FitStatus::kEvaluationLimit ||
          status == FitStatus::kFailed;
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = line.find('\t', begin)) != std::string::npos; begin = end + 1)
-    cells.push_back(line.substr(begin, end - begin));
-  cells.push_back(line.substr(begin));
-  return cells;
 }
 
 }  // namespace
@@ -163,7 +155,8 @@ RunLog::Record RunLog::read(const std::string& name, const std::string& text) co
             "that follow to go on from there, or run without --resume to begin anew");
     };
     require(line == content + "\t" + record.check);
-    const std::vector<std::string> cells = cells_of(content);
+    const std::vector<std::string_view> parts = split(content, '\t');
+    const std::vector<std::string> cells(parts.begin(), parts.end());
     if (cells[0] == "e" && cells.size() == 5) {
       Start& start = record.starts[std::atoi(cells[1].c_str())];
       start.by_x.try_emplace(cells[3], start.entries.size());

@@ -8,13 +8,13 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
 #include "common/sha256.hpp"
+#include "common/split.hpp"
 #include "description/description.hpp"
 #include "identify/models/process.hpp"
 #include "runtime/any_links.hpp"
@@ -40,8 +40,7 @@ bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 
 
 fs::path find_in_path(const std::string& name) {
   const char* path = environment_variable("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
+  for (const std::string_view folder : split(path != nullptr ? path : "", ':'))
     if (!folder.empty() && can_run(fs::path(folder) / name)) return fs::path(folder) / name;
   return {};
 }

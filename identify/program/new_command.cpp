@@ -14,6 +14,7 @@
 #include "common/command_line.hpp"
 #include "common/in_a_line.hpp"
 #include "common/input_error.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "identify/cases/case_writer.hpp"
@@ -151,9 +152,9 @@ std::string commented(const std::string& text, const RecognisedRecording& found)
     comments["[[experiment]] " + key] =
         key == "from" ? "s; the release: nothing moves before"
                       : "estimated from how the cable hangs; measure it in the picture";
-  std::istringstream in(text);
   std::string out, table;
-  for (std::string line; std::getline(in, line);) {
+  for (const std::string_view view : lines_of(text)) {
+    const std::string line(view);
     if (line.starts_with('[')) table = line;
     const auto comment = comments.find(table + " " + line.substr(0, line.find(" =")));
     out += line;

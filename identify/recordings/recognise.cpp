@@ -6,12 +6,12 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/median.hpp"
 #include "common/number_text.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 #include "identify/recordings/release.hpp"
 #include "identify/recordings/table.hpp"
@@ -77,10 +77,10 @@ int axis_in(const std::string& name, std::string& marker) {
 }
 
 DataSource source_of(const std::filesystem::path& file) {
-  std::istringstream in(read_whole_file(file));
-  std::string first, second;
-  std::getline(in, first);
-  std::getline(in, second);
+  const std::string text = read_whole_file(file);
+  std::vector<std::string_view> lines = lines_of(text);
+  lines.resize(std::max<std::size_t>(lines.size(), 2));  // empty where there are fewer
+  const std::string first(lines[0]), second(lines[1]);
   if (first.starts_with("#Kinovea")) return DataSource::kKinovea;
   if (second.starts_with("bodyparts") || first.starts_with("scorer"))
     return DataSource::kDeepLabCut;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 
 namespace catena {
@@ -22,19 +22,16 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
 }
 
-std::vector<std::string> split_fields(const std::string& line, char separator) {
+std::vector<std::string> trimmed_fields(std::string_view line, char separator) {
   std::vector<std::string> fields;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
-    fields.push_back(trimmed(std::string_view(line).substr(begin, end - begin)));
-  fields.push_back(trimmed(std::string_view(line).substr(begin)));
+  for (const std::string_view field : split(line, separator)) fields.push_back(trimmed(field));
   return fields;
 }
 
 /// Of the line of names.
-char separator_of(const std::string& line) {
+char separator_of(std::string_view line) {
   for (const char separator : {';', '\t'})
-    if (line.find(separator) != std::string::npos) return separator;
+    if (line.find(separator) != std::string_view::npos) return separator;
   return ',';
 }
 
@@ -66,16 +63,17 @@ const std::vector<double>& Table::column(std::string_view name) const {
 }
 
 Table read_table(const std::filesystem::path& path) {
-  std::istringstream in(read_whole_file(path));
+  const std::string text = read_whole_file(path);
   Table table;
   table.file = path.string();
-  std::string line;
   char separator = ',';
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
+  int number = 0;
+  for (std::string_view line : lines_of(text)) {
+    if (++number == 1 && line.starts_with("\xEF\xBB\xBF"))
+      line.remove_prefix(3);  // a byte order mark
     if (trimmed(line).empty()) continue;
     if (table.names.empty()) separator = separator_of(line);
-    const std::vector<std::string> fields = split_fields(line, separator);
+    const std::vector<std::string> fields = trimmed_fields(line, separator);
     const std::string where = table.file + ":" + std::to_string(number);
     if (table.names.empty()) {
       const auto is_number = [&](const std::string& field) {

@@ -10,6 +10,7 @@
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 #include "identify/recordings/table.hpp"
 
@@ -23,24 +24,23 @@ constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
-  std::istringstream in(read_whole_file(path));
+  const std::string text = read_whole_file(path);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    lines.push_back(line);
+  for (std::string_view line : lines_of(text)) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines.emplace_back(line);
   }
   return lines;
 }
 
 std::vector<std::string> split_cells(const std::string& line, char separator) {
   std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, separator);) {
+  if (line.empty()) return cells;
+  for (const std::string_view cell : split(line, separator)) {
     const auto first = cell.find_first_not_of(" \"");
     const auto last = cell.find_last_not_of(" \"");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+    cells.emplace_back(first == std::string_view::npos ? "" : cell.substr(first, last - first + 1));
   }
-  if (!line.empty() && line.back() == separator) cells.emplace_back();
   return cells;
 }
 
@@ -114,6 +114,7 @@ Table import_kinovea(const std::filesystem::path& path) {
   for (std::size_t l = 1; l < lines.size(); ++l) {
     const int number = static_cast<int>(l) + 1;
     std::istringstream in(lines[l]);
+    in.exceptions(std::ios::badbit);  // where memory is refused
     std::vector<std::string> cells;
     for (std::string cell; in >> cell;) cells.push_back(cell);
     if (cells.empty()) {

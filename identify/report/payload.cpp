@@ -76,6 +76,8 @@ ordered_json axis_json(const Axis& axis) {
   ordered_json json = {
       {"label", axis.label}, {"unit", axis.unit}, {"logarithmic", axis.logarithmic}};
   if (!axis.categories.empty()) json["categories"] = axis.categories;
+  // An array before it grows: JSON for Modern C++ 3.11 breaks a null that turns into one where memory is refused.
+  if (!axis.ticks.empty()) json["ticks"] = ordered_json::array();
   for (const Tick& tick : axis.ticks)
     json["ticks"].push_back({{"at", tick.at}, {"label", tick.label}});
   return json;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/is_within.hpp"
 #include "common/sha256.hpp"
+#include "common/split.hpp"
 #include "common/whole_file.hpp"
 
 namespace catena {
@@ -119,14 +119,15 @@ void OutputFolder::recover() {
 OutputFolder::Manifest OutputFolder::manifest_in(const fs::path& folder) {
   Manifest manifest;
   if (!fs::exists(folder / kManifest)) return manifest;
-  std::istringstream in(bytes_of_file(folder / kManifest));
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
+  const std::string text = bytes_of_file(folder / kManifest);
+  int number = 0;
+  for (const std::string_view line : lines_of(text)) {
+    ++number;
     if (line.size() < 67 || line.compare(64, 2, "  ") != 0 ||
         line.find_first_not_of("0123456789abcdef") != 64)
       throw InputError((folder / kManifest).string() + ":" + std::to_string(number) +
                        ": is not the list of files that catena wrote; move the file away");
-    const std::string file = line.substr(66);
+    const std::string file(line.substr(66));
     if (!is_within(file))
       throw InputError((folder / kManifest).string() + ":" + std::to_string(number) + ": " +
                        in_quotes(file) +

@@ -36,17 +36,17 @@ void fields(auto& archive, Is<Channels> auto& channels) {
   archive.optional("down", channels.down);
   archive.optional("angle", channels.angle);
   archive.optional("across", channels.across);
-  if (channels.time.empty()) return;
-  for (const auto& [key, rows] :
-       {std::pair("side", &channels.side), std::pair("down", &channels.down),
-        std::pair("angle", &channels.angle), std::pair("across", &channels.across)})
-    archive.rows(key, *rows, channels.time.size());
   archive.rule(
       channels.side.size() == channels.down.size(), "down",
       fmt::format("it has {} rows where side has {}", channels.down.size(), channels.side.size()));
   archive.rule(channels.across.empty() || channels.across.size() == channels.side.size(), "across",
                fmt::format("it has {} rows where side has {}", channels.across.size(),
                            channels.side.size()));
+  if (channels.time.empty()) return;
+  for (const auto& [key, rows] :
+       {std::pair("side", &channels.side), std::pair("down", &channels.down),
+        std::pair("angle", &channels.angle), std::pair("across", &channels.across)})
+    archive.rows(key, *rows, channels.time.size());
 }
 
 void fields(auto& archive, Is<Point> auto& point) {
@@ -116,9 +116,8 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
       const std::size_t rows = (angles ? channels->angle : channels->side).size();
       archive.rule(rows == due || (rows == 0 && channels == &measured.predicted), key,
                    fmt::format("{} has {} rows for {} points", key, rows, due));
-      const std::size_t down = channels->down.size();
-      archive.rule(angles || down == rows, key,
-                   fmt::format("{} has {} rows of down where side has {}", key, down, rows));
+      archive.rule(angles || channels->angle.empty(), key,
+                   fmt::format("{} has angles beside positions of markers", key));
       const std::size_t across = channels->across.size();
       archive.rule(across == (measured.values.across.empty() ? 0 : rows), key,
                    fmt::format("{} has {} rows of across where side has {}", key, across, rows));

@@ -8,11 +8,14 @@
 //   FAILING_ON     set: all calls from that one on
 //   FAILING_ERROR  the errno of failing files
 //   FAILING_IN     the program it is about; what that starts is left alone
-//   FAILING_COUNT  a file that gets the number of calls when the program ends
+//   FAILING_COUNT  a file that gets the number of calls when the program ends, and then the numbers of those
+//                  calls that were the first with their stack of callers, if FAILING_STACKS is set
 //
 // Calls are counted from the begin of main: nothing can catch an exception before.
 #include <dlfcn.h>
 #include <errno.h>
+#include <execinfo.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,10 +33,38 @@ bool memory = false, files = false, and_on = false;
 long fail_at = 0;
 int file_error = EIO;
 thread_local int depth = 0;  // of calls that are made by calls counted already
+constexpr int kDeepest = 256;
+
+// A table of stacks by their hash, without memory that is asked for.
+constexpr std::size_t kStacks = 1 << 20;
+std::atomic<uint64_t> stacks[kStacks];
+std::atomic<long> first_with_stack[kStacks];
+bool notes_stacks = false;
+
+void note_stack(long number) {
+  void* callers[kDeepest];
+  ++depth;
+  const int count = backtrace(callers, kDeepest);
+  --depth;
+  uint64_t hash = 14695981039346656037u;
+  for (int i = 0; i < count; ++i)
+    hash = (hash ^ reinterpret_cast<uint64_t>(callers[i])) * 1099511628211u;
+  hash |= 1;
+  for (std::size_t at = (hash >> 20) % kStacks, left = kStacks; left > 0;
+       at = (at + 1) % kStacks, --left) {
+    uint64_t there = 0;
+    if (stacks[at].compare_exchange_strong(there, hash)) {
+      first_with_stack[at] = number;
+      return;
+    }
+    if (there == hash) return;
+  }
+}
 
 bool fails(bool counts) {
   if (!counts || depth > 0) return false;
   const long number = ++counted;
+  if (notes_stacks) note_stack(number);
   return fail_at > 0 && (number == fail_at || (and_on && number > fail_at));
 }
 
@@ -78,6 +109,8 @@ void write_count() {
   FILE* const file = fopen(text_of("FAILING_COUNT"), "w");
   if (!file) return;
   fprintf(file, "%ld\n", counted.load());
+  for (const std::atomic<long>& number : first_with_stack)
+    if (number > 0) fprintf(file, "%ld\n", number.load());
   fclose(file);
 }
 
@@ -89,6 +122,11 @@ int counted_main(int argc, char** argv, char** environment) {
     file_error = atoi(text_of("FAILING_ERROR"));
     memory = strcmp(text_of("FAILING_CALLS"), "memory") == 0;
     files = strcmp(text_of("FAILING_CALLS"), "files") == 0;
+    notes_stacks = *text_of("FAILING_STACKS") != 0;
+    void* loads_what_backtrace_needs[1];
+    ++depth;
+    backtrace(loads_what_backtrace_needs, 1);
+    --depth;
   }
   return real_main(argc, argv, environment);
 }

@@ -94,7 +94,16 @@ TEST_CASE("a file that cannot be read says where and why") {
        },
        "predicted has 11 rows for 12 points"},
       {[](json& r) { r["experiments"][0]["predicted"].erase("down"); },
-       "predicted has 0 rows of down where side has 12"},
+       "experiments[0].predicted.down is null; it has 0 rows where side has 12"},
+      {[](json& r) {
+         r["experiments"][0]["measured"].erase("side");
+         r["experiments"][0]["measured"].erase("time");
+       },
+       "it has 12 rows where side has 0"},
+      {[](json& r) {
+         r["experiments"][0]["measured"]["angle"] = r["experiments"][0]["measured"]["side"];
+       },
+       "measured has angles beside positions of markers"},
       {[](json& r) {
          r["experiments"][0]["measured"]["across"] = {r["experiments"][0]["measured"]["side"][0]};
        },
