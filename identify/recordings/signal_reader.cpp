@@ -2,6 +2,8 @@
 #include "identify/recordings/signal_reader.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
@@ -13,6 +15,7 @@ namespace catena {
 Signals read_signals(const std::vector<SignalSpec>& specs, const Model& model,
                      const std::string& where) {
   Signals signals;
+  std::map<std::filesystem::path, Table> tables;  // a file often has the columns of several signals
   for (int i = 0; i < model.signals(); ++i) {
     const catena_quantity& wanted = model.table().signal[i];
     const auto spec = std::find_if(specs.begin(), specs.end(),
@@ -20,7 +23,9 @@ Signals read_signals(const std::vector<SignalSpec>& specs, const Model& model,
     if (spec == specs.end())
       throw InputError(where + ": the model needs the signal " + in_quotes(wanted.name) + " (" +
                        wanted.unit + "); add a [[signal]] with name, data, time and column");
-    const Table table = read_table(spec->data);
+    auto found = tables.find(spec->data);
+    if (found == tables.end()) found = tables.emplace(spec->data, read_table(spec->data)).first;
+    const Table& table = found->second;
     try {
       signals.add(wanted.name, table.column(spec->time_column), table.column(spec->column));
     } catch (const std::invalid_argument& error) {
