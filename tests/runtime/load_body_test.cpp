@@ -363,6 +363,36 @@ TEST_CASE("energies of a body in a current balance to 1e-9 of their size") {
   CHECK(motion.energy_imbalance < 1e-9 * size);
 }
 
+TEST_CASE("energy and damping of a body are those of its own axes") {
+  const Model model = Model::load(BODY_5);
+  VectorXd p = submerged(model);
+  for (const char* name : {"drag_longitudinal", "drag_vertical", "drag_lateral", "displaced"})
+    set(model, p, (std::string("load_body.") + name).c_str(), 0);
+  const State state = tumbling(model);
+  const catena_point here{0, state.q.data(), state.v.data(), nullptr, nullptr, nullptr, p.data()};
+  VectorXd energies(model.table().energies);
+  model.table().energy(model.table().context, &here, energies.data());
+  Eigen::MatrixX3d velocity(model.links() + 2, 3);
+  model.velocities(here, velocity.col(0).data(), velocity.col(1).data());
+  model.table().velocities_across(model.table().context, &here, velocity.col(2).data());
+  const Vector3d of_load = velocity.row(model.links() + 1),
+                 along_axes = attitude(state.q).conjugate() * of_load,
+                 turns = turning(state.q, state.v);
+  const Vector3d added(0.05, 0.3, 0.2);
+  const double stored = (added.dot(along_axes.cwiseAbs2()) + kInertias.dot(turns.cwiseAbs2())) / 2,
+               dissipated = 0.002 * turns.squaredNorm();
+  CHECK(along_axes.cwiseAbs().minCoeff() > 0.05);
+  int seen = 0;
+  for (Index k = 0; k < energies.size(); ++k) {
+    const catena_energy& item = model.table().energy_item[k];
+    if (std::string(item.name) != "load_body" || item.kind == CATENA_SUPPLIED) continue;
+    const double expected = item.kind == CATENA_STORED ? stored : dissipated;
+    CHECK(energies[k] == doctest::Approx(expected).epsilon(1e-12));
+    ++seen;
+  }
+  CHECK(seen == 2);
+}
+
 TEST_CASE("what the support exerts and the weight change the momentum of cable and body") {
   const Model model = Model::load(BODY_5);
   const VectorXd p = hung(model);
