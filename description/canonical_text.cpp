@@ -140,6 +140,8 @@ class CanonicalText {
     line("held_end.clamp_across", effect.held_end.clamp_across);
     line("held_end.clamp_stiffness", effect.held_end.clamp_stiffness);
     line("held_end.clamp_damping", effect.held_end.clamp_damping);
+    line("held_end.torsional_stiffness", effect.held_end.torsional_stiffness);
+    line("held_end.roll", effect.held_end.roll);
     line("centre_offset", effect.kinematics.centre_offset);
     line("load_offset", effect.kinematics.load_offset);
     line("load_side", effect.kinematics.load_side);

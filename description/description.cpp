@@ -204,6 +204,7 @@ std::string conflict_between(const std::vector<Effect>& effects) {
     };
     for (const Coordinate& coordinate : effect.coordinates) check(coordinate.name);
     for (const ExtraState& state : effect.states) check(state.name);
+    if (effect.held_end.twists()) check("twist_of_path");
     for (const SignalChannel& signal : effect.signals) check(signal.name);
   }
   return conflict;

@@ -139,12 +139,16 @@ struct HeldEnd {
   /// N m/rad and N m s/rad, of the clamp; if not given, those of a joint between the middle of the last
   /// link and its end. As functions of parameters, constants, and of these: `stiffness`, `damping`.
   Expression clamp_stiffness, clamp_damping;
+  /// With a clamp: GJ, N m^2, as a function of parameters and constants, and by how much the clamps of the two
+  /// ends twist the cable, rad, as a function of time, parameters, constants and signals. Nothing: no torsion.
+  Expression torsional_stiffness, roll;
 
   bool holds() const { return side.given() || down.given() || across.given(); }
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
-  std::array<const Expression*, 8> all() const {
-    return {&side,       &down,         &across,          &clamp_side,
-            &clamp_down, &clamp_across, &clamp_stiffness, &clamp_damping};
+  bool twists() const { return torsional_stiffness.given(); }
+  std::array<const Expression*, 10> all() const {
+    return {&side,         &down,            &across,        &clamp_side,          &clamp_down,
+            &clamp_across, &clamp_stiffness, &clamp_damping, &torsional_stiffness, &roll};
   }
 };
 

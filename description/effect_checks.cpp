@@ -95,10 +95,11 @@ class Checks {
                "cannot stand in a potential: it depends on the motion" + instead);
       }
     }
+    const HeldEnd& end = effect_.held_end;
     for (const Expression* expression :
-         {&effect_.held_end.clamp_stiffness, &effect_.held_end.clamp_damping}) {
+         {&end.clamp_stiffness, &end.clamp_damping, &end.torsional_stiffness}) {
       if (expression->given())
-        refuse(*expression, times, "cannot stand here: the clamp would change with time");
+        refuse(*expression, times, "cannot stand here: the stiffness would change with time");
     }
     each_kinematic([&](const Expression& expression) {
       refuse(expression, times, "cannot stand here: the shape of the chain would change with time");

@@ -435,13 +435,21 @@ class EffectReader {
              expression(*table, "clamp_down"),
              expression(*table, "clamp_across"),
              expression(*table, "clamp_stiffness"),
-             expression(*table, "clamp_damping")};
+             expression(*table, "clamp_damping"),
+             expression(*table, "torsional_stiffness"),
+             expression(*table, "roll")};
       if (!end.holds())
         table->fail(
             "has none of side, down and across, which say where the end is held; give them");
       if (!end.turns() && (end.clamp_stiffness.given() || end.clamp_damping.given()))
         table->fail(
             "has a clamp without a direction; give clamp_side, clamp_down and clamp_across");
+      if (!end.turns() && (end.twists() || end.roll.given()))
+        table->fail(
+            "has torsion, but an end that is free to turn is not twisted; give clamp_side, "
+            "clamp_down and clamp_across");
+      if (end.roll.given() && !end.twists())
+        table->fail("has a roll, which twists nothing; give torsional_stiffness, too");
     }
     if (const auto table = file_.optional_table("kinematics")) {
       Kinematics& kinematics = effect_.kinematics;

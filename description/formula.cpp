@@ -384,6 +384,8 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add(end_clamp + "across", subscripted("c", "a"), effect.held_end.clamp_across);
   all.add("Stiffness of the clamp at the held end", "k", effect.held_end.clamp_stiffness);
   all.add("Damping of the clamp at the held end", "c", effect.held_end.clamp_damping);
+  all.add("Torsional stiffness GJ", "torsional_stiffness", effect.held_end.torsional_stiffness);
+  all.add("Roll of the held end", "roll", effect.held_end.roll);
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);

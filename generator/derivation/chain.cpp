@@ -235,6 +235,7 @@ void Chain::make_inputs() {
         add_border_coordinate(name);
       }
     }
+    if (effect.held_end.twists()) path_ = definitions_.input(effect.id + "_twist_of_path");
     for (const SignalChannel& signal : effect.signals) {
       const std::string name = effect.id + "_" + signal.name;
       const ex value = definitions_.input(name);

@@ -45,6 +45,17 @@
 // too. They belong to no link and come last, like mu; what effects name at such a load are variables y, or
 // quasi-velocities, so that T of a body that turns freely is written in its angular velocity.
 //
+// Torsion: an isotropic rod that is straight at rest has the same twist all along, and bending does not see
+// it. Its energy is V = GJ twist^2 / (2 L), twist = roll + path. Roll is how much further the clamp of the far
+// end has been turned about its axis than that of the support; path is by how much a frame of the end turns
+// against one that is carried along the links, from the clamp e_0 to the clamp e_{n+1}, without twist. It is a
+// function of the shape up to whole turns, but one without a simple form. Its rate is simple:
+//
+//     path' = sum_k w_k,    w_k = (e_{k-1} x e_k) . (e'_{k-1} + e'_k) / (1 + e_{k-1} . e_k),
+//
+// so path is a state with this rate, which counts whole turns, too, and dpath/dq = dpath'/dq': w_k are
+// quasi-velocities, and the generalised force of each is dV/dpath = GJ twist / L.
+//
 // The velocity v of a point, normal to its link, is a vector in space. Effects are written in its size,
 // which is that of v x e, and the force along it is (a number) e x (v x e). In the plane v x e has one
 // component, across, which is the velocity along the normal (cos a, -sin a).
@@ -128,6 +139,8 @@ class Chain {
   /// Extra states of effects and their rates, in the same order.
   const std::vector<GiNaC::ex>& states() const { return states_; }
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
+  /// The state of torsion, zero without it. Its rate is a sum over all joints; it is in no rate itself.
+  const GiNaC::ex& path() const { return path_; }
 
   /// Where the support (0), the far end of each link (1..n) and the load (n + 1) are.
   const std::vector<GiNaC::ex>& position(Axis axis) const { return point_[axis]; }
@@ -174,6 +187,7 @@ class Chain {
   std::vector<ex> rest_bend(Link i);
   void place_held_end();
   void hold_end();
+  void twist();
   std::vector<ex> unit_vector(const Effect& effect,
                               const std::vector<const Expression*>& components,
                               const std::string& name, const std::string& unit_name, int index);
@@ -292,6 +306,8 @@ class Chain {
   int border_ = 0;
   std::vector<ex> hold_, end_, gap_;  ///< by axis: mu, where the end is held, what is between
   bool end_is_clamped_ = false;
+  ex path_, roll_, twist_moment_;  ///< of torsion; none: zero
+  std::vector<ex> path_turning_;   ///< by joint
   std::vector<Reaction> reactions_;
 
   std::set<int> variables_;              ///< numbers of the variables y, coordinates included

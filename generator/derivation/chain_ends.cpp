@@ -137,6 +137,7 @@ void Chain::place_held_end() {
 // The constraint, and the clamp.
 void Chain::hold_end() {
   if (end_is_clamped_) add_joint_terms(links_ + 1);
+  if (description_.holding()->held_end.twists()) twist();
   if (!wanted(description_.holding()->id)) return;
   for (const Axis axis : axes()) {
     const ex rate = time_.of(gap_[axis]);
@@ -146,8 +147,34 @@ void Chain::hold_end() {
   }
 }
 
-// In space: the moment that link i exerts on what is above joint i by bending and damping, with the effects
-// on them.
+// Uniform twist of an isotropic rod between two clamps.
+void Chain::twist() {
+  const Effect& effect = *description_.holding();
+  for (Link k = 1; k <= links_ + 1; ++k) {
+    ex across = 0;
+    for (const Axis axis : axes())
+      across += joint_cross_[axis][k] *
+                (time_.of(direction_[axis][k - 1]) + time_.of(direction_[axis][k]));
+    path_turning_.push_back(
+        define_quasi_velocity("path_turning", k, across / (1 + joint_cosine_[k])));
+  }
+  if (const Expression& roll = effect.held_end.roll; roll.given())
+    roll_ = define_variable("end_roll", kNoIndex,
+                            evaluate(effect, roll, kShape, Place::kLoad, 0, "rad"));
+  const ex per_twist =
+      definitions_.define("end_torsion", kNoIndex,
+                          evaluate(effect, effect.held_end.torsional_stiffness, kShape,
+                                   Place::kLoad, 0, "N m^2") /
+                              arc_[links_]);
+  const ex twist = definitions_.define("end_twist", kNoIndex, roll_ + path_);
+  twist_moment_ = definitions_.define("end_twist_moment", kNoIndex, per_twist * twist);
+  if (!wanted(effect.id)) return;
+  add_energy(effect.id, EnergyItem::kStored, per_twist * twist * twist / 2);
+  for (const ex& turning : path_turning_) add_generalised_force(turning, twist_moment_);
+}
+
+// In space: the moment that link i exerts on what is above joint i by bending, damping and torsion, with the
+// effects on them.
 std::vector<ex> Chain::moment_of_joint(Link i) {
   const auto force_of = [&](const ex& variable) {
     if (!GiNaC::is_a<GiNaC::symbol>(variable)) return ex(0);
@@ -166,6 +193,9 @@ std::vector<ex> Chain::moment_of_joint(Link i) {
   for (const Axis axis : axes()) {
     ex component = bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i]);
     if (!rest.empty()) component -= stiffness_[i] * rest[axis];
+    // The moment of torsion is along the mean of the two links. About their bisector it does the work of path'.
+    component += twist_moment_ * (direction_[axis][i - 1] + direction_[axis][i]) /
+                 (1 + joint_cosine_[i]);
     moment.push_back(definitions_.define("joint_moment" + ending(axis), i, component));
   }
   return moment;
@@ -193,6 +223,7 @@ void Chain::add_power_of_ends() {
     of_end += reactions_[1].force[axis] * time_.of(joint_[axis][links_]);
     if (end_is_clamped_) of_end += turning(axis, links_ + 1);
   }
+  if (!twist_moment_.is_zero()) of_end += twist_moment_ * time_.of(roll_);
   add_energy("end", EnergyItem::kSupplied, of_end);
 }
 

@@ -41,7 +41,8 @@ class Linearisation {
   Linearisation(Chain& chain, const Weights& weights)
       : chain_(chain), definitions_(chain.definitions()), weights_(weights), links_(chain.links()) {
     for (size_t k = 0; k < chain.states().size(); ++k) {
-      state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
+      if (!chain.states()[k].is_equal(chain.path()))
+        state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
     }
     for (const auto& [state, rate] : state_rates_) {
       for (const int number : reached_from({rate})) {
@@ -107,6 +108,15 @@ class Linearisation {
                             std::to_string(basis.index));
       }
     }
+    return form;
+  }
+
+  /// The change of a sum over links, in u of all of them.
+  Form along_links(const ex& expression) {
+    Form form = change_of(expression);
+    for (const auto& [basis, coefficient] : form)
+      if (basis.kind != Basis::kPerturbation)
+        throw NotOfThisForm("a state of the whole chain depends on " + basis.family);
     return form;
   }
 
@@ -353,6 +363,42 @@ Differential along_border(Chain& chain, const Weights& weights, size_t coordinat
 
 using Columns = std::vector<std::vector<ex>>;  // [component][rank] or [component][component]
 
+// What the elimination of the state of torsion adds: its column times its row.
+void add_path(Chain& chain, const Weights& weights, const std::string& prefix,
+              Linearisation& linearisation, Quasiseparable& result) {
+  Definitions& definitions = chain.definitions();
+  const size_t block = result.diagonal[1].size(), n = static_cast<size_t>(chain.links());
+  Form rate;
+  for (size_t k = 0; k < chain.states().size(); ++k)
+    if (chain.states()[k].is_equal(chain.path()))
+      rate = linearisation.along_links(chain.state_rates()[k]);
+  Differential by_path(definitions, [](const std::string& family) { return family + "_by_path"; });
+  by_path.set(chain.path(), 1);
+  for (size_t k = block * n; k < chain.residual().size(); ++k)
+    if (!by_path.of(chain.residual()[k]).is_zero())
+      throw NotOfThisForm("an equation of no link depends on torsion");
+  for (size_t i = 1; i <= n; ++i) {
+    const int link = static_cast<int>(i);
+    for (size_t a = 0; a < block; ++a) {
+      const std::string component = "_" + std::to_string(a);
+      const ex column = definitions.define(prefix + "path_column" + component, link,
+                                           by_path.of(chain.residual()[a * n + i - 1]));
+      const Basis moved{Basis::kPerturbation, "", link, static_cast<int>(a)};
+      const ex row = definitions.define(prefix + "path_row" + component, link,
+                                        weights.velocity * entry(rate, moved));
+      result.upper_row[i][a].push_back(column);
+      result.lower_row[i][a].push_back(column);
+      result.upper_column[i][a].push_back(row);
+      result.lower_column[i][a].push_back(row);
+    }
+    for (size_t a = 0; a < block; ++a)
+      for (size_t b = 0; b < block; ++b)
+        result.diagonal[i][a][b] +=
+            result.upper_row[i][a].back() * result.upper_column[i][b].back();
+  }
+  result.symmetric = false;
+}
+
 void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasiseparable& result) {
   Definitions& definitions = chain.definitions();
   const int n = chain.links(), before = definitions.size();
@@ -555,6 +601,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       result.symmetric = result.symmetric && equal(result.corner[k][l], result.corner[l][k]);
   result.below = below;
   result.above = above;
+  if (!chain.path().is_zero() && !weights.velocity.is_zero())
+    add_path(chain, weights, prefix, linearisation, result);
   // One link has nothing to couple. Blocks, and what has a border, have arrays all the same, of zeros.
   for (auto* list :
        {&result.upper_row, &result.upper_column, &result.lower_row, &result.lower_column}) {

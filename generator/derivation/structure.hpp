@@ -27,9 +27,11 @@
 // the equation of s times the B_j; nothing that is carried down depends on s, so columns are derivatives along
 // s; the corner where both meet is the derivative of the equations of s along s.
 //
-// Extra states have rates f(q, v, z); the rate of a state must not depend on another state. In an
+// Extra states of joints have rates f(q, v, z); the rate of a state must not depend on another state. In an
 // implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
-// 1. They are eliminated, and N is the rest.
+// 1. They are eliminated, and N is the rest. The state of torsion is in no rate, and its own rate is a sum over
+// links. Its elimination adds to N the product of a column, dr/dz, and a row, wv times the change of
+// the rate: one column more in each triangle, and the diagonal.
 #pragma once
 
 #include <ginac/ginac.h>

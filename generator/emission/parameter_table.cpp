@@ -92,6 +92,7 @@ TableFamilies table_families(const Description& description) {
         table.states.push_back(
             {{id + state.name + component + number, state.unit}, state.at == Place::kJoint});
     }
+    if (effect.held_end.twists()) table.states.push_back({{id + "twist_of_path", "rad"}});
     for (const SignalChannel& signal : effect.signals)
       table.signals.push_back({{id + signal.name, signal.unit}});
   }
@@ -157,6 +158,8 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
         z += copies(state, links);
       }
     }
+    if (effect.held_end.twists())
+      places.push_back({effect.id + "_twist_of_path", 'z', z++, 1, false});
     for (const SignalChannel& signal : effect.signals) {
       for (const char* what : {"", "_rate", "_acceleration"}) {
         places.push_back({name(signal) + what, 'u', u++, 1, false});
