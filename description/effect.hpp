@@ -147,8 +147,16 @@ struct HeldEnd {
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
   bool twists() const { return torsional_stiffness.given(); }
   std::array<const Expression*, 10> all() const {
-    return {&side,         &down,            &across,        &clamp_side,          &clamp_down,
-            &clamp_across, &clamp_stiffness, &clamp_damping, &torsional_stiffness, &roll};
+    return {&side,
+            &down,
+            &across,
+            &clamp_side,
+            &clamp_down,
+            &clamp_across,
+            &clamp_stiffness,
+            &clamp_damping,
+            &torsional_stiffness,
+            &roll};
   }
 };
 

@@ -448,8 +448,7 @@ void Chain::add_effect_terms(const Effect& effect) {
     ex rate = 0;
     for (const ex& turning : path_turning_) rate += turning;
     states_.push_back(path_);
-    state_rates_.push_back(
-        definitions_.named(rate, effect.id + "_twist_of_path_rate", kNoIndex));
+    state_rates_.push_back(definitions_.named(rate, effect.id + "_twist_of_path_rate", kNoIndex));
   }
   if (!wanted(effect.id)) return;
 

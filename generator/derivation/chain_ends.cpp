@@ -161,11 +161,10 @@ void Chain::twist() {
   if (const Expression& roll = effect.held_end.roll; roll.given())
     roll_ = define_variable("end_roll", kNoIndex,
                             evaluate(effect, roll, kShape, Place::kLoad, 0, "rad"));
-  const ex per_twist =
-      definitions_.define("end_torsion", kNoIndex,
-                          evaluate(effect, effect.held_end.torsional_stiffness, kShape,
-                                   Place::kLoad, 0, "N m^2") /
-                              arc_[links_]);
+  const ex per_twist = definitions_.define(
+      "end_torsion", kNoIndex,
+      evaluate(effect, effect.held_end.torsional_stiffness, kShape, Place::kLoad, 0, "N m^2") /
+          arc_[links_]);
   const ex twist = definitions_.define("end_twist", kNoIndex, roll_ + path_);
   twist_moment_ = definitions_.define("end_twist_moment", kNoIndex, per_twist * twist);
   if (!wanted(effect.id)) return;
@@ -194,8 +193,8 @@ std::vector<ex> Chain::moment_of_joint(Link i) {
     ex component = bending * joint_cross_[axis][i] + force_of(joint_turning_[axis][i]);
     if (!rest.empty()) component -= stiffness_[i] * rest[axis];
     // The moment of torsion is along the mean of the two links. About their bisector it does the work of path'.
-    component += twist_moment_ * (direction_[axis][i - 1] + direction_[axis][i]) /
-                 (1 + joint_cosine_[i]);
+    component +=
+        twist_moment_ * (direction_[axis][i - 1] + direction_[axis][i]) / (1 + joint_cosine_[i]);
     moment.push_back(definitions_.define("joint_moment" + ending(axis), i, component));
   }
   return moment;

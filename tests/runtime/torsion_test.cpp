@@ -84,7 +84,8 @@ TEST_CASE("the path of the twist is what a frame turns that is carried along the
   for (int k = 0; k <= 1000; ++k) times.push_back(1e-3 * k);
   const catena::Trajectory path = run(model, p, start_of(model, p), times).trajectory;
   // Frames of the clamps that turn with them but do not spin about them, in steps of a millisecond.
-  Vector3d first = clamp(model, p, "twists.turn", 2, 0), last = clamp(model, p, "twists.end_turn", 6, 0);
+  Vector3d first = clamp(model, p, "twists.turn", 2, 0),
+           last = clamp(model, p, "twists.end_turn", 6, 0);
   Vector3d of_first = first.unitOrthogonal(), of_last = last.unitOrthogonal();
   double start = 0, before = 0, widest = 0, farthest = 0;
   for (Index k = 0; k < path.q.cols(); ++k) {
@@ -141,9 +142,10 @@ TEST_CASE("the energy of a twisted cable balances, and derivatives are differenc
       options);
   REQUIRE_MESSAGE(adjoint.status == catena::Status::kSuccess, adjoint.message);
   const Index links = Index{3} * model.links();
-  for (const auto& [direction, found] :
-       {std::pair(directions[0], sensitive.sensitivity[0]), {directions[1], sensitive.sensitivity[1]},
-        {directions[2], sensitive.sensitivity[2]}, {directions[3], sensitive.sensitivity[3]}}) {
+  for (const auto& [direction, found] : {std::pair(directions[0], sensitive.sensitivity[0]),
+                                         {directions[1], sensitive.sensitivity[1]},
+                                         {directions[2], sensitive.sensitivity[2]},
+                                         {directions[3], sensitive.sensitivity[3]}}) {
     Index index = 0;
     direction.parameters.maxCoeff(&index);
     CAPTURE(index);
@@ -155,7 +157,8 @@ TEST_CASE("the energy of a twisted cable balances, and derivatives are differenc
     const VectorXd expected = (above.q.col(2) - below.q.col(2)).head(links) / (2 * h);
     CHECK((found.q.col(2).head(links) - expected).cwiseAbs().maxCoeff() <
           1e-5 * expected.cwiseAbs().maxCoeff());
-    CHECK(found.z(0, 2) == doctest::Approx((above.z(0, 2) - below.z(0, 2)) / (2 * h)).epsilon(1e-4));
+    CHECK(found.z(0, 2) ==
+          doctest::Approx((above.z(0, 2) - below.z(0, 2)) / (2 * h)).epsilon(1e-4));
     CHECK(adjoint.gradient.parameters[index] == doctest::Approx(found.q(4, 2)).epsilon(1e-5));
   }
 }
@@ -181,9 +184,9 @@ TEST_CASE("Newton's steps solve the equations with torsion") {
   const int n = model.coordinates();
   VectorXd a = VectorXd::Zero(n), z = VectorXd::Constant(1, 0.7);
   const double t = 0.3, ca = 1.0, cv = 0.02, cq = 0.0004;
-  REQUIRE(model.acceleration(
-              {t, state.q.data(), state.v.data(), a.data(), z.data(), nullptr, p.data()},
-              a.data()) == 0);
+  REQUIRE(
+      model.acceleration({t, state.q.data(), state.v.data(), a.data(), z.data(), nullptr, p.data()},
+                         a.data()) == 0);
   const catena_point at{t, state.q.data(), state.v.data(), a.data(), z.data(), nullptr, p.data()};
   const VectorXd zero = VectorXd::Zero(std::max(n, model.parameters()));
   MatrixXd newton(n, n);
@@ -278,8 +281,8 @@ struct Ring {
     set(model, p, "twists.roll", twist);
     const int n = model.coordinates(), links = 3 * model.links();
     VectorXd a = VectorXd::Zero(n);
-    const catena_point still{0,        state.q.data(),       state.v.data(), a.data(),
-                             state.z.data(), nullptr, p.data()};
+    const catena_point still{0,       state.q.data(), state.v.data(), a.data(), state.z.data(),
+                             nullptr, p.data()};
     REQUIRE(model.acceleration(still, a.data()) == 0);
     a.head(links).setZero();
     VectorXd rest(n);
