@@ -426,7 +426,7 @@ std::string in_lines(std::string head, const std::vector<std::string>& arguments
 }
 
 std::string space_include(const ModelFunctions& functions) {
-  const std::string bordered = functions.summary.border > 0 ? "#include \"bordered.hpp\"\n" : "";
+  std::string bordered = functions.summary.border > 0 ? "#include \"bordered.hpp\"\n" : "";
   if (functions.space == Space::kPlane) return bordered;
   return "#include \"angle_over_sine.hpp\"\n"
          "#include \"block_quasiseparable.hpp\"\n"

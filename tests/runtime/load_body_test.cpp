@@ -76,10 +76,10 @@ VectorXd swinging(const Model& model) {
 }
 
 // The plain chain with one link more, which is the body.
-VectorXd with_link(const Model& longer, const VectorXd& p, int links) {
+VectorXd with_link(const Model& longer, const VectorXd& p, Index links) {
   VectorXd q = longer.default_parameters();
   const double body[] = {2 * kReach, 0.3, kInertia, 0, kHinge, 0};
-  for (int family = 0; family < 6; ++family) {
+  for (Index family = 0; family < 6; ++family) {
     q.segment(family * (links + 1), links) = p.segment(family * links, links);
     q[family * (links + 1) + links] = body[family];
   }

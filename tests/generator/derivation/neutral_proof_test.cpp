@@ -7,7 +7,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <utility>
 
 using namespace catena;
 
@@ -77,15 +76,18 @@ TEST_CASE("a wrong neutral value is found") {
 }
 
 TEST_CASE("a moment on a load's own coordinate is found if it depends on the links") {
-  for (const auto& [moment, depends] :
-       {std::pair{"about_centre*rate^2", true}, {"about_centre*swing_rate^2", false}}) {
-    CAPTURE(moment);
+  struct Row {
+    const char* moment;
+    bool depends;
+  };
+  for (const Row& row : {Row{"about_centre*rate^2", true}, {"about_centre*swing_rate^2", false}}) {
+    CAPTURE(row.moment);
     Effect effect = built_in_effect("swinging_load");
     ForceTerm force;
     force.at = Place::kLoad;
     force.along.text = "swing_rate";
-    force.value.text = moment;
+    force.value.text = row.moment;
     effect.forces = {force};
-    CHECK(all_equal(prove_neutral(with({effect}), kLinks)) == !depends);
+    CHECK(all_equal(prove_neutral(with({effect}), kLinks)) == !row.depends);
   }
 }

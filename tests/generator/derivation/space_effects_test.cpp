@@ -576,8 +576,9 @@ TEST_CASE("a force along a velocity is that force, in the plane and in space") {
       for (const std::string law : {"side = \"-c*velocity_down\"\n",
                                     "along = \"velocity_side\"\nvalue = \"-c*velocity_down\"\n"}) {
         Description description = with({}, space);
-        description.effects.push_back(
-            read_effect(folder.write("own.toml", head + "at = \"" + place + "\"\n" + law)));
+        std::string text = head;
+        text.append("at = \"").append(place).append("\"\n").append(law);
+        description.effects.push_back(read_effect(folder.write("own.toml", text)));
         Chain chain(description, kLinks, "own");
         ExactEvaluation evaluation(chain.definitions(),
                                    [&](const std::string& name) { return draw(name, 1); });
