@@ -2,10 +2,13 @@
 #include "description/effect_checks.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <set>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/number_text.hpp"
 #include "description/expression_syntax.hpp"
 
 namespace catena {
@@ -32,6 +35,25 @@ class Checks {
     }
     if (!effect_.coordinates.empty() && effect_.scalars.empty() && effect_.forces.empty()) {
       fail("a new coordinate needs a potential, dissipation or force that governs it");
+    }
+  }
+
+  // Definitions are put in where their names stand, again and again: what comes of it must stay small.
+  void check_size() const {
+    constexpr double kMostOperations = 1e5;  // two tables of 24 points within one another have 3e4
+    std::map<std::string, double> sizes;
+    const std::function<double(const SyntaxNode&)> size_of = [&](const SyntaxNode& node) {
+      const auto known = node.kind == SyntaxNode::kName ? sizes.find(node.name) : sizes.end();
+      double size = known == sizes.end() ? 1 : known->second;
+      for (const SyntaxNode& operand : node.operands) size += size_of(operand);
+      return size;
+    };
+    for (const Definition& definition : effect_.definitions) {
+      const double size = sizes[definition.name] = size_of(parse_syntax(definition.value));
+      if (size > kMostOperations)
+        fail_at(definition.value, "with the definitions in it, it has " + shortest_number(size) +
+                                      " numbers, names and operations; the most is 100 000. Use a "
+                                      "definition less often, or put fewer within one another");
     }
   }
 
@@ -153,6 +175,7 @@ class Checks {
 
 void check_consistency(const Effect& effect) {
   const Checks checks(effect);
+  checks.check_size();
   checks.check_physics();
   checks.check_energies();
   checks.check_all_used();

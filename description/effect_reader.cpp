@@ -15,6 +15,7 @@
 #include "description/description.hpp"
 #include "description/effect.hpp"
 #include "description/effect_checks.hpp"
+#include "description/expression_syntax.hpp"
 #include "description/unit.hpp"
 
 namespace catena {
@@ -308,16 +309,26 @@ class EffectReader {
           table.fail("points", shortest_number(points[i]) + " after " +
                                    shortest_number(points[i - 1]) + "; points must increase");
       }
-      const double rounding = table.number("rounding");
-      if (!(rounding > 0) || !std::isfinite(rounding))
-        table.fail("rounding", shortest_number(rounding) + "; must be positive and finite");
+      // Its square must not vanish beside that of a distance, nor the table beside it.
+      constexpr double kLeastRounding = 1e-7;
+      const double rounding = table.number("rounding"), span = points.back() - points.front();
+      if (!(rounding >= kLeastRounding * span && rounding <= span))
+        table.fail("rounding", shortest_number(rounding) + "; must be " +
+                                   shortest_number(kLeastRounding) +
+                                   " to 1 times the distance from the first to the last point, " +
+                                   shortest_number(span));
       definition.value = required(table, "of");
+      (void)parse_syntax(
+          definition.value);  // by itself, before it stands within another expression
       const std::string place = "((" + definition.value.text + ")/" + at + "-(";
       std::string text = "(" + shortest_number(values[0]) + ")";
       double slope = 0;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const double next =
             i + 1 < points.size() ? (values[i + 1] - values[i]) / (points[i + 1] - points[i]) : 0;
+        if (!std::isfinite(next - slope))
+          table.fail("values", "change too steeply at the point " + shortest_number(points[i]) +
+                                   "; no slope may be above 1e308");
         const std::string x = place + shortest_number(points[i]) + "))";
         text.append("+(").append(shortest_number((next - slope) / 2)).append(")*(").append(x);
         text.append("+sqrt(")

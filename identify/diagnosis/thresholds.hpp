@@ -77,13 +77,13 @@ struct DiagnosisThresholds {
   /// gaps with another cause one gets a name; of 100 right effects one is said to leave a gap. A level
   /// that was chosen before any outcome was seen.
   double chance = 0.01;
-  /// Share of the squared misfit that an explanation must remove. Less is a detail. Chosen.
+  /// Share of the squared misfit that an explanation must remove: 5 % of its RMS, as `as_good_held_out` has it.
   double worthwhile = 0.1;
-  /// Share of the squared misfit before the first effect that a further one must remove. What the
-  /// law of a large effect gets slightly wrong is fitted by others a little. Chosen.
+  /// Share of the squared misfit before the first effect that a further one must remove: the square of
+  /// `law_error`. What the law of a large effect gets so wrong, others fit.
   double detail = 0.01;
   /// So many effects need only predict the held-out part no worse. Further ones must predict it
-  /// better: three can imitate much that is none of them. Chosen.
+  /// better: three can imitate much that is none of them. Trials of docs/power.md hide two at most.
   int effects_unconfirmed = 2;
 
   /// What a user may have measured wrong. Physics beside a gap is certain if it explains `worthwhile` of
@@ -95,7 +95,7 @@ struct DiagnosisThresholds {
   /// Odds at which chance explains a lead, in what was fitted and in what was held out: one in a
   /// thousand comparisons of two models is decided by chance.
   double odds = 1000;
-  /// Over noise: the error that two models share at least, for no law is exact. Chosen.
+  /// Over noise: the error that two models share at least, for no law is exact: as `law_error`.
   double shared_error = 0.1;
 
   // How many links? (links.cpp)

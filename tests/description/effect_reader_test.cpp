@@ -83,11 +83,23 @@ TEST_CASE("a value at which the effect vanishes only in the limit gives no defau
 
 namespace {
 
-std::string table(const char* points, const char* values, const char* rest = "rounding = 0.5\n") {
-  return std::string("[[table]]\nname = \"speed\"\nof = \"depth\"\nof_unit = \"m\"\nunit = ") +
-         "\"m/s\"\npoints = " + points + "\nvalues = " + values + "\n" + rest +
-         "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = " +
+std::string table(const char* points, const char* values, const char* rest = "rounding = 0.5\n",
+                  const std::string& of = "depth") {
+  return "[[table]]\nname = \"speed\"\nof = \"" + of +
+         "\"\nof_unit = \"m\"\nunit = " + "\"m/s\"\npoints = " + points + "\nvalues = " + values +
+         "\n" + rest + "[flow]\nside = \"speed\"\n[[force]]\nat = \"load\"\nside = " +
          "\"load_mass*gravity*relative_side/relative_down\"\n";
+}
+
+/// Each has the one before twice, as grains on a chessboard.
+std::string doubled_definitions() {
+  std::string text = "[[definition]]\nname = \"grain0\"\nvalue = \"depth\"\n";
+  for (int k = 1; k < 64; ++k) {
+    const std::string before = "grain" + std::to_string(k - 1);
+    text.append("[[definition]]\nname = \"grain").append(std::to_string(k));
+    text.append("\"\nvalue = \"").append(before).append(" + ").append(before).append("\"\n");
+  }
+  return text;
 }
 
 }  // namespace
@@ -162,7 +174,23 @@ TEST_CASE("errors in an effect name their line") {
       {table("[0]", "[1]"), "drag.toml:11: table.points: 1 numbers; give 2 to 24"},
       {table("[0, 1]", "[1]"), "drag.toml:12: table.values: 1 numbers; there are 2 points"},
       {table("[0, 1]", "[1, 2]", "rounding = 0.0\n"),
-       "drag.toml:13: table.rounding: 0; must be positive and finite"},
+       "drag.toml:13: table.rounding: 0; must be 1e-07 to 1 times the distance from the first"},
+      {table("[0, 10]", "[1, 2]", "rounding = 1e-200\n"),
+       "drag.toml:13: table.rounding: 1e-200; must be"},
+      {table("[0, 10]", "[1, 2]", "rounding = 1e200\n"),
+       "drag.toml:13: table.rounding: 1e+200; must be"},
+      {table("[-1e308, 1e308]", "[1, 2]"), "drag.toml:13: table.rounding: 0.5; must be"},
+      {table("[0, 1]", "[1e308, -1e308]"),
+       "drag.toml:12: table.values: change too steeply at the point 0; no slope may be above "
+       "1e308"},
+      {table("[0, nan]", "[1, 2]"), "drag.toml:11: table.points: nan in the list is not a number"},
+      {table("[0, 1]", "[1, inf]"), "drag.toml:12: table.values: must be finite"},
+      {table("[0, 1]", "[1, 2]", "rounding = 0.5\n", "depth) + (depth"),
+       "drag.toml:8: table.of: in \"depth) + (depth\": \")\" cannot stand here, at its character "
+       "6"},
+      {doubled_definitions(),
+       "drag.toml:56: definition.value: in \"grain15 + grain15\": with the definitions in it, it "
+       "has 131071"},
       {"[flow]\n" + kForce, "drag.toml:6: flow: has none of side, down and across; give one"},
       {"[flow]\nside = \"1\"\n" + kForce,
        "drag.toml:1: nothing uses the velocity that [flow] gives; write relative_normal"},

@@ -16,7 +16,14 @@ from cases import DATA, SWING  # noqa: E402
 CASE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "first_cable" / "case.toml"
 # Two links that swing for ever.
 ENDLESS = SWING.replace("value = 0.005", "value = 0.0")
-FREE = "value = 0.1\nfree = true\nlower = 0.01\nupper = 1.0"
+# The same with four unknowns: the more simulations a fit takes, the sooner it is known to be long.
+UNKNOWN = '[[parameter]]\nname = "{0}"\nsets = "{0}"\nvalue = {1}\nunit = "{2}"\nfree = true\nlower = 0.0\nupper = 1.0\n'
+FREE = (
+    ENDLESS[: ENDLESS.index("[[parameter]]")]
+    + "".join(UNKNOWN.format(f"stiffness_{i}", 0.1, "N m/rad") + UNKNOWN.format(f"damping_{i}", 0.0, "N m s/rad") for i in (1, 2))
+    + ENDLESS[ENDLESS.index("[initial]") :]
+    + '[optimiser]\nmethod = "nelder_mead"\n'
+)
 DATA = DATA.replace("swing.csv", "data.csv") + "[simulation]\nmax_steps = 1000000000\n"
 
 
@@ -78,7 +85,7 @@ class Cases(unittest.TestCase):
                 many.simulate()
             rows = [f"{1e8 * k},0.28,0.41,0.56,0.83" for k in range(3)]
             (folder / "data.csv").write_text("\n".join(["time_s,side_1_m,down_1_m,side_2_m,down_2_m"] + rows))
-            (folder / "fit.toml").write_text(ENDLESS.replace("value = 0.1", FREE) + DATA)
+            (folder / "fit.toml").write_text(FREE + DATA)
             slow = catena.Case(folder / "fit.toml")
             with self.assertRaisesRegex(catena.InputError, "the simulation needs about .*large_work=True"):
                 slow.simulate()

@@ -9,30 +9,18 @@
 #include "runtime/rest_states.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/driven_model.hpp"
+#include "tests/runtime/simulation_input.hpp"
 
 namespace {
 
 using catena::Model;
 using catena::SensitivityDirection;
-using catena::SimulationOptions;
 using catena::State;
 using catena::Trajectory;
 using catena::testing::cable_parameters;
+using catena::testing::even_times;
+using catena::testing::with_tolerance;
 using Eigen::VectorXd;
-
-std::vector<double> times(double last, int intervals) {
-  std::vector<double> result;
-  for (int i = 0; i <= intervals; ++i) result.push_back(last * i / intervals);
-  return result;
-}
-
-SimulationOptions tight(double tolerance) {
-  SimulationOptions options;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance_position = 1e-2 * tolerance;
-  options.absolute_tolerance_velocity = 1e-1 * tolerance;
-  return options;
-}
 
 // J = sum over the times of |q|^2 / 2 + 0.01 |v|^2 / 2 + sum z.
 double value(const Trajectory& motion) {
@@ -55,11 +43,11 @@ void check_gradient(const Model& model, const VectorXd& p, const State& start,
                     const std::vector<double>& t, const catena::Signals& signals,
                     double tolerance) {
   const auto adjoint =
-      catena::simulate_with_gradient(model, p, start, t, slope_of, tight(1e-9), signals);
+      catena::simulate_with_gradient(model, p, start, t, slope_of, with_tolerance(1e-9), signals);
   CAPTURE(adjoint.message);
   REQUIRE(adjoint.status == catena::Status::kSuccess);
-  const auto forward =
-      catena::simulate_with_sensitivities(model, p, start, directions, t, tight(1e-9), signals);
+  const auto forward = catena::simulate_with_sensitivities(model, p, start, directions, t,
+                                                           with_tolerance(1e-9), signals);
   REQUIRE(forward.status == catena::Status::kSuccess);
   Trajectory slope = forward.trajectory;
   slope_of(forward.trajectory, slope);
@@ -74,9 +62,9 @@ void check_gradient(const Model& model, const VectorXd& p, const State& start,
     const auto at = [&](double e) {
       const State moved{start.q + e * direction.q, start.v + e * direction.v,
                         start.z + e * direction.z};
-      return value(
-          catena::simulate(model, p + e * direction.parameters, moved, t, tight(1e-12), signals)
-              .trajectory);
+      return value(catena::simulate(model, p + e * direction.parameters, moved, t,
+                                    with_tolerance(1e-12), signals)
+                       .trajectory);
     };
     const double difference = (at(h) - at(-h)) / (2 * h);
     const double actual = along(adjoint.gradient, direction);
@@ -186,7 +174,7 @@ TEST_CASE("gradient of 4 links: every parameter and the initial state") {
   initial.q.setZero();
   initial.v[3] = 1.0;
   directions.push_back(initial);
-  check_gradient(model, p, start, directions, times(1.0, 10), {}, 1e-4);
+  check_gradient(model, p, start, directions, even_times(1.0, 10), {}, 1e-4);
 }
 
 TEST_CASE("gradient with an extra state and a signal, by the dense solver") {
@@ -211,7 +199,7 @@ TEST_CASE("gradient with an extra state and a signal, by the dense solver") {
   SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.z[0] = 1.0;
   directions.push_back(initial);
-  check_gradient(model, p, start, directions, times(1.0, 10), signals, 1e-4);
+  check_gradient(model, p, start, directions, even_times(1.0, 10), signals, 1e-4);
 }
 
 TEST_CASE("gradient of 60 links over more than one check point") {
@@ -223,9 +211,9 @@ TEST_CASE("gradient of 60 links over more than one check point") {
   common.parameters.segment(3 * 60, 60).setOnes();
   directions.push_back(common);
   directions.push_back(SensitivityDirection::parameter(model, model.parameter_index("load_mass")));
-  const auto run = catena::simulate(model, p, start, times(0.5, 5), tight(1e-9));
+  const auto run = catena::simulate(model, p, start, even_times(0.5, 5), with_tolerance(1e-9));
   CHECK(run.statistics.steps > 500);
-  check_gradient(model, p, start, directions, times(0.5, 5), {}, 1e-4);
+  check_gradient(model, p, start, directions, even_times(0.5, 5), {}, 1e-4);
 }
 
 TEST_CASE("a slope of the wrong size is refused") {
@@ -233,7 +221,7 @@ TEST_CASE("a slope of the wrong size is refused") {
   const auto wrong = [](const Trajectory&, Trajectory& slope) { slope.q.resize(1, 1); };
   CHECK_THROWS_AS(
       catena::simulate_with_gradient(model, cable_parameters(model, 5.0, 0.05),
-                                     catena::straight(model, 0.1), times(0.1, 2), wrong),
+                                     catena::straight(model, 0.1), even_times(0.1, 2), wrong),
       std::invalid_argument);
 }
 

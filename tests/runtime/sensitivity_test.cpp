@@ -9,6 +9,7 @@
 #include "runtime/rest_states.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/driven_model.hpp"
+#include "tests/runtime/simulation_input.hpp"
 
 namespace {
 
@@ -17,20 +18,8 @@ using catena::SensitivityDirection;
 using catena::SimulationOptions;
 using catena::State;
 using catena::testing::cable_parameters;
-
-std::vector<double> times(double last, int intervals) {
-  std::vector<double> result;
-  for (int i = 0; i <= intervals; ++i) result.push_back(last * i / intervals);
-  return result;
-}
-
-SimulationOptions tight(double tolerance) {
-  SimulationOptions options;
-  options.relative_tolerance = tolerance;
-  options.absolute_tolerance_position = 1e-2 * tolerance;
-  options.absolute_tolerance_velocity = 1e-1 * tolerance;
-  return options;
-}
+using catena::testing::even_times;
+using catena::testing::with_tolerance;
 
 /// Sensitivities against central differences of tighter simulations, relative to the largest value
 /// of each: q, v, z.
@@ -38,8 +27,8 @@ void check_differences(const Model& model, const Eigen::VectorXd& p, const State
                        const std::vector<SensitivityDirection>& directions,
                        const std::vector<double>& t, const catena::Signals& signals,
                        double tolerance) {
-  const auto run =
-      catena::simulate_with_sensitivities(model, p, start, directions, t, tight(1e-9), signals);
+  const auto run = catena::simulate_with_sensitivities(model, p, start, directions, t,
+                                                       with_tolerance(1e-9), signals);
   REQUIRE(run.status == catena::Status::kSuccess);
   REQUIRE(run.sensitivity.size() == directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -51,8 +40,8 @@ void check_differences(const Model& model, const Eigen::VectorXd& p, const State
     const auto at = [&](double e) {
       const State moved{start.q + e * direction.q, start.v + e * direction.v,
                         start.z + e * direction.z};
-      const auto result =
-          catena::simulate(model, p + e * direction.parameters, moved, t, tight(1e-12), signals);
+      const auto result = catena::simulate(model, p + e * direction.parameters, moved, t,
+                                           with_tolerance(1e-12), signals);
       REQUIRE(result.status == catena::Status::kSuccess);
       return result.trajectory;
     };
@@ -85,7 +74,7 @@ TEST_CASE("sensitivities to every kind of parameter and to the initial state: 4 
   initial.v[3] = 1.0;
   directions.push_back(initial);
   // Steps are chosen for the state's error of 1e-9 a step; the sensitivities ride on them.
-  check_differences(model, p, start, directions, times(1.0, 10), {}, 1e-5);
+  check_differences(model, p, start, directions, even_times(1.0, 10), {}, 1e-5);
 }
 
 TEST_CASE("sensitivities with extra states and signals, by the dense solver") {
@@ -106,7 +95,7 @@ TEST_CASE("sensitivities with extra states and signals, by the dense solver") {
   SensitivityDirection initial = SensitivityDirection::zero(model);
   initial.z[0] = 1.0;
   directions.push_back(initial);
-  check_differences(model, p, start, directions, times(1.0, 10), signals, 1e-5);
+  check_differences(model, p, start, directions, even_times(1.0, 10), signals, 1e-5);
 }
 
 TEST_CASE("sensitivities of 12 links through a release from a catenary") {
@@ -119,16 +108,16 @@ TEST_CASE("sensitivities of 12 links through a release from a catenary") {
   SensitivityDirection common = SensitivityDirection::zero(model);  // damping_2..12 together
   common.parameters.segment(4 * 12 + 1, 11).setOnes();
   directions.push_back(common);
-  check_differences(model, p, start, directions, times(1.0, 10), {}, 1e-4);
+  check_differences(model, p, start, directions, even_times(1.0, 10), {}, 1e-4);
 }
 
 TEST_CASE("sensitivities leave the motion as it is, but for Newton's tolerance") {
   const Model model = Model::built_in(4);
   const auto p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::straight(model, 0.8);
-  const auto alone = catena::simulate(model, p, start, times(1.0, 10));
+  const auto alone = catena::simulate(model, p, start, even_times(1.0, 10));
   const auto with = catena::simulate_with_sensitivities(
-      model, p, start, {SensitivityDirection::parameter(model, 0)}, times(1.0, 10));
+      model, p, start, {SensitivityDirection::parameter(model, 0)}, even_times(1.0, 10));
   CHECK(with.sensitivity[0].time == alone.trajectory.time);
   CHECK((with.trajectory.q - alone.trajectory.q).cwiseAbs().maxCoeff() < 1e-6);
   CHECK(with.statistics.steps < 1.2 * static_cast<double>(alone.statistics.steps));
@@ -145,10 +134,10 @@ TEST_CASE("in the error test, sensitivities are as good as smaller steps make th
   directions.push_back(SensitivityDirection::zero(model));
   directions.back().v[11] = 1.0;
   const auto run = [&](double tolerance, bool in_error_test) {
-    SimulationOptions options = tight(tolerance);
+    SimulationOptions options = with_tolerance(tolerance);
     options.sensitivities_in_error_test = in_error_test;
-    const auto result =
-        catena::simulate_with_sensitivities(model, p, start, directions, times(1.0, 20), options);
+    const auto result = catena::simulate_with_sensitivities(model, p, start, directions,
+                                                            even_times(1.0, 20), options);
     REQUIRE(result.status == catena::Status::kSuccess);
     return result;
   };
@@ -174,8 +163,8 @@ TEST_CASE("sensitivities are linear in the direction") {
                              second = SensitivityDirection::parameter(model, 9);
   SensitivityDirection both = first;
   both.parameters = 2.0 * first.parameters - 3.0 * second.parameters;
-  const auto run =
-      catena::simulate_with_sensitivities(model, p, start, {first, second, both}, times(1.0, 10));
+  const auto run = catena::simulate_with_sensitivities(model, p, start, {first, second, both},
+                                                       even_times(1.0, 10));
   const Eigen::MatrixXd expected = 2.0 * run.sensitivity[0].q - 3.0 * run.sensitivity[1].q;
   // The same linear recursion with the same factors: rounding, a thousand steps of it.
   CHECK((run.sensitivity[2].q - expected).cwiseAbs().maxCoeff() <
@@ -189,7 +178,7 @@ TEST_CASE("a run that fails keeps as much of the sensitivities as of the motion"
   options.keep_going = [](double t) { return t < 0.45; };
   const auto run = catena::simulate_with_sensitivities(model, p, catena::straight(model, 0.8),
                                                        {SensitivityDirection::parameter(model, 0)},
-                                                       times(1.0, 10), options);
+                                                       even_times(1.0, 10), options);
   CHECK(run.status == catena::Status::kInterrupted);
   CHECK(run.sensitivity[0].q.cols() == run.trajectory.q.cols());
   CHECK(run.sensitivity[0].time == run.trajectory.time);

@@ -11,6 +11,7 @@
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/driven_model.hpp"
 #include "tests/runtime/reference_model.hpp"
+#include "tests/runtime/simulation_input.hpp"
 
 namespace {
 
@@ -20,13 +21,8 @@ using catena::SimulationOptions;
 using catena::State;
 using catena::Status;
 using catena::testing::cable_parameters;
+using catena::testing::even_times;
 using catena::testing::reference_model;
-
-std::vector<double> times(double last, int intervals) {
-  std::vector<double> result;
-  for (int i = 0; i <= intervals; ++i) result.push_back(last * i / intervals);
-  return result;
-}
 
 double largest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   REQUIRE(a.rows() == b.rows());
@@ -61,11 +57,11 @@ TEST_CASE("many simulations on several threads have the bits of one at a time") 
     parameters.push_back(cable_parameters(model, 20.0 + 5 * i, 0.01 * (i + 1)));
     initial.push_back(catena::straight(model, 0.1 * (i + 1)));
   }
-  const auto together =
-      catena::simulate_batch(model, parameters, initial, times(0.2, 5), 3, SimulationOptions{});
+  const auto together = catena::simulate_batch(model, parameters, initial, even_times(0.2, 5), 3,
+                                               SimulationOptions{});
   REQUIRE(together.size() == 7);
   for (std::size_t i = 0; i < 7; ++i) {
-    const auto alone = catena::simulate(model, parameters[i], initial[i], times(0.2, 5));
+    const auto alone = catena::simulate(model, parameters[i], initial[i], even_times(0.2, 5));
     REQUIRE(alone.status == Status::kSuccess);
     REQUIRE(together[i].status == Status::kSuccess);
     CHECK(together[i].statistics.steps == alone.statistics.steps);
@@ -73,14 +69,14 @@ TEST_CASE("many simulations on several threads have the bits of one at a time") 
     CHECK(largest_difference(together[i].trajectory.v, alone.trajectory.v) == 0.0);
     CHECK(together[i].energy_imbalance == alone.energy_imbalance);
   }
-  CHECK(catena::simulate_batch(model, {}, {}, times(0.2, 5), 3).empty());
-  CHECK_THROWS_WITH_AS(catena::simulate_batch(model, parameters, {}, times(0.2, 5), 3),
+  CHECK(catena::simulate_batch(model, {}, {}, even_times(0.2, 5), 3).empty());
+  CHECK_THROWS_WITH_AS(catena::simulate_batch(model, parameters, {}, even_times(0.2, 5), 3),
                        "7 parameter sets, but 0 initial states; give as many of both",
                        std::invalid_argument);
   parameters[4][0] = std::nan("");
   std::string message;
   try {
-    catena::simulate_batch(model, parameters, initial, times(0.2, 5), 3);
+    catena::simulate_batch(model, parameters, initial, even_times(0.2, 5), 3);
   } catch (const std::invalid_argument& error) {
     message = error.what();
   }
@@ -92,11 +88,11 @@ TEST_CASE("both linear solvers give the same motion, and statistics say which wa
   const auto p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::catenary(model, p, {1.5, 2.5});
   SimulationOptions options;
-  const auto automatic = catena::simulate(model, p, start, times(1.0, 20), options);
+  const auto automatic = catena::simulate(model, p, start, even_times(1.0, 20), options);
   options.linear_solver = LinearSolver::kDense;
-  const auto dense = catena::simulate(model, p, start, times(1.0, 20), options);
+  const auto dense = catena::simulate(model, p, start, even_times(1.0, 20), options);
   const auto unstructured =
-      catena::simulate(Model(reference_model<4>(false)), p, start, times(1.0, 20));
+      catena::simulate(Model(reference_model<4>(false)), p, start, even_times(1.0, 20));
   for (const auto* run : {&automatic, &dense, &unstructured})
     REQUIRE(run->status == Status::kSuccess);
   CHECK(automatic.statistics.used == LinearSolver::kStructured);
@@ -125,7 +121,7 @@ TEST_CASE(
     options.relative_tolerance = tolerance;
     options.absolute_tolerance_position = 1e-2 * tolerance;
     options.absolute_tolerance_velocity = 1e-1 * tolerance;
-    const auto run = catena::simulate(model, p, start, times(2.0, 40), options);
+    const auto run = catena::simulate(model, p, start, even_times(2.0, 40), options);
     REQUIRE(run.status == Status::kSuccess);
     const auto& energy = run.trajectory.energy;
     REQUIRE(energy.rows() == 5);
@@ -147,7 +143,8 @@ TEST_CASE("energies can be left out") {
   const auto p = cable_parameters(model, 5.0, 0.05);
   SimulationOptions options;
   options.energy = false;
-  const auto run = catena::simulate(model, p, catena::straight(model, 0.3), times(0.5, 5), options);
+  const auto run =
+      catena::simulate(model, p, catena::straight(model, 0.3), even_times(0.5, 5), options);
   REQUIRE(run.status == Status::kSuccess);
   CHECK(run.trajectory.energy.size() == 0);
   CHECK(std::isnan(run.energy_imbalance));
@@ -208,8 +205,8 @@ TEST_CASE("the same arguments give the same bits") {
   const Model model(reference_model<4>());
   const auto p = cable_parameters(model, 5.0, 0.05);
   const State start = catena::catenary(model, p, {1.5, 2.5});
-  const auto first = catena::simulate(model, p, start, times(0.5, 10));
-  const auto second = catena::simulate(model, p, start, times(0.5, 10));
+  const auto first = catena::simulate(model, p, start, even_times(0.5, 10));
+  const auto second = catena::simulate(model, p, start, even_times(0.5, 10));
   CHECK(first.trajectory.q == second.trajectory.q);
   CHECK(first.energy_imbalance == second.energy_imbalance);
 }
@@ -217,8 +214,8 @@ TEST_CASE("the same arguments give the same bits") {
 TEST_CASE("output times do not change the steps") {
   const Model model(reference_model<2>());
   const auto p = cable_parameters(model, 5.0, 0.05);
-  const auto few = catena::simulate(model, p, catena::straight(model, 1.0), times(1.0, 1));
-  const auto many = catena::simulate(model, p, catena::straight(model, 1.0), times(1.0, 1000));
+  const auto few = catena::simulate(model, p, catena::straight(model, 1.0), even_times(1.0, 1));
+  const auto many = catena::simulate(model, p, catena::straight(model, 1.0), even_times(1.0, 1000));
   CHECK(few.statistics.steps == many.statistics.steps);
   CHECK(few.trajectory.q.col(1) == many.trajectory.q.col(1000));
 }
@@ -281,7 +278,7 @@ TEST_CASE("failures are statuses that name the state and the time") {
     failure.prepare();
     const Model model(&broken);
     const auto p = cable_parameters(model, 5.0, 0.05);
-    const auto run = catena::simulate(model, p, catena::straight(model, 0.5), times(1.0, 10));
+    const auto run = catena::simulate(model, p, catena::straight(model, 0.5), even_times(1.0, 10));
     CAPTURE(run.message);
     CHECK(catena::status_name(run.status) == std::string(catena::status_name(failure.status)));
     CHECK(run.message.find(failure.in_message) != std::string::npos);
@@ -297,7 +294,7 @@ TEST_CASE("a mass matrix without a pivot is a status") {
   const Model model(reference_model<2>());
   auto p = cable_parameters(model, 5.0, 0.05);
   p[2 + 1] = p[4 + 1] = p[12] = 0.0;  // mass_2, inertia_2, load_mass
-  const auto run = catena::simulate(model, p, catena::straight(model, 0.5), times(1.0, 10));
+  const auto run = catena::simulate(model, p, catena::straight(model, 0.5), even_times(1.0, 10));
   CHECK(run.status == Status::kSingular);
   CHECK(run.message.find("theta_2 at t = 0 s") != std::string::npos);
   CHECK(run.trajectory.time.size() == 1);
@@ -308,14 +305,14 @@ TEST_CASE("too many steps and interruption are statuses") {
   const auto p = cable_parameters(model, 5.0, 0.05);
   SimulationOptions options;
   options.max_steps = 20;
-  auto run = catena::simulate(model, p, catena::straight(model, 0.5), times(1.0, 10), options);
+  auto run = catena::simulate(model, p, catena::straight(model, 0.5), even_times(1.0, 10), options);
   CHECK(run.status == Status::kTooManySteps);
   CHECK(run.message.find("20 steps") != std::string::npos);
   CHECK(run.statistics.steps == 20);
 
   options.max_steps = 1'000'000;
   options.keep_going = [](double t) { return t < 0.45; };
-  run = catena::simulate(model, p, catena::straight(model, 0.5), times(1.0, 10), options);
+  run = catena::simulate(model, p, catena::straight(model, 0.5), even_times(1.0, 10), options);
   CHECK(run.status == Status::kInterrupted);
   CHECK(run.message.find("t = 0.4") != std::string::npos);
   CHECK(run.trajectory.time.back() == doctest::Approx(0.4));
@@ -376,7 +373,7 @@ TEST_CASE("bad arguments name the value and the rule") {
     CAPTURE(row.message);
     auto p = good;
     State s = start;
-    auto t = times(1.0, 10);
+    auto t = even_times(1.0, 10);
     SimulationOptions options;
     row.spoil(p, s, t, options);
     std::string message = "nothing was thrown";
@@ -390,9 +387,9 @@ TEST_CASE("bad arguments name the value and the rule") {
   }
   SimulationOptions structured;
   structured.linear_solver = LinearSolver::kStructured;
-  CHECK_THROWS_AS(
-      catena::simulate(Model(reference_model<2>(false)), good, start, times(1.0, 1), structured),
-      std::invalid_argument);
+  CHECK_THROWS_AS(catena::simulate(Model(reference_model<2>(false)), good, start,
+                                   even_times(1.0, 1), structured),
+                  std::invalid_argument);
 }
 
 TEST_CASE("signals must be the model's and cover the simulation") {
