@@ -223,6 +223,7 @@ std::vector<std::string> standing_effects(const Diagnosis& found) {
 
 void conclude(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
+  found.certain.clear();  // a discovery concludes twice
   state.context.begin("fitting the final model");
   const Stage& last = found.stages.back();
   found.final = last.model;
@@ -265,7 +266,6 @@ void conclude(DiagnosisState& state, const Case& asked) {
   if (!is_closed) {
     std::vector<std::string> stand = standing_effects(found);
     std::erase_if(stand, errors_could_explain);
-    found.certain.clear();
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);
     if (std::find(found.certain.begin(), found.certain.end(), found.law) != found.certain.end()) {
