@@ -24,8 +24,8 @@ struct PlausibleErrors {
 ///
 /// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
 /// varied since. The rates of docs/power.md are evidence for all of them together. Numbers of trials
-/// below are those of its 155 and of the 445 of the study before it, with the same limits
-/// (docs/power/trials_before.csv). A change of any one needs a new power study (scripts/power_study).
+/// below are those of 600 trials before that study, with the same limits and other rules of what is
+/// left (docs/power/trials_before.csv). A change of any one needs a new power study (scripts/power_study).
 struct DiagnosisThresholds {
   // Which part of a recording is for what? (baseline.cpp, sealed_part.cpp)
 
@@ -41,7 +41,7 @@ struct DiagnosisThresholds {
   // Is there a gap? (gap_test.cpp)
 
   /// Standard deviations. Two tests on each of two parts of a recording: by chance, 4.5 are passed
-  /// less than once in 10^5 tests. Evidence: no false alarm on 403 quiet recordings (docs/power.md).
+  /// less than once in 10^5 tests. Evidence: no false alarm on 403 quiet recordings.
   double gap_significance = 4.5;
   /// Misfit over noise. A long recording makes a smaller misfit significant, not important. Evidence:
   /// a smooth misfit of half the noise is found in 200 of 200 recordings (parts_test.cpp).

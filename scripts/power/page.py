@@ -237,7 +237,7 @@ def others(rows):
         for r in some:
             hidden = ", ".join(word for word in (r["setup"], *r["hidden"].split("+"), r["dirt"] if not r["hidden"] else "")
                                if word) or "nothing"
-            what = (hidden, r["off"] or r["strength"], said(r).replace("+", ", "))
+            what = (hidden, str(r["off"] or r["strength"]), said(r).replace("+", ", "))
             counts[what] = counts.get(what, 0) + 1
         lines = [[hidden, str(s), told, str(n)] for (hidden, s, told), n in sorted(counts.items())]
         if lines:
