@@ -445,10 +445,9 @@ void Chain::add_effect_terms(const Effect& effect) {
     }
   }
   if (effect.held_end.twists()) {
-    ex rate = 0;
-    for (const ex& turning : path_turning_) rate += turning;
     states_.push_back(path_);
-    state_rates_.push_back(definitions_.named(rate, effect.id + "_twist_of_path_rate", kNoIndex));
+    state_rates_.push_back(
+        definitions_.named(time_.of(path_), effect.id + "_twist_of_path_rate", kNoIndex));
   }
   if (!wanted(effect.id)) return;
 

@@ -158,6 +158,9 @@ void Chain::twist() {
     path_turning_.push_back(
         define_quasi_velocity("path_turning", k, across / (1 + joint_cosine_[k])));
   }
+  ex rate = 0;
+  for (const ex& turning : path_turning_) rate += turning;
+  time_.set(path_, rate);
   if (const Expression& roll = effect.held_end.roll; roll.given())
     roll_ = define_variable("end_roll", kNoIndex,
                             evaluate(effect, roll, kShape, Place::kLoad, 0, "rad"));
@@ -167,7 +170,7 @@ void Chain::twist() {
           arc_[links_]);
   const ex twist = definitions_.define("end_twist", kNoIndex, roll_ + path_);
   twist_moment_ = definitions_.define("end_twist_moment", kNoIndex, per_twist * twist);
-  if (!wanted(effect.id)) return;
+  if (!wanted("elastic")) return;
   add_energy(effect.id, EnergyItem::kStored, per_twist * twist * twist / 2);
   for (const ex& turning : path_turning_) add_generalised_force(turning, twist_moment_);
 }
