@@ -39,7 +39,11 @@ double units_off(double value, const FiftyDigits& exact) {
 /// Cosines whose distance from 1 is between two numbers, each a little larger than the one before.
 std::vector<double> cosines(double nearest, double farthest) {
   std::vector<double> all;
-  for (double rest = nearest; rest < farthest; rest *= 1.01) all.push_back(1 - rest);
+  double rest = nearest;
+  while (rest < farthest) {
+    all.push_back(1 - rest);
+    rest *= 1.01;
+  }
   return all;
 }
 
