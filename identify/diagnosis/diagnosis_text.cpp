@@ -113,13 +113,14 @@ results::MissingForce entry_of(const MissingForce& force) {
     found.force = law.force;
     found.variable = law.variable;
     found.formula = law.formula.text;
-    for (const PlaceLaw::Constant& constant : law.formula.constants)
+    for (const CandidateLaw::Constant& constant : law.formula.constants)
       found.constants.push_back(
           {constant.name, constant.unit, "", constant.value, constant.deviation, std::nullopt});
     found.candidates = law.candidates;
     found.confirmed = law.confirmed;
     found.chance = law.chance;
-    found.rivals = law.rivals;
+    for (const ForceLaw& rival : law.rivals)
+      found.rivals.push_back(rival.formula.text + site_in_words(rival.site));
   }
   entry.seconds = force.seconds;
   for (const MissingForce::Place& place : force.places)
@@ -146,7 +147,7 @@ results::MissingForce entry_of(const MissingForce& force) {
     const bool torque = history.size.rows() == 1;
     entry.at_best.push_back(history_entry(
         history, force.best->name, torque ? "N m" : "N",
-        torque ? std::vector<std::string>{"torque"} : std::vector<std::string>{"side", "down"},
+        torque ? std::vector<std::string>{"moment"} : std::vector<std::string>{"side", "down"},
         history.size, history.deviation));
   }
   for (const MissingForce::Parameter& parameter : force.parameters) {

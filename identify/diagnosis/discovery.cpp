@@ -36,10 +36,9 @@ const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& ba
   const double length =
       link_lengths(base.problem->model(), base.problem->model_parameters(base.x, 0)).sum();
   const std::string id = new_id(context);
-  Candidate& candidate =
-      context.add_effect(id, effect_of(*force.law, id, force.law->place, length));
+  Candidate& candidate = context.add_effect(id, effect_of(*force.law, id, length));
   const auto value_of = [&](const std::string& name) {
-    for (const PlaceLaw::Constant& constant : force.law->formula.constants)
+    for (const CandidateLaw::Constant& constant : force.law->formula.constants)
       if (name == constant.name) return constant.value;
     return force.law->place;
   };

@@ -128,10 +128,9 @@ std::string sentence_of_effects(const Diagnosis& found, const std::vector<std::s
 /// (discovered_law)."
 std::string sentence_of_law(const Diagnosis& found, bool is_closed) {
   const MissingForce& force = *found.force;
-  const bool torque = force.best->arc_length == 0;
-  std::string sentence = fmt::format(
-      "Missing, and in no library: {}{} ({}).", force.law->formula.text,
-      torque ? std::string() : fmt::format(" at arc length {:.3g} m", force.law->place), found.law);
+  std::string sentence =
+      fmt::format("Missing, and in no library: {}{} ({}).", force.law->formula.text,
+                  site_in_words(force.law->site), found.law);
   if (!force.law->rivals.empty())
     sentence += fmt::format(" These data do not tell it from {} other formula{}.",
                             force.law->rivals.size(), force.law->rivals.size() > 1 ? "s" : "");

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identify/forces/law_response.hpp"
+#include "identify/forces/place_kinematics.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
 #include "linear_algebra/decompositions.hpp"
 
@@ -35,65 +36,101 @@ constexpr double kWide = 100;
 constexpr int kFiner = 4;
 constexpr std::uint64_t kLawSeed = 18;
 
-/// What forces look like that follow no law: at every node, patterns x random forces.
-std::vector<MatrixXd> random_forces(const MatrixXd& path, std::mt19937_64& random) {
-  MatrixXd force(path.rows() / 2, path.cols());  // without its rates
-  for (Index m = 0; m < force.rows(); ++m) force.row(m) = path.row(2 * m);
-  const MatrixXd spectrum = cosine_spectrum(force);
-  std::vector<MatrixXd> at_node(static_cast<std::size_t>(force.cols()),
-                                MatrixXd(force.rows(), kRandomForces));
-  for (Index s = 0; s < kRandomForces; ++s) {
-    const MatrixXd drawn = random_series(spectrum, force.cols(), random);
-    for (Index k = 0; k < drawn.cols(); ++k)
-      at_node[static_cast<std::size_t>(k)].col(s) = drawn.col(k);
-  }
-  return at_node;
+/// Columns of terms whose responses are made at a time: what is in memory at once.
+constexpr Index kColumnsAtOnce = 400;
+/// Formulas that are fitted with their force following the state: of the chosen pair, and of all others.
+constexpr std::size_t kFittedOfChosen = 6, kFittedOfOthers = 8;
+
+/// Generalised forces of these patterns at the nodes of a path: links x nodes of unit size each.
+MatrixXd unit_forces(const std::vector<ForcePattern>& patterns, const VectorXd& lengths,
+                     const VectorXd& state) {
+  MatrixXd forces = MatrixXd::Zero(lengths.size(), static_cast<Index>(patterns.size()));
+  for (std::size_t m = 0; m < patterns.size(); ++m)
+    add_generalised_force(patterns[m], lengths, state.data(), 1,
+                          forces.col(static_cast<Index>(m)).data());
+  return forces;
 }
 
-/// The recorded part and random ones, without what the unknowns imitate: value first.
-struct LawTrials {
-  MatrixXd terms, values;
-  Index seen = 0;  ///< rows that are measured
-};
-LawTrials law_trials(const LawPart& part, Index terms, std::mt19937_64& random) {
-  MatrixXd all(part.value.size(), terms + 1 + kRandomForces);
-  all << part.forces.leftCols(terms), part.value, part.forces.rightCols(kRandomForces);
+/// What forces look like that follow no law: of the same spectrum as those of a path, with random
+/// phases. At every node, links x random forces.
+NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>& patterns,
+                         const VectorXd& lengths, std::mt19937_64& random) {
+  MatrixXd force(path.force.rows() / 2, path.force.cols());  // without its rates
+  for (Index m = 0; m < force.rows(); ++m) force.row(m) = path.force.row(2 * m);
+  const MatrixXd spectrum = cosine_spectrum(force);
+  std::vector<MatrixXd> drawn;
   for (Index s = 0; s < kRandomForces; ++s)
-    for (Index i = 0; i < part.seen; ++i) all(i, terms + 1 + s) += normal_number(random);
-  const MatrixXd left = without_nuisance(part, all);
-  return {left.leftCols(terms), left.rightCols(1 + kRandomForces), part.seen};
+    drawn.push_back(random_series(spectrum, force.cols(), random));
+  NodeForces forces;
+  for (Index k = 0; k < force.cols(); ++k) {
+    const MatrixXd unit = unit_forces(patterns, lengths, path.state.col(k));
+    MatrixXd& at_node = forces.columns.emplace_back(lengths.size(), kRandomForces);
+    for (Index s = 0; s < kRandomForces; ++s)
+      at_node.col(s) = unit * drawn[static_cast<std::size_t>(s)].col(k);
+  }
+  return forces;
+}
+
+/// The recorded part (first) and random ones, without what the unknowns imitate, and what the terms of
+/// every candidate have to do with them.
+struct LawTrials {
+  struct OfCandidate {
+    MatrixXd gram, cross;  // terms x terms, terms x columns
+  };
+  std::vector<OfCandidate> candidates;
+  VectorXd squares;  // of each column
+  Index rows = 0, seen = 0;
+};
+
+/// A formula fitted to columns of trials: its coefficients, and how much it takes off the squares.
+struct LinearFit {
+  MatrixXd coefficients;  // terms x columns
+  VectorXd explained;
+};
+std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
+                                const std::vector<int>& form, Index columns) {
+  const MatrixXd gram = candidate.gram(form, form);
+  const MatrixXd cross = candidate.cross(form, Eigen::seqN(0, columns));
+  const VectorXd scale = gram.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return std::nullopt;
+  const MatrixXd correlation =
+      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  constexpr double kSingular = 1e-10;
+  const SymmetricFactors factors(correlation);
+  if (!(factors.reciprocal_condition() > kSingular)) return std::nullopt;
+  LinearFit fit{MatrixXd(cross.rows(), columns), VectorXd(columns)};
+  for (Index t = 0; t < columns; ++t) {
+    fit.coefficients.col(t) = scale.cwiseInverse().cwiseProduct(
+        factors.solve(VectorXd(scale.cwiseInverse().cwiseProduct(cross.col(t)))));
+    fit.explained[t] = fit.coefficients.col(t).dot(cross.col(t));
+  }
+  return fit;
 }
 
 /// The candidate and its form that explain most of a column, and what they say.
 struct ChosenLaw {
   std::size_t candidate = 0;
   std::vector<int> form;
-  double score = 0;  ///< share explained, less what so many free terms explain by chance
+  double score = 0;  ///< share explained, less what so many free constants explain by chance
   VectorXd coefficients;
 };
 
-MatrixXd law_terms(const LawTrials& trials, std::size_t candidate, const std::vector<int>& form) {
-  return trials.terms.middleCols(static_cast<Index>(candidate) * PlaceLaw::terms(),
-                                 PlaceLaw::terms())(Eigen::all, form);
-}
-
 /// The best candidate for each column of the trials.
-std::vector<ChosenLaw> choose_law(const std::vector<PlaceLaw>& candidates,
+std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
                                   const LawTrials& trials) {
-  std::vector<ChosenLaw> best(static_cast<std::size_t>(trials.values.cols()));
-  const double count = std::log(static_cast<double>(trials.values.rows()));
+  const Index columns = trials.squares.size();
+  std::vector<ChosenLaw> best(static_cast<std::size_t>(columns));
+  const double count = std::log(static_cast<double>(trials.rows));
   for (std::size_t c = 0; c < candidates.size(); ++c)
     for (const std::vector<int>& form : candidates[c].forms()) {
-      const MatrixXd terms = law_terms(trials, c, form);
-      const MatrixXd coefficients = least_squares(terms, trials.values);
-      const MatrixXd left = trials.values - terms * coefficients;
-      for (Index t = 0; t < trials.values.cols(); ++t) {
-        const double penalty = count * static_cast<double>(form.size());
-        const double score =
-            1 - (left.col(t).squaredNorm() + penalty) / trials.values.col(t).squaredNorm();
+      const std::optional<LinearFit> fit = fit_of(trials.candidates[c], form, columns);
+      if (!fit) continue;
+      const double penalty = count * candidates[c].constants(form);
+      for (Index t = 0; t < columns; ++t) {
+        const double score = (fit->explained[t] - penalty) / trials.squares[t];
         ChosenLaw& chosen = best[static_cast<std::size_t>(t)];
-        if (score > chosen.score && candidates[c].admits(coefficients.col(t)))
-          chosen = {c, form, score, coefficients.col(t)};
+        if (score > chosen.score && candidates[c].admits(fit->coefficients.col(t)))
+          chosen = {c, form, score, fit->coefficients.col(t)};
       }
     }
   return best;
@@ -102,81 +139,66 @@ std::vector<ChosenLaw> choose_law(const std::vector<PlaceLaw>& candidates,
 /// Of what can be explained of a column, down to the squares `least`: the share that a law does.
 double explained_by_law(const LawTrials& trials, Index column, const ChosenLaw& law, double least) {
   if (law.form.empty()) return 0;
-  const VectorXd value = trials.values.col(column);
-  const VectorXd left = value - law_terms(trials, law.candidate, law.form) * law.coefficients;
-  const double before = value.squaredNorm();
-  return before > least ? (before - left.squaredNorm()) / (before - least) : 0;
+  const LawTrials::OfCandidate& of = trials.candidates[law.candidate];
+  const VectorXd& b = law.coefficients;
+  const MatrixXd gram = of.gram(law.form, law.form);
+  const VectorXd cross = of.cross(law.form, column);
+  const double explained = 2 * b.dot(cross) - b.dot(gram * b);
+  const double before = trials.squares[column];
+  return before > least ? explained / (before - least) : 0;
 }
 
 /// A formula fitted to all frames, with its force following the state.
 struct FittedForm {
-  std::size_t candidate = 0;
+  CandidateLaw law;
   std::vector<int> form;
   VectorXd coefficients;
   double shift = 0;  ///< m, of the place
   MatrixXd covariance;
   double place_variance = 0;
   double squares = 0, freedom = 0;
+
+  double constants() const { return law.constants(form); }
 };
 
 /// "side force = -linear x (side position - rest), linear = 0.3 (0.296 to 0.304) N/m, ...": with
-/// intervals of 95 %.
-std::string with_constants(const PlaceLaw::Formula& formula) {
+/// intervals of 95 %, where there are any.
+std::string with_constants(const CandidateLaw::Formula& formula) {
   std::string words = formula.text;
-  for (const PlaceLaw::Constant& constant : formula.constants)
-    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
-                         constant.value - 1.96 * constant.deviation,
-                         constant.value + 1.96 * constant.deviation, constant.unit);
+  for (const CandidateLaw::Constant& constant : formula.constants)
+    words += constant.from_grid
+                 ? fmt::format(", {} about {:.3g} {}", constant.name, constant.value, constant.unit)
+                 : fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
+                               constant.value - 1.96 * constant.deviation,
+                               constant.value + 1.96 * constant.deviation, constant.unit);
   return words;
 }
 
 class LawSearch {
  public:
-  /// `found`: (w, dw/dt) of each pattern at the place, one column per node, of each recording.
-  /// `linear`: patterns at the place, then the same at a place `apart` m from it, which is 0 for the
-  /// torque.
-  LawSearch(ForcePaths& paths, const std::vector<MatrixXd>& found, LinearProblem linear,
-            const VectorXd& lengths, Index coordinates, double arc_length, double apart)
+  /// `random`: of each recording. `linear`: with a torque on every link as its forces.
+  LawSearch(ForcePaths& paths, std::vector<NodeForces> random, std::mt19937_64& numbers,
+            LinearProblem linear, const LawChain& chain, const std::vector<LawSite>& sites)
       : paths_(paths),
-        found_(found),
+        random_(std::move(random)),
+        numbers_(numbers),
         linear_(std::move(linear)),
-        lengths_(lengths),
-        coordinates_(coordinates),
-        arc_length_(arc_length),
-        apart_(apart) {
-    see_places();
-    std::vector<PlaceMotion> visited;
-    for (const std::vector<PlaceKinematics>& places : places_)
-      for (const PlaceKinematics& place : places) visited.push_back(place.motion);
-    candidates_ = place_laws(apart == 0, visited);
+        chain_(chain) {
+    std::vector<VectorXd> visited;
+    for (const ForcePath& path : paths_.paths())
+      for (Index k = 0; k < path.state.cols(); ++k) visited.emplace_back(path.state.col(k));
+    for (const LawSite& site : sites)
+      for (CandidateLaw& candidate : candidates_at(site, chain_, visited))
+        candidates_.push_back(std::move(candidate));
   }
 
   ForceLaw run() {
     ForceLaw law;
     law.candidates = static_cast<int>(candidates_.size());
-    std::mt19937_64 random(kLawSeed);
-    const auto terms = static_cast<Index>(candidates_.size()) * PlaceLaw::terms();
-    std::vector<NodeForces> forces;
-    for (std::size_t r = 0; r < places_.size(); ++r) {
-      const std::vector<MatrixXd> drawn = random_forces(found_[r], random);
-      NodeForces& of_recording = forces.emplace_back();
-      for (std::size_t k = 0; k < drawn.size(); ++k) {
-        MatrixXd& at =
-            of_recording.columns.emplace_back(MatrixXd::Zero(patterns(), terms + kRandomForces));
-        at.topRightCorner(drawn[k].rows(), kRandomForces) = drawn[k];
-        for (std::size_t c = 0; c < candidates_.size(); ++c)
-          at.block(0, static_cast<Index>(c) * PlaceLaw::terms(), drawn[k].rows(),
-                   PlaceLaw::terms()) = candidates_[c].force(places_[r][k].motion);
-      }
-    }
-    const LawTrials first = law_trials(law_part(linear_, forces, FrameHalf::kFirst), terms, random);
-    const LawTrials second =
-        law_trials(law_part(linear_, forces, FrameHalf::kSecond), terms, random);
+    const LawTrials first = trials(FrameHalf::kFirst), second = trials(FrameHalf::kSecond);
     const std::vector<ChosenLaw> chosen = choose_law(candidates_, first);
     if (chosen[0].form.empty()) return law;
-    const PlaceLaw& best = candidates_[chosen[0].candidate];
-    law.force = best.force_name();
-    law.variable = best.variable_name();
+    take_names(candidates_[chosen[0].candidate], law);
     law.confirmed = explained_by_law(second, 0, chosen[0], left_by_force(FrameHalf::kSecond));
     Index as_well = 0;
     for (Index t = 1; t <= kRandomForces; ++t)
@@ -184,46 +206,107 @@ class LawSearch {
                                   static_cast<double>(second.seen)) >= law.confirmed;
     law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomForces);
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
-    if (law.found) read_formula(chosen[0].candidate, law);
+    if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
     return law;
   }
 
  private:
-  /// The place, and the one beside it, along the motion.
-  void see_places() {
-    places_.clear();
-    beside_.clear();
-    for (const ForcePath& path : paths_.paths()) {
-      std::vector<PlaceKinematics>& places = places_.emplace_back();
-      std::vector<PlaceMotion>& beside = beside_.emplace_back();
-      for (Index k = 0; k < path.state.cols(); ++k) {
-        const auto at = [&](double s) {
-          return place_kinematics(path.state.col(k), coordinates_, lengths_, s);
-        };
-        places.push_back(at(arc_length_));
-        beside.push_back(at(arc_length_ + apart_).motion);
+  static void take_names(const CandidateLaw& candidate, ForceLaw& law) {
+    law.force = candidate.force_name();
+    law.variable = candidate.variable_name();
+    law.site = candidate.site();
+  }
+
+  LawTrials trials(FrameHalf half) {
+    LawTrials trials;
+    const LawPart part = law_part(linear_, random_, half);
+    const MatrixXd basis = orthonormal_basis(part.nuisance, 1e-12);
+    const auto project = [&](MatrixXd& columns) {
+      const MatrixXd along = basis.transpose() * columns;
+      columns.noalias() -= basis * along;
+    };
+    MatrixXd values(part.value.size(), 1 + kRandomForces);
+    values << part.value, part.forces;
+    for (Index s = 1; s <= kRandomForces; ++s)
+      for (Index i = 0; i < part.seen; ++i) values(i, s) += normal_number(numbers_);
+    project(values);
+    trials.squares = values.colwise().squaredNorm().transpose();
+    trials.rows = values.rows();
+    trials.seen = part.seen;
+    for (std::size_t begin = 0, end = 0; begin < candidates_.size(); begin = end) {
+      Index columns = 0;
+      while (end < candidates_.size() &&
+             (end == begin || columns + candidates_[end].terms() <= kColumnsAtOnce))
+        columns += candidates_[end++].terms();
+      std::vector<NodeForces> forces;
+      for (const ForcePath& path : paths_.paths()) {
+        NodeForces& of_recording = forces.emplace_back();
+        for (Index k = 0; k < path.state.cols(); ++k) {
+          MatrixXd& at = of_recording.columns.emplace_back(links(), columns);
+          Index column = 0;
+          for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms())
+            at.middleCols(column, candidates_[c].terms()) = candidates_[c].force(path.state.col(k));
+        }
+      }
+      MatrixXd responses = law_part(linear_, forces, half).forces;
+      project(responses);
+      Index column = 0;
+      for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
+        const auto terms = responses.middleCols(column, candidates_[c].terms());
+        LawTrials::OfCandidate& of = trials.candidates.emplace_back();
+        of.gram = terms.transpose() * terms;
+        of.cross = terms.transpose() * values;
       }
     }
+    return trials;
+  }
+
+  /// A formula that comes closest as long as its force does not follow the state.
+  struct Close {
+    std::size_t candidate = 0;
+    std::vector<int> form;
+    double criterion = 0;
+  };
+  std::vector<Close> closest(std::size_t chosen, const LawTrials& first,
+                             const LawTrials& second) const {
+    std::vector<Close> all, some;
+    const double count = std::log(static_cast<double>(first.rows + second.rows));
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const LawTrials::OfCandidate both{
+          first.candidates[c].gram + second.candidates[c].gram,
+          first.candidates[c].cross.leftCols(1) + second.candidates[c].cross.leftCols(1)};
+      for (const std::vector<int>& form : candidates_[c].forms()) {
+        const std::optional<LinearFit> fit = fit_of(both, form, 1);
+        if (fit && candidates_[c].admits(fit->coefficients.col(0)))
+          all.push_back({c, form, count * candidates_[c].constants(form) - fit->explained[0]});
+      }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Close& a, const Close& b) { return a.criterion < b.criterion; });
+    std::size_t of_chosen = 0, others = 0;
+    for (const Close& close : all)
+      if (close.candidate == chosen ? of_chosen++ < kFittedOfChosen : others++ < kFittedOfOthers)
+        some.push_back(close);
+    return some;
   }
 
   /// Moves to the motion that the law gives, and fits the law about that: no force that follows noise is
   /// left in the motion. The law stays as it was where the equations cannot be followed.
-  void follow(FittedForm& law) {
-    const PlaceLaw& candidate = candidates_[law.candidate];
+  void follow(FittedForm& fitted) {
     for (int round = 0; round < kRoundsAboutLaw; ++round) {
-      VectorXd wide(law.coefficients.size() + (apart_ != 0 ? 1 : 0));
-      wide.head(law.coefficients.size()) = kWide * law.coefficients.cwiseAbs();
-      if (apart_ != 0) wide[wide.size() - 1] = std::abs(apart_) * kWide;
+      const double apart = apart_of(fitted.law);
+      VectorXd wide(fitted.coefficients.size() + (apart != 0 ? 1 : 0));
+      wide.head(fitted.coefficients.size()) = kWide * fitted.coefficients.cwiseAbs();
+      if (apart != 0) wide[wide.size() - 1] = std::abs(apart) * kWide;
       const LinearProblem closed =
-          with_law(linear_, forces_of(candidate, law.form, law.coefficients), wide);
+          with_law(linear_, forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
       paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
-      see_places();
       VectorXd sizes(wide.size());
-      sizes.head(law.coefficients.size()) = law.coefficients;
-      if (apart_ != 0) sizes[wide.size() - 1] = law.shift;
+      sizes.head(fitted.coefficients.size()) = fitted.coefficients;
+      if (apart != 0) sizes[wide.size() - 1] = fitted.shift;
       std::vector<MatrixXd> taken;
-      for (const NodeForces& of : forces_of(candidate, law.form, law.coefficients)) {
-        MatrixXd& force = taken.emplace_back(patterns(), static_cast<Index>(of.columns.size()));
+      for (const NodeForces& of : forces_of(fitted.law, fitted.form, fitted.coefficients)) {
+        MatrixXd& force = taken.emplace_back(links(), static_cast<Index>(of.columns.size()));
         for (std::size_t k = 0; k < of.columns.size(); ++k)
           force.col(static_cast<Index>(k)) = of.columns[k] * sizes;
       }
@@ -231,9 +314,12 @@ class LawSearch {
       std::optional<LinearProblem> linear = paths_.linearise(kFiner);
       if (!linear) return;
       linear_ = std::move(*linear);
-      const FittedForm fitted = fit(law.candidate, law.form, law.coefficients);
-      if (!std::isfinite(fitted.squares) || !candidate.admits(fitted.coefficients)) return;
-      law = fitted;
+      const double place = fitted.law.site().arc_length + fitted.shift;
+      if (std::abs(fitted.shift) > std::abs(apart) && place > 0 && place < chain_.lengths.sum())
+        fitted.law = fitted.law.moved(place);
+      const FittedForm next = fit(fitted.law, fitted.form, fitted.coefficients);
+      if (!std::isfinite(next.squares) || !next.law.admits(next.coefficients)) return;
+      fitted = next;
     }
   }
 
@@ -248,57 +334,60 @@ class LawSearch {
     return sum;
   }
 
-  Index patterns() const { return linear_.recordings.front().steps.front().by_force.cols() / 2; }
+  Index links() const { return chain_.lengths.size(); }
+
+  /// By how much the place of a law is moved to see what that changes, m; 0 where it has none.
+  double apart_of(const CandidateLaw& law) const {
+    const LawSite& site = law.site();
+    return site.kind == SiteKind::kPlace && !at_end(site.arc_length, chain_.lengths.sum())
+               ? -kApart * site.arc_length
+               : 0;
+  }
 
   /// The terms of a form about the motion found, and how its force follows the state. With
   /// coefficients also, last, how the law's force changes where its place moves.
-  std::vector<NodeForces> forces_of(const PlaceLaw& candidate, const std::vector<int>& form,
+  std::vector<NodeForces> forces_of(const CandidateLaw& law, const std::vector<int>& form,
                                     const VectorXd& coefficients) const {
     std::vector<NodeForces> forces;
-    const auto some = [&](const PlaceMotion& motion) {
-      return MatrixXd(candidate.force(motion)(Eigen::all, form));
-    };
     const bool known = coefficients.size() > 0;
+    const double apart = known ? apart_of(law) : 0;
     const auto terms = static_cast<Index>(form.size());
-    for (std::size_t r = 0; r < places_.size(); ++r) {
+    const CandidateLaw beside = law.moved(law.site().arc_length + apart);
+    for (const ForcePath& path : paths_.paths()) {
       NodeForces& of_recording = forces.emplace_back();
-      for (std::size_t k = 0; k < places_[r].size(); ++k) {
-        const PlaceKinematics& place = places_[r][k];
-        const MatrixXd here = some(place.motion);
-        MatrixXd& columns = of_recording.columns.emplace_back(
-            MatrixXd::Zero(patterns(), terms + (known && apart_ != 0 ? 1 : 0)));
-        columns.topLeftCorner(here.rows(), terms) = here;
+      for (Index k = 0; k < path.state.cols(); ++k) {
+        VectorXd state = path.state.col(k);
+        MatrixXd& columns = of_recording.columns.emplace_back(links(), terms + (apart != 0));
+        columns.leftCols(terms) = law.force(state, form);
         if (!known) continue;
-        if (apart_ != 0) {
-          columns.col(terms).head(here.rows()) = -here * coefficients / apart_;
-          columns.col(terms).tail(here.rows()) = some(beside_[r][k]) * coefficients / apart_;
-        }
-        constexpr double kDifference = 1e-6;  // m, m/s, rad, rad/s
-        MatrixXd by_motion = MatrixXd::Zero(patterns(), place.motion.size());
-        for (Index i = 0; i < place.motion.size(); ++i) {
-          PlaceMotion less = place.motion, more = place.motion;
-          less[i] -= kDifference;
-          more[i] += kDifference;
-          by_motion.col(i).head(here.rows()) =
-              (some(more) - some(less)) * coefficients / (2 * kDifference);
-        }
-        of_recording.by_state.push_back(by_motion * place.by_state);
+        const VectorXd here = columns.leftCols(terms) * coefficients;
+        if (apart != 0)
+          columns.col(terms) = (beside.force(state, form) * coefficients - here) / apart;
+        constexpr double kDifference = 1e-7;  // rad, rad/s
+        MatrixXd& by_state =
+            of_recording.by_state.emplace_back(MatrixXd::Zero(links(), state.size()));
+        const auto differentiate = [&](Index i) {
+          const double value = state[i];
+          state[i] += kDifference;
+          by_state.col(i) = (law.force(state, form) * coefficients - here) / kDifference;
+          state[i] = value;
+        };
+        for (Index i = 0; i < links(); ++i) differentiate(i);
+        for (Index i = 0; law.dissipative() && i < links(); ++i)
+          differentiate(chain_.coordinates + i);
       }
     }
     return forces;
   }
 
   /// `first`: coefficients to begin with, or none.
-  FittedForm fit(std::size_t number, const std::vector<int>& form,
+  FittedForm fit(const CandidateLaw& law, const std::vector<int>& form,
                  const VectorXd& first = {}) const {
-    FittedForm fitted;
-    fitted.candidate = number;
-    fitted.form = form;
-    fitted.coefficients = first;
+    FittedForm fitted{.law = law, .form = form, .coefficients = first, .covariance = {}};
     const auto terms = static_cast<Index>(form.size());
     for (int loop = 0; loop <= kClosedLoops; ++loop) {
-      const LawPart part = law_part(
-          linear_, forces_of(candidates_[number], form, fitted.coefficients), FrameHalf::kBoth);
+      const LawPart part =
+          law_part(linear_, forces_of(law, form, fitted.coefficients), FrameHalf::kBoth);
       MatrixXd columns(part.value.size(), part.forces.cols() + 1);
       columns << part.forces, part.value;
       const MatrixXd left = without_nuisance(part, columns);
@@ -313,73 +402,68 @@ class LawSearch {
         fitted.place_variance = covariance(terms, terms);
         fitted.shift = all[terms];
       }
+      if (!fitted.coefficients.allFinite()) break;
     }
     return fitted;
   }
 
-  void read_formula(std::size_t number, ForceLaw& law) {
+  /// The simplest formula that the data do not decide against; the others, too.
+  void read_formula(const std::vector<Close>& close, ForceLaw& law) {
     std::vector<FittedForm> fits;
     double least = HUGE_VAL, inflation = 1;
-    for (std::size_t c = 0; c < candidates_.size(); ++c)
-      for (const std::vector<int>& form : candidates_[c].forms()) {
-        FittedForm fitted = fit(c, form);
-        if (!std::isfinite(fitted.squares) || !candidates_[c].admits(fitted.coefficients)) continue;
-        if (fitted.squares < least) {
-          least = fitted.squares;
-          inflation = std::max(1.0, fitted.squares / fitted.freedom);
-        }
-        fits.push_back(std::move(fitted));
+    for (const Close& of : close) {
+      FittedForm fitted = fit(candidates_[of.candidate], of.form);
+      if (!std::isfinite(fitted.squares) || !fitted.law.admits(fitted.coefficients)) continue;
+      if (fitted.squares < least) {
+        least = fitted.squares;
+        inflation = std::max(1.0, fitted.squares / fitted.freedom);
       }
+      fits.push_back(std::move(fitted));
+    }
     const auto criterion = [&](const FittedForm& fitted) {
-      return fitted.squares / inflation +
-             static_cast<double>(fitted.form.size()) * std::log(fitted.freedom);
+      return fitted.squares / inflation + fitted.constants() * std::log(fitted.freedom);
     };
-    // The simplest form that the data do not decide against.
     double lowest = HUGE_VAL;
-    for (const FittedForm& fitted : fits)
-      if (fitted.candidate == number) lowest = std::min(lowest, criterion(fitted));
+    for (const FittedForm& fitted : fits) lowest = std::min(lowest, criterion(fitted));
     const FittedForm* best = nullptr;
     for (const FittedForm& fitted : fits) {
-      if (fitted.candidate != number || criterion(fitted) > lowest + kLawThresholds.undecided)
-        continue;
-      const auto rank = [&](const FittedForm& f) { return std::pair(f.form.size(), criterion(f)); };
+      if (criterion(fitted) > lowest + kLawThresholds.undecided) continue;
+      const auto rank = [&](const FittedForm& f) { return std::pair(f.constants(), criterion(f)); };
       if (!best || rank(fitted) < rank(*best)) best = &fitted;
     }
     if (!best) {
       law.found = false;
       return;
     }
-    const auto formula_of = [&](const FittedForm& fitted) {
-      return candidates_[fitted.candidate].formula(fitted.form, fitted.coefficients,
-                                                   inflation * fitted.covariance);
-    };
     for (const FittedForm& fitted : fits)
-      if (&fitted != best && criterion(fitted) < criterion(*best) + kLawThresholds.undecided)
-        law.rivals.push_back(with_constants(formula_of(fitted)));
+      if (&fitted != best && criterion(fitted) < criterion(*best) + kLawThresholds.undecided) {
+        ForceLaw rival;
+        if (take_law(fitted, inflation, rival)) law.rivals.push_back(std::move(rival));
+      }
     FittedForm found = *best;
     follow(found);
-    inflation = std::max(1.0, found.squares / found.freedom);
-    law.formula = formula_of(found);
-    law.place = arc_length_;
-    if (at_end(arc_length_, lengths_.sum())) return;  // the end is a place of its own
-    law.place += found.shift;
-    if (!(law.place > 0 &&
-          law.place < lengths_.sum())) {  // the law does not hold where it was tried
-      law.found = false;
-      return;
-    }
-    law.place_deviation = std::sqrt(inflation * found.place_variance);
+    law.found = take_law(found, std::max(1.0, found.squares / found.freedom), law);
+  }
+
+  /// False where the law does not hold where it was tried.
+  bool take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {
+    take_names(fitted.law, law);
+    law.formula =
+        fitted.law.formula(fitted.form, fitted.coefficients, inflation * fitted.covariance);
+    law.place = fitted.law.site().arc_length;
+    if (apart_of(fitted.law) == 0) return true;
+    law.place += fitted.shift;
+    law.place_deviation = std::sqrt(inflation * fitted.place_variance);
+    law.site.arc_length = law.place;
+    return law.place > 0 && law.place < chain_.lengths.sum();
   }
 
   ForcePaths& paths_;
-  const std::vector<MatrixXd>& found_;
+  std::vector<NodeForces> random_;
+  std::mt19937_64& numbers_;
   LinearProblem linear_;
-  const VectorXd& lengths_;
-  Index coordinates_;
-  double arc_length_, apart_;
-  std::vector<std::vector<PlaceKinematics>> places_;
-  std::vector<std::vector<PlaceMotion>> beside_;
-  std::vector<PlaceLaw> candidates_;
+  const LawChain& chain_;
+  std::vector<CandidateLaw> candidates_;
 };
 
 std::string chance_words(double value) {
@@ -393,36 +477,35 @@ void describe_law(ForceLaw& law) {
       "explain in the second ({})",
       law.candidates, 100 * std::max(0.0, law.confirmed), chance_words(law.chance));
   if (law.found) {
-    law.words.push_back("its law: " + with_constants(law.formula));
+    law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
     law.words.push_back(tested);
-    for (const std::string& rival : law.rivals)
-      law.words.push_back("these data do not tell it from: " + rival);
+    for (const ForceLaw& rival : law.rivals)
+      law.words.push_back("these data do not tell it from: " + with_constants(rival.formula) +
+                          site_in_words(rival.site));
   } else if (law.force.empty()) {
     law.words.push_back("a force in time, no law: none of the candidates explains it");
   } else {
-    law.words.push_back(fmt::format("a force in time, no law; the best is {} against {}: {}",
-                                    law.force, law.variable, tested));
+    law.words.push_back(fmt::format("a force in time, no law; the best is {} against {}{}: {}",
+                                    law.force, law.variable, site_in_words(law.site), tested));
   }
 }
 
 }  // namespace
 
-std::optional<ForceLaw> law_of_force(ForcePaths& paths, const VectorXd& lengths, Index coordinates,
-                                     double arc_length) {
-  std::vector<MatrixXd> found;
-  for (const ForcePath& path : paths.paths()) found.push_back(path.force);
-  std::vector<ForcePattern> patterns = paths.patterns();
-  double apart = 0;
-  if (arc_length > 0) {
-    apart = -kApart * arc_length;
-    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown})
-      patterns.push_back(point_pattern(direction, arc_length + apart, lengths));
-  }
-  paths.act(std::move(patterns));
+std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
+                                     const std::vector<LawSite>& sites) {
+  std::mt19937_64 numbers(kLawSeed);
+  std::vector<NodeForces> random;
+  for (const ForcePath& path : paths.paths())
+    random.push_back(random_forces(path, paths.patterns(), chain.lengths, numbers));
+  std::vector<ForcePattern> torques;
+  for (Index k = 0; k < chain.lengths.size(); ++k)
+    torques.push_back(torque_pattern(k, chain.lengths.size()));
+  paths.act(std::move(torques));
   std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
   ForceLaw law =
-      LawSearch(paths, found, std::move(*linear), lengths, coordinates, arc_length, apart).run();
+      LawSearch(paths, std::move(random), numbers, std::move(*linear), chain, sites).run();
   describe_law(law);
   return law;
 }

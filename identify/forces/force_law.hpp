@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "identify/forces/candidate_law.hpp"
 #include "identify/forces/force_path.hpp"
-#include "identify/forces/place_law.hpp"
 
 namespace catena {
 
@@ -24,17 +24,18 @@ struct LawThresholds {
   double undecided = 6;
 };
 
-/// What the force at one place goes with: a formula of few constants, or nothing.
+/// What the missing force goes with: a formula of few constants, or nothing.
 ///
-/// The candidates are conjugate pairs at the place: a force against the position along itself, or
-/// against the velocity along itself. So none can make energy, except against a velocity, and those
-/// that do are refused. How they are compared and tested: docs/discovery.md.
+/// The candidates are conjugate pairs of a force and a variable (law_variable.hpp) at many sites, so
+/// none can make energy, except against a velocity, and those that do are refused. All are tested
+/// together. How: docs/discovery.md.
 struct ForceLaw {
   bool found = false;
-  std::string force, variable;  ///< of the best candidate: "side force", "side position"
-  PlaceLaw::Formula formula;    ///< empty where nothing is found
-  double place = 0;             ///< m, arc length of the force, if the law is right
-  double place_deviation = 0;   ///< m
+  std::string force, variable;    ///< of the best candidate: "side force", "side position"
+  LawSite site;                   ///< of the best candidate
+  CandidateLaw::Formula formula;  ///< empty where nothing is found
+  double place = 0;               ///< m, arc length of the place or joint, if the law is right
+  double place_deviation = 0;     ///< m
   int candidates = 0;
   /// What the law, chosen and fitted in the first part of the frames, explains in the second, of what
   /// the free force explains: 1 is all.
@@ -42,15 +43,13 @@ struct ForceLaw {
   /// Probability that the best of all candidates does as well for a random force of the same
   /// spectrum.
   double chance = 1;
-  std::vector<std::string> rivals;  ///< formulas that the data do not tell from it
+  std::vector<ForceLaw> rivals;  ///< formulas that the data do not tell from it
   std::vector<std::string> words;
 };
 
-/// `paths`: settled with the patterns of one place alone: side and down, or the torque at the
-/// support; other patterns act on it afterwards. `arc_length`: of the place, m, 0 for the torque.
-/// `lengths`: of the links, m. `coordinates`: of the model, the angles first. Nothing where the
-/// motion cannot be followed.
-std::optional<ForceLaw> law_of_force(ForcePaths& paths, const Eigen::VectorXd& lengths,
-                                     Eigen::Index coordinates, double arc_length);
+/// `paths`: settled with forces; other patterns act on it afterwards. `sites`: where a law may act.
+/// Nothing where the motion cannot be followed.
+std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
+                                     const std::vector<LawSite>& sites);
 
 }  // namespace catena

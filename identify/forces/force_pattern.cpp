@@ -30,7 +30,8 @@ void act_at_middles(const VectorXd& force, VectorXd& carried) {
 }
 
 ForcePattern empty(Index links, std::string name, std::string unit) {
-  ForcePattern pattern{std::move(name), std::move(unit), {}, {}};
+  ForcePattern pattern{std::move(name), std::move(unit), {}, {}, {}};
+  pattern.torque.setZero(links);
   pattern.side.setZero(links);
   pattern.down.setZero(links);
   return pattern;
@@ -63,18 +64,30 @@ ForcePattern point_pattern(ForceDirection direction, double s, const VectorXd& l
   return pattern;
 }
 
-ForcePattern torque_pattern(Index links) {
-  ForcePattern pattern = empty(links, fmt::format("torque at the support"), fmt::format("N m"));
-  pattern.torque = 1;
+ForcePattern torque_pattern(Index link, Index links) {
+  ForcePattern pattern = empty(links, fmt::format("torque on link {}", link + 1), "N m");
+  pattern.torque[link] = 1;
+  return pattern;
+}
+
+ForcePattern moment_pattern(Index joint, const VectorXd& lengths) {
+  ForcePattern pattern = empty(
+      lengths.size(),
+      joint == 0
+          ? std::string("torque at the support")
+          : fmt::format("moment in the joint at arc length {:.3g} m", lengths.head(joint).sum()),
+      "N m");
+  pattern.torque[joint] = 1;
+  if (joint > 0) pattern.torque[joint - 1] = -1;
   return pattern;
 }
 
 void add_generalised_force(const ForcePattern& pattern, const VectorXd& lengths,
                            const double* angles, double size, double* force) {
   for (Index k = 0; k < lengths.size(); ++k)
-    force[k] += size * lengths[k] *
-                (std::cos(angles[k]) * pattern.side[k] - std::sin(angles[k]) * pattern.down[k]);
-  force[0] += size * pattern.torque;
+    force[k] += size * (lengths[k] * (std::cos(angles[k]) * pattern.side[k] -
+                                      std::sin(angles[k]) * pattern.down[k]) +
+                        pattern.torque[k]);
 }
 
 }  // namespace catena

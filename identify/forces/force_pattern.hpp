@@ -12,7 +12,7 @@ namespace catena {
 /// A force of unit size, distributed along the chain, that keeps its direction: how much of it acts
 /// below each place. Its generalised force on the angle of link k is
 ///
-///     Q_k = l_k (cos(theta_k) side_k - sin(theta_k) down_k) + (k = 1: torque)
+///     Q_k = l_k (cos(theta_k) side_k - sin(theta_k) down_k) + torque_k
 ///
 /// with the forces that act on half of link k, or more of it, and on everything below. Coordinates
 /// that effects add get none.
@@ -20,7 +20,7 @@ struct ForcePattern {
   std::string name;            ///< "side density, mode 1", "side force at arc length 1.2 m"
   std::string unit;            ///< of its size: N/m, N or N m
   Eigen::VectorXd side, down;  ///< per link, N per unit: carried by the link's end
-  double torque = 0;           ///< on link 1, N m per unit
+  Eigen::VectorXd torque;      ///< per link, N m per unit
   int group = 0;               ///< patterns of a group have one prior variance
 };
 
@@ -33,8 +33,11 @@ ForcePattern density_pattern(ForceDirection direction, int mode, const Eigen::Ve
 /// A force at arc length s (m), 0 < s <= L. N.
 ForcePattern point_pattern(ForceDirection direction, double s, const Eigen::VectorXd& lengths);
 
-/// A torque at the support. N m.
-ForcePattern torque_pattern(Eigen::Index links);
+/// A torque on one link alone. N m.
+ForcePattern torque_pattern(Eigen::Index link, Eigen::Index links);
+
+/// A moment in a joint, on the link below it and against that above; joint 0 is the support. N m.
+ForcePattern moment_pattern(Eigen::Index joint, const Eigen::VectorXd& lengths);
 
 /// Q of a pattern of size 1 at the angles: one number per link.
 void add_generalised_force(const ForcePattern& pattern, const Eigen::VectorXd& lengths,

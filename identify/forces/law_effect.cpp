@@ -3,35 +3,53 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <vector>
 
 #include "common/number_text.hpp"
 #include "common/toml_quoted.hpp"
+#include "identify/forces/place_kinematics.hpp"
 
 namespace catena {
 
 namespace {
 
-/// Bounds: amplitudes are at most so many times the one found, others so many deviations from the
-/// value found. A fit that goes there has lost its way.
-constexpr double kBound = 1000;
 /// m, of the step by which a link takes over the place from its neighbour. Both put it at the same
 /// point but for so much.
 constexpr double kStepWidth = 1e-5;
 
+/// Where the energy of a law stands.
+struct EffectPlace {
+  const char* at;
+  const char* gate;  ///< the length of the piece that a step up and one down let through; or none
+  bool per_length = false;
+  const char* factor = "";  ///< of the energy
+};
+
+EffectPlace place_of(const LawSite& site, double length) {
+  switch (site.kind) {
+    case SiteKind::kPlace:
+      if (at_end(site.arc_length, length)) return {"load", nullptr};
+      return {"link_centre", "length"};
+    case SiteKind::kJoint:
+      if (site.joint == 0) return {"pivot", nullptr};
+      return {"joint", "spacing"};
+    case SiteKind::kCable:
+      return {"link_centre", nullptr, true};
+    case SiteKind::kJoints:
+      return {"joint", nullptr, false, "spacing*"};
+  }
+  return {};
+}
+
 }  // namespace
 
-std::string effect_of(const ForceLaw& law, const std::string& id, double arc_length,
-                      double length) {
-  const PlaceLaw::Formula& formula = law.formula;
-  const bool load = at_end(arc_length, length), support = arc_length == 0;
-  const bool inside = !load && !support;
-  const std::string title =
-      fmt::format("{} against {}{}", law.force, law.variable,
-                  support ? std::string()
-                          : " at " + (load ? std::string("the load")
-                                           : fmt::format("arc length {:.3g} m", arc_length)));
+std::string effect_of(const ForceLaw& law, const std::string& id, double length) {
+  const CandidateLaw::Formula& formula = law.formula;
+  const EffectPlace where = place_of(law.site, length);
+  const bool load = std::string(where.at) == "load";
+  const bool point = law.site.kind == SiteKind::kPlace && !load;
+  const std::string title = fmt::format("{} against {}{}", law.force, law.variable,
+                                        load ? " at the load" : site_in_words(law.site));
   const std::string words = fmt::format(
       "Found in recordings, declared by nobody: {}; {}. Chosen of {} pairs of a force and a "
       "variable in the first half of the frames, it explained {:.0f} % of what a force can explain "
@@ -41,45 +59,37 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double arc_len
       fmt::format("format = 1\nkind = \"effect\"\nid = \"{}\"\ntitle = {}\ndescription = {}\n", id,
                   toml_quoted("Discovered: " + title), toml_quoted(words));
 
-  const auto parameter = [&](const PlaceLaw::Constant& of, double lower, double upper) {
+  const auto parameter = [&](const CandidateLaw::Constant& of) {
     text += fmt::format("\n[parameters.{}]\nunit = \"{}\"\nlower = {}\nupper = {}\n{} = {}\n",
-                        of.name, of.unit, shortest_number(lower), shortest_number(upper),
+                        of.name, of.unit, shortest_number(of.lower), shortest_number(of.upper),
                         of.amplitude ? "neutral" : "default",
                         shortest_number(of.amplitude ? 0 : of.value));
     text += fmt::format("description = \"Found: {:.6g} +- {:.2g}\"\n", of.value, of.deviation);
   };
-  for (const PlaceLaw::Constant& constant : formula.constants) {
-    const double bound = kBound * std::abs(constant.value);
-    if (constant.amplitude)
-      // A force against a velocity must give no energy.
-      parameter(constant, formula.dissipation ? 0.0 : -bound, bound);
-    else
-      parameter(constant, constant.value - kBound * constant.deviation,
-                constant.value + kBound * constant.deviation);
-  }
-  if (inside) parameter({kLawPlace, "m", arc_length, law.place_deviation, false}, 0, length);
+  for (const CandidateLaw::Constant& constant : formula.constants) parameter(constant);
+  if (point) parameter({kLawPlace, "m", law.place, law.place_deviation, false, 0, length});
 
-  std::vector<PlaceLaw::Constant> fixed = formula.fixed;
-  if (inside) fixed.push_back({"width", "m", kStepWidth});
+  std::vector<CandidateLaw::Constant> fixed = formula.fixed;
+  if (where.gate) fixed.push_back({"width", "m", kStepWidth});
+  if (where.gate && !point) fixed.push_back({kLawPlace, "m", law.place});
   if (load && formula.energy.find("offset") != std::string::npos)
     fixed.push_back({"offset", "m", 0});
-  for (const PlaceLaw::Constant& constant : fixed)
+  for (const CandidateLaw::Constant& constant : fixed)
     text += fmt::format("\n[constants.{}]\nvalue = {}\nunit = \"{}\"\n", constant.name,
                         shortest_number(constant.value), constant.unit);
-  const auto define = [&](const char* name, const char* value) {
-    text += fmt::format("\n[[definition]]\nname = \"{}\"\nat = \"link_centre\"\nvalue = \"{}\"\n",
-                        name, value);
+  const auto define = [&](const char* name, const std::string& value) {
+    text += fmt::format("\n[[definition]]\nname = \"{}\"\nat = \"{}\"\nvalue = \"{}\"\n", name,
+                        where.at, value);
   };
-  if (inside) {
+  if (where.gate) {
     define("offset", "place - arc");
-    define("here", "(tanh((offset + length/2)/width) - tanh((offset - length/2)/width))/2");
+    define("here", fmt::format("(tanh((offset + {0}/2)/width) - tanh((offset - {0}/2)/width))/2",
+                               where.gate));
   }
-  text += fmt::format("\n[[{}]]\nat = \"{}\"\nvalue = \"{}\"\n",
-                      formula.dissipation ? "dissipation" : "potential",
-                      load      ? "load"
-                      : support ? "pivot"
-                                : "link_centre",
-                      inside ? fmt::format("here*({})", formula.energy) : formula.energy);
+  text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}({})\"\n",
+                      formula.dissipation ? "dissipation" : "potential", where.at,
+                      where.per_length ? "per = \"length\"\n" : "", where.gate ? "here*" : "",
+                      where.factor, formula.energy);
   return text;
 }
 

@@ -7,11 +7,12 @@
 
 namespace catena {
 
-/// A law as the TOML text of an effect (docs/effects.md). It belongs to no number of links: its
-/// parameter `place` is an arc length, and the link that holds it does the force. At the end of the
-/// cable it acts on the load, at 0 on the pivot, and there is no `place`.
-/// `law`: found. `arc_length`: of its place, m, 0 for the torque. `length`: of the cable, m.
-std::string effect_of(const ForceLaw& law, const std::string& id, double arc_length, double length);
+/// A law as the TOML text of an effect (docs/effects.md). It belongs to no number of links: a law of
+/// one place has its arc length as the parameter `place`, and the link that holds it does the force.
+/// At the end of the cable it acts on the load, without `place`. A law of a joint acts in the joint
+/// nearest to the constant `place`, that of the support on the pivot.
+/// `law`: found. `length`: of the cable, m.
+std::string effect_of(const ForceLaw& law, const std::string& id, double length);
 
 /// Name of the parameter.
 inline constexpr const char* kLawPlace = "place";

@@ -65,7 +65,7 @@ std::vector<ForcePattern> all_patterns(const ChainMeasures& chain) {
     add(density_pattern(ForceDirection::kDown, m, chain.lengths), kDownDensity);
   add(point_pattern(ForceDirection::kSide, chain.length, chain.lengths), kEnd);
   add(point_pattern(ForceDirection::kDown, chain.length, chain.lengths), kEnd);
-  add(torque_pattern(chain.lengths.size()), kSupport);
+  add(moment_pattern(0, chain.lengths), kSupport);
   return patterns;
 }
 
@@ -97,7 +97,7 @@ double size_of(const ForcePaths& paths, const ChainMeasures& chain) {
   for (const ForcePath& path : paths.paths()) {
     for (Index k = 0; k < path.force.cols(); ++k) {
       VectorXd side = VectorXd::Zero(chain.lengths.size()), down = side;
-      double torque = 0;
+      VectorXd torque = side;
       for (std::size_t m = 0; m < paths.patterns().size(); ++m) {
         const ForcePattern& pattern = paths.patterns()[m];
         const double size = path.force(static_cast<Index>(2 * m), k);
@@ -107,7 +107,7 @@ double size_of(const ForcePaths& paths, const ChainMeasures& chain) {
       }
       // What a link's end carries is the force below: its mean square along the cable.
       sum += (side.squaredNorm() + down.squaredNorm()) / static_cast<double>(side.size()) +
-             torque * torque / (chain.length * chain.length);
+             torque.squaredNorm() / (chain.length * chain.length);
       count += 1;
     }
   }
@@ -164,23 +164,37 @@ MissingForce::History history_of(const ForcePaths& paths, std::size_t number,
           shape_basis(Shape::kSmooth, static_cast<int>(links), mode + 1, chain.lengths).col(mode);
       (pattern.group == kSideDensity ? side : down).col(m) = shape;
     }
-    for (MatrixXd* matrix :
-         {&history.side, &history.down, &history.side_deviation, &history.down_deviation})
-      matrix->resize(links, times);
   }
-  for (Index k = 0; k < times; ++k) {
-    VectorXd size(count);
-    for (Index m = 0; m < count; ++m) size[m] = found.force(2 * m, k);
+  const MatrixXd lowest = shape_basis(Shape::kSmooth, static_cast<int>(links),
+                                      std::min(2, static_cast<int>(links)), chain.lengths);
+  const auto add = [&](const MatrixXd& shape, Index k, MatrixXd& value, MatrixXd& deviation) {
+    if (value.size() == 0) {
+      value.resize(shape.rows(), times);
+      deviation.resize(shape.rows(), times);
+    }
+    value.col(k) = shape * history.size.col(k);
     const MatrixXd& covariance = found.covariance[static_cast<std::size_t>(k)];
-    history.size.col(k) = size;
-    history.deviation.col(k) = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    deviation.col(k) =
+        (shape * covariance * shape.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+  };
+  for (Index k = 0; k < times; ++k) {
+    for (Index m = 0; m < count; ++m) history.size(m, k) = found.force(2 * m, k);
+    history.deviation.col(k) =
+        found.covariance[static_cast<std::size_t>(k)].diagonal().cwiseMax(0.0).cwiseSqrt();
     if (!densities) continue;
-    history.side.col(k) = side * size;
-    history.down.col(k) = down * size;
-    for (const auto& [shape, deviation] :
-         {std::pair{&side, &history.side_deviation}, std::pair{&down, &history.down_deviation}})
-      deviation->col(k) =
-          (*shape * covariance * shape->transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::ArrayXd angles = paths.paths()[number].state.col(k).head(links).array();
+    const MatrixXd normal =
+        angles.cos().matrix().asDiagonal() * side - angles.sin().matrix().asDiagonal() * down;
+    const MatrixXd tangential =
+        angles.sin().matrix().asDiagonal() * side + angles.cos().matrix().asDiagonal() * down;
+    // Of P_0 and P_1, whose squares integrate to L and L / 3.
+    MatrixXd modes = lowest.transpose() * chain.lengths.asDiagonal() * normal / chain.length;
+    modes.bottomRows(modes.rows() - 1) *= 3;
+    add(side, k, history.side, history.side_deviation);
+    add(down, k, history.down, history.down_deviation);
+    add(normal, k, history.normal, history.normal_deviation);
+    add(tangential, k, history.tangential, history.tangential_deviation);
+    add(modes, k, history.normal_modes, history.normal_modes_deviation);
   }
   return history;
 }
@@ -196,14 +210,53 @@ class PlaceSearch {
     std::vector<double> at;
     for (int k = 1; k <= kPlaces; ++k) at.push_back(chain_.length * k / kPlaces);
     std::vector<ForcePattern> patterns = point_patterns(at, chain_);
-    patterns.push_back(torque_pattern(chain_.lengths.size()));
+    patterns.push_back(moment_pattern(0, chain_.lengths));
     if (!linearise(std::move(patterns))) return false;
     none_ = smooth_forces(*linear_, {}, {}, paths_.prior, false).log_evidence;
     const Peak torque = peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, paths_.prior,
                                 size_ * chain_.length);
-    missing.places.push_back({"torque at the support", 0, torque.log_evidence - none_});
+    missing.places.push_back({"torque at the support", 0, torque.log_evidence - none_, 0});
     variance_.push_back(torque.variance);
     add(at, missing.places);
+    return true;
+  }
+
+  /// A moment in joints near the same places alone. Takes one that is better than every place.
+  bool look_at_joints(MissingForce& missing) {
+    std::vector<Index> joints;
+    const Index links = chain_.lengths.size();
+    for (int k = 1; k <= kPlaces; ++k)
+      joints.push_back(std::clamp<Index>((k * links) / (kPlaces + 1), 1, links - 1));
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+    if (links < 2) return true;
+    const auto tried = [&](Index joint) {
+      return std::any_of(missing.joints.begin(), missing.joints.end(),
+                         [&](const auto& place) { return place.joint == joint; });
+    };
+    while (!joints.empty()) {
+      std::vector<ForcePattern> patterns;
+      for (const Index joint : joints) patterns.push_back(moment_pattern(joint, chain_.lengths));
+      if (!linearise(std::move(patterns))) return false;
+      for (std::size_t i = 0; i < joints.size(); ++i) {
+        const Peak peak = peak_of(*linear_, {{static_cast<Index>(i), 0}}, paths_.prior,
+                                  size_ * chain_.length / static_cast<double>(links));
+        missing.joints.push_back({paths_.patterns()[i].name, chain_.lengths.head(joints[i]).sum(),
+                                  peak.log_evidence - none_, static_cast<int>(joints[i])});
+        if (!missing.best || missing.joints.back().log_evidence > missing.best->log_evidence) {
+          missing.best = missing.joints.back();
+          best_variance_ = peak.variance;
+        }
+      }
+      // The neighbours of the best joint, until there is none that was not tried.
+      const auto best = std::max_element(
+          missing.joints.begin(), missing.joints.end(),
+          [](const auto& a, const auto& b) { return a.log_evidence < b.log_evidence; });
+      joints.clear();
+      for (const int shift : {-1, 1}) {
+        const Index joint = best->joint + shift;
+        if (joint > 0 && joint < links && !tried(joint)) joints.push_back(joint);
+      }
+    }
     return true;
   }
 
@@ -217,7 +270,7 @@ class PlaceSearch {
                                  missing.places.begin());
     missing.best = missing.places[best];
     best_variance_ = variance_[best];
-    if (best == 0) return true;
+    if (best == 0) return true;  // the support
     double step = chain_.length / kPlaces;
     std::vector<MissingForce::Place> tried(missing.places.begin() + 1, missing.places.end());
     std::vector<double> variances(variance_.begin() + 1, variance_.end());
@@ -334,10 +387,10 @@ void describe_place(MissingForce& missing) {
     const double size = history.size.colwise().norm().maxCoeff(&here.time);
     if (size > most) most = size, where = &history, at = here;
   }
-  const bool torque = where->size.rows() == 1;
+  const bool torque = best.joint >= 0;
   const Index row = !torque && down > side ? 1 : 0;
   const std::string what =
-      torque ? std::string("a torque at the support")
+      torque ? "a " + best.name
              : fmt::format("{} at arc length {:.3g} m", direction_of(side, down), best.arc_length);
   missing.words.push_back(fmt::format(
       "{}, strongest at {:.3g} s of {}: {}{}", what, where->time[static_cast<std::size_t>(at.time)],
@@ -396,10 +449,11 @@ void describe(MissingForce& missing) {
   else
     describe_everywhere(missing);
   std::string others;
-  for (const MissingForce::Place& place : missing.places)
-    if (place.log_evidence > missing.best->log_evidence - kForceThresholds.told_apart &&
-        place.name != missing.best->name)
-      others += (others.empty() ? "" : ", ") + place.name;
+  for (const auto* tried : {&missing.places, &missing.joints})
+    for (const MissingForce::Place& place : *tried)
+      if (place.log_evidence > missing.best->log_evidence - kForceThresholds.told_apart &&
+          place.name != missing.best->name)
+        others += (others.empty() ? "" : ", ") + place.name;
   if (!others.empty()) missing.words.push_back("these data do not tell it from: " + others);
   const auto resolved = std::count_if(missing.patterns.begin(), missing.patterns.end(),
                                       [](const auto& p) { return p.resolved > kResolved; });
@@ -407,7 +461,7 @@ void describe(MissingForce& missing) {
       "forces explain {:.0f} % of the squared residuals (log evidence {:.4g}); the data resolve {} "
       "of {} patterns",
       100 * missing.share, missing.log_evidence, resolved, missing.patterns.size()));
-  if (missing.law)
+  if (missing.law && (missing.one_place || missing.law->found))
     missing.words.insert(missing.words.end(), missing.law->words.begin(), missing.law->words.end());
 }
 
@@ -423,6 +477,23 @@ void add_parameters(const Problem& problem, const VectorXd& before, const ForceP
          unknowns.slope(i, paths.x()) *
              std::sqrt(std::max(0.0, smoothed.shared_variance[static_cast<Index>(j)]))});
   }
+}
+
+/// Where a law of the force may act: at its place, or at all that were tried where it has none, in
+/// every joint by itself, along the cable and in all joints.
+std::vector<LawSite> sites_of(const MissingForce& missing, const ChainMeasures& chain) {
+  std::vector<LawSite> sites;
+  const auto add_place = [&](const MissingForce::Place& place) {
+    if (place.joint < 0) sites.push_back({SiteKind::kPlace, place.arc_length});
+  };
+  add_place(*missing.best);
+  if (!missing.one_place)
+    for (const MissingForce::Place& place : missing.places) add_place(place);
+  for (Index joint = 0; joint < chain.lengths.size(); ++joint)
+    sites.push_back({SiteKind::kJoint, chain.lengths.head(joint).sum(), joint});
+  sites.push_back({SiteKind::kCable});
+  sites.push_back({SiteKind::kJoints});
+  return sites;
 }
 
 /// False where the equations cannot be followed.
@@ -443,6 +514,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   std::vector<double> variance = first_variances(chain);
   std::optional<Smoothed> everywhere = paths.settle(variance, false);
   if (!everywhere) return false;
+  ForcePaths with_all = paths;
   missing.share = 1 - paths.squares() / squares_without;
   // A force may be zero, so it leaves no more than none does: else the iterations went astray.
   if (!(missing.share > -kForceThresholds.share)) return false;
@@ -471,7 +543,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     return true;
   }
   missing.sensor = search.best_sensor();
-  if (!search.look_closer(missing)) return false;
+  if (!search.look_closer(missing) || !search.look_at_joints(missing)) return false;
   if (missing.sensor &&
       missing.sensor->log_evidence >= std::max(missing.log_evidence, missing.best->log_evidence)) {
     missing.found = false;
@@ -479,10 +551,10 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   }
 
   // What acts there if it acts nowhere else.
-  const bool torque = missing.best->arc_length == 0;
-  paths.act(torque ? std::vector{torque_pattern(chain.lengths.size())}
+  const bool moment = missing.best->joint >= 0;
+  paths.act(moment ? std::vector{moment_pattern(missing.best->joint, chain.lengths)}
                    : point_patterns({missing.best->arc_length}, chain));
-  std::vector<double> at_place(torque ? 1 : 2, search.best_variance());
+  std::vector<double> at_place(moment ? 1 : 2, search.best_variance());
   const std::optional<Smoothed> there = paths.settle(at_place, true);
   if (!there) return false;
   missing.best->log_evidence = there->log_evidence - search.none();
@@ -494,9 +566,10 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     add_parameters(problem, x, paths, unknowns, *there, missing);
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
-    missing.law =
-        law_of_force(paths, chain.lengths, problem.model().coordinates(), missing.best->arc_length);
   }
+  missing.law =
+      law_of_force(missing.one_place ? paths : with_all,
+                   {chain.lengths, problem.model().coordinates()}, sites_of(missing, chain));
   return true;
 }
 

@@ -60,17 +60,23 @@ struct MissingForce {
     /// Densities to the side and down at the middles of the links, links x times, N/m; empty for a
     /// single place.
     Eigen::MatrixXd side, down, side_deviation, down_deviation;
+    /// The same force normal to the cable and along it. Positions hardly show what pushes along.
+    Eigen::MatrixXd normal, tangential, normal_deviation, tangential_deviation;
+    /// Legendre modes 0 and 1 of the normal density, 2 x times, N/m.
+    Eigen::MatrixXd normal_modes, normal_modes_deviation;
   };
   std::vector<double> arc_length;  ///< m, of the middles of the links
   std::vector<History> everywhere;
 
-  /// A force at one place alone, or the torque.
+  /// A force at one place alone, or a moment in one joint.
   struct Place {
     std::string name;
     double arc_length = 0;    ///< m
     double log_evidence = 0;  ///< against no force
+    int joint = -1;           ///< of a moment; 0 is the support, -1 for a force
   };
-  std::vector<Place> places;  ///< along the cable, the torque first
+  std::vector<Place> places;  ///< along the cable, the torque at the support first
+  std::vector<Place> joints;  ///< moments in joints below it
   /// The error of the camera that explains most, without any force. Where its evidence is not below that
   /// of every force, no force is found.
   struct Sensor {
@@ -79,11 +85,11 @@ struct MissingForce {
   };
   std::optional<Sensor> sensor;
   /// The best place of all, refined, and what acts there if it acts nowhere else: one pattern for
-  /// the torque, else side and down, N.
+  /// a moment, else side and down, N.
   std::optional<Place> best;
   std::vector<History> at_best;
   bool one_place = false;       ///< the evidence of the best place is not below that of all forces
-  std::optional<ForceLaw> law;  ///< what the force goes with, if it acts at one place
+  std::optional<ForceLaw> law;  ///< what the force goes with
 
   struct Parameter {
     std::string name, unit;

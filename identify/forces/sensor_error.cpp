@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "identify/forces/place_law.hpp"
+#include "identify/forces/place_kinematics.hpp"
 
 namespace catena {
 

@@ -64,15 +64,19 @@ int main(int argc, char** argv) {
     fmt::print("law found {}: {} against {}, confirmed {:.3f}, chance {:.3f}\n", found.law->found,
                found.law->force, found.law->variable, found.law->confirmed, found.law->chance);
     fmt::print("  place        {:.6g} +- {:.2g} m\n", found.law->place, found.law->place_deviation);
-    for (const PlaceLaw::Constant& c : found.law->formula.constants)
+    for (const CandidateLaw::Constant& c : found.law->formula.constants)
       fmt::print("  {:12} {:.6g} +- {:.2g} {}\n", c.name, c.value, c.deviation, c.unit);
   }
   if (hidden.wall_spring == 0 || found.everywhere.empty()) return 0;
   const testing::Recovery modes = testing::recovery_of_modes(filmed, hidden, found);
   fmt::print(
-      "two lowest modes below 2 Hz: error {:.1f} % (asked: 20), covered {:.1f} % (asked: 90 to "
+      "two lowest modes normal to the cable below 2 Hz: error {:.1f} % (asked: 20), covered {:.1f} "
+      "% (asked: 90 to "
       "97)\n",
       100 * modes.error, 100 * modes.covered);
+  const testing::Recovery side = testing::recovery_of_side_modes(filmed, hidden, found);
+  fmt::print("of these to the side: error {:.1f} %, covered {:.1f} %\n", 100 * side.error,
+             100 * side.covered);
   if (found.at_best.empty() || found.at_best[0].size.rows() < 2) return 0;
   const testing::Recovery place = testing::recovery_at_place(filmed, hidden, found);
   fmt::print("at the place {:.3f} m (true {:.3f} m): error {:.1f} % (asked: 5), covered {:.1f} %\n",

@@ -186,9 +186,25 @@ inline Recovery recovery(const Eigen::MatrixXd& size, const Eigen::MatrixXd& dev
   return recovery;
 }
 
-/// Of the two lowest modes of the side density, those of a point force of the truth.
+/// Of the two lowest modes of the density normal to the cable, those of a point force of the truth.
 inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hidden,
                                   const MissingForce& found) {
+  const auto& history = found.everywhere.at(0);
+  const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
+  const double length = filmed.film.cable().length, place = true_place(filmed.film);
+  const truth::Motion motion =
+      truth::move(filmed.film.cable(), hidden, filmed.film.start(), {place}, history.time);
+  Eigen::MatrixXd truth(2, force.size());
+  for (Eigen::Index k = 0; k < force.size(); ++k) {
+    truth(0, k) = force[k] * std::cos(motion.angle[static_cast<std::size_t>(k)][0]) / length;
+    truth(1, k) = 3 * (2 * place / length - 1) * truth(0, k);
+  }
+  return recovery(history.normal_modes, history.normal_modes_deviation, truth, history.time);
+}
+
+/// The same of the density to the side.
+inline Recovery recovery_of_side_modes(const Filmed& filmed, const truth::Hidden& hidden,
+                                       const MissingForce& found) {
   const auto& history = found.everywhere.at(0);
   const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
   const double length = filmed.film.cable().length;

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "description/effect.hpp"
-#include "identify/forces/force_pattern.hpp"
-#include "identify/forces/place_law.hpp"
+#include "identify/forces/candidate_law.hpp"
 #include "identify/models/model_provider.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,9 +22,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLength = 0.4;  // m
-/// The second is inside of the last link of two links and of three. On the first link nothing moves along
-/// it; at a joint the effect is the mean of both links, whose directions differ.
-constexpr double kPlaces[] = {0.0, 0.8 * kLength, kLength};
+/// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
+/// joint the effect is the mean of both links, whose directions differ.
+constexpr double kInside = 0.8 * kLength;
 
 VectorXd lengths_of(int links) { return VectorXd::Constant(links, kLength / links); }
 
@@ -40,54 +39,51 @@ VectorXd state_of(int links, double first, double step, double rate, double rate
 }
 
 struct MadeLaw {
-  PlaceLaw law;
+  CandidateLaw law;
   std::vector<int> form;
-  double arc_length = 0;
   VectorXd coefficients;
   ForceLaw found;
+  bool of_any_links = false;  ///< its place is not that of a joint, nor an end
 };
 
-/// Every pair at inner places, the support and the load, with all forms of a position and one of a
-/// velocity. No coefficient gives energy.
+/// Every variable of every kind of site with all forms of a position and some of a velocity. No
+/// coefficient gives energy.
 std::vector<MadeLaw> laws_of_all_pairs() {
+  std::vector<VectorXd> visited;
+  for (const double at : {-1.0, -0.4, 0.3, 0.9})
+    visited.push_back(state_of(2, at, -0.5 * at, 2 * at, -3 * at));
+  const LawChain chain{lengths_of(2), 2};
   std::vector<MadeLaw> laws;
-  for (const double s : kPlaces) {
-    std::vector<PlaceMotion> visited;
-    for (const double at : {-1.0, -0.4, 0.3, 0.9})
-      visited.push_back(
-          place_kinematics(state_of(2, at, -0.5 * at, 2 * at, -3 * at), 2, lengths_of(2), s)
-              .motion);
-    for (const PlaceLaw& law : place_laws(s == 0, visited))
+
+  for (const LawSite& site :
+       {LawSite{SiteKind::kPlace, kInside}, LawSite{SiteKind::kPlace, kLength},
+        LawSite{SiteKind::kJoint, 0, 0}, LawSite{SiteKind::kJoint, 0.5 * kLength, 1},
+        LawSite{SiteKind::kCable}, LawSite{SiteKind::kJoints}}) {
+    int distances = 0;
+    for (const CandidateLaw& law : candidates_at(site, chain, visited)) {
+      if (law.variable_name().starts_with("distance") && distances++ > 0) continue;
       for (const std::vector<int>& form : law.forms()) {
-        if (law.dissipative() && form.size() != 4) continue;
+        if (law.dissipative() && form.size() == 1 && law.terms() > 4 && form[0] < 3) continue;
         const auto terms = static_cast<Index>(form.size());
-        laws.push_back({law, form, s, VectorXd::LinSpaced(terms, -0.3, -0.5), {}});
+        laws.push_back({law, form, VectorXd::LinSpaced(terms, -0.3, -0.5), {}});
         MadeLaw& made = laws.back();
         made.found.force = law.force_name();
         made.found.variable = law.variable_name();
+        made.found.site = site;
+        made.found.place = site.arc_length;
+        made.of_any_links = site.kind == SiteKind::kPlace && site.arc_length == kInside;
         made.found.formula =
             law.formula(form, made.coefficients, 1e-4 * MatrixXd::Identity(terms, terms));
       }
+    }
   }
   return laws;
 }
 
 /// The generalised force of a law at a state.
 VectorXd force_of(const MadeLaw& made, const VectorXd& state, int links) {
-  const VectorXd lengths = lengths_of(links);
-  const VectorXd size =
-      made.law.force(place_kinematics(state, links, lengths, made.arc_length).motion)(Eigen::all,
-                                                                                      made.form) *
-      made.coefficients;
-  VectorXd force = VectorXd::Zero(links);
-  if (made.arc_length == 0) {
-    add_generalised_force(torque_pattern(links), lengths, state.data(), size[0], force.data());
-  } else {
-    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown})
-      add_generalised_force(point_pattern(direction, made.arc_length, lengths), lengths,
-                            state.data(), size[direction == ForceDirection::kDown], force.data());
-  }
-  return force;
+  const CandidateLaw law = links == 2 ? made.law : made.law.on({lengths_of(links), links});
+  return law.force(state, made.form) * made.coefficients;
 }
 
 }  // namespace
@@ -98,14 +94,13 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
   std::string all, inside;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const std::string id = fmt::format("law_{}", i);
-    const auto file =
-        folder.write(id + ".toml", effect_of(laws[i].found, id, laws[i].arc_length, kLength));
+    const auto file = folder.write(id + ".toml", effect_of(laws[i].found, id, kLength));
     const std::string name = fmt::format("\"{}.toml\", ", id);
     all += name;
-    if (laws[i].arc_length > 0 && laws[i].arc_length < kLength) inside += name;
+    if (laws[i].of_any_links) inside += name;
     if (!laws[i].law.dissipative()) continue;
     for (const EffectParameter& parameter : read_effect(file).parameters)
-      CHECK(parameter.lower == 0);
+      CHECK(parameter.lower >= 0);
   }
   ProviderOptions options;
   options.derive_program = tests::build_folder() / "bin" / "catena-derive";
@@ -133,11 +128,11 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
     };
     for (std::size_t i = 0; i < laws.size(); ++i) {
       const MadeLaw& made = laws[i];
-      if (links == 3 && (made.arc_length == 0 || made.arc_length == kLength)) continue;
+      if (links == 3 && !made.of_any_links) continue;
       CAPTURE(made.found.formula.text);
-      CAPTURE(made.arc_length);
+      CAPTURE(site_in_words(made.found.site));
       VectorXd with = plain;
-      for (const PlaceLaw::Constant& constant : made.found.formula.constants)
+      for (const CandidateLaw::Constant& constant : made.found.formula.constants)
         if (constant.amplitude)
           with[model.parameter_index(fmt::format("law_{}.{}", i, constant.name))] = constant.value;
       const VectorXd force = force_of(made, state, links);
@@ -150,10 +145,13 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
 }
 
 TEST_CASE("a law against a velocity that drives it is refused, term by term") {
-  const PlaceMotion slow = PlaceMotion::Constant(0.1), fast = PlaceMotion::Constant(1.0);
-  const PlaceLaw drag(ConjugatePair::kSpeed, {slow, fast});
+  const LawChain chain{lengths_of(2), 2};
+  const std::vector<VectorXd> visited = {state_of(2, 0.1, 0, 0.1, 0), state_of(2, 1, 0, 1, 0)};
+  const LawSite place{SiteKind::kPlace, kInside};
+  const CandidateLaw drag(place, LawVariable::kSpeed, chain, visited);
   CHECK(drag.admits(Eigen::Vector2d(-0.3, -0.1)));
   CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0.1)));
   CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0)));  // a term that the other one imitates
-  CHECK(PlaceLaw(ConjugatePair::kSidePosition, {slow, fast}).admits(Eigen::Vector2d(0.3, 0.1)));
+  CHECK(CandidateLaw(place, LawVariable::kSidePosition, chain, visited)
+            .admits(Eigen::Vector2d(0.3, 0.1)));
 }

@@ -93,7 +93,7 @@ MissingForce force_in(const testing::Filmed& filmed) {
   return missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
 }
 
-void check_constant(const PlaceLaw::Constant& constant, double truth, const char* unit) {
+void check_constant(const CandidateLaw::Constant& constant, double truth, const char* unit) {
   CAPTURE(constant.name);
   CAPTURE(constant.value);
   CHECK(constant.unit == unit);

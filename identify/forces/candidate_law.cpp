@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/candidate_law.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "identify/forces/place_kinematics.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace {
+
+/// m/s, rad/s: |v| is sqrt(v^2 + floor^2) in effects, which has derivatives at rest.
+constexpr double kSpeedFloor = 1e-6;
+/// Amplitudes are at most so many times the one found, others so many deviations from the value
+/// found; a positive shape changes at most by so much. A fit that goes there has lost its way.
+constexpr double kBound = 1000, kMostShapeChange = 20;
+/// Fixed points of a distance: in so many directions, so far beyond what the place visits, over the
+/// length of the cable.
+constexpr int kDirections = 8;
+constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
+
+/// Unit of a force over a power of the variable: "N/m^2", "N s^2/m^2", "N m^2 s".
+std::string unit_over(const LawNames& names, int power) {
+  if (power == 0) return names.force_unit;
+  struct Row {
+    const char *unit, *below, *above;
+  };
+  static constexpr Row kRows[] = {{"m", "", "m"},        {"m/s", "s", "m"}, {"rad", "", "rad"},
+                                  {"rad/s", "s", "rad"}, {"1/m", "m", ""},  {"1/(m s)", "m s", ""}};
+  const Row& row = *std::find_if(std::begin(kRows), std::end(kRows),
+                                 [&](const Row& of) { return names.variable_unit == of.unit; });
+  const auto raised = [&](std::string unit) {
+    const int size = std::abs(power);
+    if (unit.empty() || size == 1) return unit;
+    const std::string exponent = fmt::format("^{}", size);
+    const std::size_t space = unit.find(' ');
+    if (space != std::string::npos) unit.insert(space, exponent);
+    return unit + exponent;
+  };
+  std::string above = raised(power > 0 ? row.below : row.above);
+  std::string below = raised(power > 0 ? row.above : row.below);
+  // "N/m" over a power: one fraction.
+  std::string numerator = names.force_unit;
+  const std::size_t slash = numerator.find('/');
+  if (slash != std::string::npos) {
+    below = numerator.substr(slash + 1) + (below.empty() ? "" : " " + below);
+    numerator.resize(slash);
+  }
+  if (below.find(' ') != std::string::npos) below = "(" + below + ")";
+  return numerator + (above.empty() ? "" : " " + above) + (below.empty() ? "" : "/" + below);
+}
+
+std::vector<int> all_of(Index count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
+                           const std::vector<VectorXd>& visited, const Vector2d& fixed_point)
+    : site_(site), variable_(variable), chain_(chain), fixed_point_(fixed_point) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const VectorXd& state : visited)
+    for (const LawElement& element : law_elements(site_, variable_, fixed_point_, chain_, state)) {
+      least = std::min(least, element.value);
+      most = std::max(most, element.value);
+    }
+  const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
+  grammar_ = dissipative()                        ? &velocity_grammar()
+             : angle                              ? &angle_grammar()
+             : variable == LawVariable::kDistance ? &distance_grammar()
+                                                  : &position_grammar();
+  if (!dissipative() && !angle && variable != LawVariable::kDistance)
+    middle_ = 0.5 * (least + most);
+  half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
+}
+
+double CandidateLaw::constants(const std::vector<int>& form) const {
+  double count = variable_ == LawVariable::kDistance ? 2 : 0;
+  for (const int term : form)
+    count += text_of(grammar_->terms[static_cast<std::size_t>(term)].kind).shape ? 2 : 1;
+  return count;
+}
+
+MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form) const {
+  MatrixXd force = MatrixXd::Zero(chain_.lengths.size(), static_cast<Index>(form.size()));
+  for (const LawElement& element : law_elements(site_, variable_, fixed_point_, chain_, state)) {
+    const double u = (element.value - middle_) / half_;
+    for (std::size_t j = 0; j < form.size(); ++j)
+      force.col(static_cast<Index>(j)) +=
+          element.weight * value_of(grammar_->terms[static_cast<std::size_t>(form[j])], u) *
+          element.gradient;
+  }
+  return force;
+}
+
+MatrixXd CandidateLaw::force(const VectorXd& state) const { return force(state, all_of(terms())); }
+
+bool CandidateLaw::admits(const VectorXd& coefficients) const {
+  return (coefficients.array() != 0).all() && (!dissipative() || (coefficients.array() <= 0).all());
+}
+
+CandidateLaw CandidateLaw::moved(double arc_length) const {
+  CandidateLaw other = *this;
+  other.site_.arc_length = arc_length;
+  return other;
+}
+
+CandidateLaw CandidateLaw::on(const LawChain& chain) const {
+  CandidateLaw other = *this;
+  other.chain_ = chain;
+  return other;
+}
+
+std::string CandidateLaw::force_name() const { return names_of(site_, variable_).force; }
+std::string CandidateLaw::variable_name() const { return names_of(site_, variable_).variable; }
+
+CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
+                                            const VectorXd& coefficients,
+                                            const MatrixXd& covariance) const {
+  const LawNames names = names_of(site_, variable_);
+  Formula formula;
+  formula.dissipation = dissipative();
+  const auto add_amplitude = [&](const char* name, int power, Index i) {
+    const double scale = std::pow(half_, power), value = -coefficients[i] / scale;
+    const double bound = kBound * std::abs(value);
+    formula.constants.push_back({name, unit_over(names, power), value,
+                                 std::sqrt(std::max(0.0, covariance(i, i))) / scale, true,
+                                 dissipative() ? 0.0 : -bound, bound});
+  };
+  const auto kind_of = [&](std::size_t j) {
+    return grammar_->terms[static_cast<std::size_t>(form[j])].kind;
+  };
+  const auto fix = [&](const char* name, double value) {
+    if (formula.energy.find(name) != std::string::npos)
+      formula.fixed.push_back({name, names.variable_unit, value});
+  };
+  const auto add_point = [&] {
+    if (variable_ != LawVariable::kDistance) return;
+    for (const int k : {0, 1})
+      formula.constants.push_back({k ? "point_down" : "point_side", "m", fixed_point_[k],
+                                   0.25 * half_, false, fixed_point_[k] - 2 * half_,
+                                   fixed_point_[k] + 2 * half_, true});
+  };
+  if (form.size() == 2 && kind_of(0) == TermKind::kConstant && kind_of(1) == TermKind::kLinear &&
+      coefficients[1] != 0) {
+    // c0 + c1 (x - middle) / half = -linear (x - rest)
+    const double ratio = coefficients[0] / coefficients[1], by_ratio = half_ / coefficients[1];
+    add_amplitude("linear", 1, 1);
+    const double rest_variance =
+        (covariance(0, 0) - 2 * ratio * covariance(0, 1) + ratio * ratio * covariance(1, 1)) *
+        by_ratio * by_ratio;
+    const double rest = middle_ - half_ * ratio,
+                 deviation = std::sqrt(std::max(0.0, rest_variance));
+    formula.constants.push_back({"rest", names.variable_unit, rest, deviation, false,
+                                 rest - kBound * deviation, rest + kBound * deviation});
+    formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
+    formula.energy = fmt::format("linear*({} - rest)^2/2", names.symbols);
+    return formula;
+  }
+  const bool about_middle = middle_ != 0 && (form.size() > 1 || kind_of(0) != TermKind::kConstant);
+  const std::string words =
+      about_middle ? fmt::format("{} {} {:.3g} {}", names.variable, middle_ < 0 ? "+" : "-",
+                                 std::abs(middle_), names.variable_unit)
+                   : names.variable;
+  const std::string symbols =
+      about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
+  std::string terms;
+  for (std::size_t j = 0; j < form.size(); ++j) {
+    const LawTerm& term = grammar_->terms[static_cast<std::size_t>(form[j])];
+    const LawTermText& text = text_of(term.kind);
+    terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "");
+    formula.energy +=
+        (formula.energy.empty() ? "" : " + ") + filled(text.energy, "", symbols, names.squared);
+    add_amplitude(text.amplitude, text.power, static_cast<Index>(j));
+    if (!text.shape) continue;
+    const double shape = term.shape * half_;
+    const bool edge = std::string(text.shape) == "edge";
+    formula.constants.push_back({text.shape, names.variable_unit, shape, 0.1 * half_, false,
+                                 edge ? shape - 2 * half_ : shape / kMostShapeChange,
+                                 edge ? shape + 2 * half_ : shape * kMostShapeChange, true});
+  }
+  add_point();
+  formula.text =
+      fmt::format("{} = -{}", names.force, form.size() == 1 ? terms : fmt::format("({})", terms));
+  fix("middle", middle_);
+  fix("step", kSignWidth * half_);
+  fix("edge_width", kEdgeWidth * half_);
+  fix("floor", kSpeedFloor);
+  fix("unit", 1);
+  return formula;
+}
+
+std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& chain,
+                                        const std::vector<VectorXd>& visited) {
+  std::vector<CandidateLaw> candidates;
+  for (const LawVariable variable : variables_of(site.kind)) {
+    if (variable != LawVariable::kDistance) {
+      candidates.emplace_back(site, variable, chain, visited);
+      continue;
+    }
+    std::vector<Vector2d> positions;
+    for (const VectorXd& state : visited)
+      positions.emplace_back(
+          place_kinematics(state, chain.coordinates, chain.lengths, site.arc_length)
+              .motion.head<2>());
+    for (int k = 0; k < kDirections; ++k) {
+      const double turn = 2 * std::numbers::pi * k / kDirections;
+      const Vector2d direction(std::sin(turn), std::cos(turn));
+      const Vector2d farthest = *std::max_element(
+          positions.begin(), positions.end(),
+          [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
+      for (const double beyond : kBeyond)
+        candidates.emplace_back(site, variable, chain, visited,
+                                farthest + beyond * chain.lengths.sum() * direction);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace catena

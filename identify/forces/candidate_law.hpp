@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identify/forces/law_terms.hpp"
+#include "identify/forces/law_variable.hpp"
+
+namespace catena {
+
+/// A force as a function of one variable of a site: a sum of terms (law_terms.hpp) with free
+/// coefficients. Terms of a position count from the middle of the visited range, those of a joint's
+/// angle, of a distance and of velocities from 0.
+class CandidateLaw {
+ public:
+  /// `visited`: states (q, v, z). `fixed_point`: m, for the distance.
+  CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
+               const std::vector<Eigen::VectorXd>& visited,
+               const Eigen::Vector2d& fixed_point = Eigen::Vector2d::Zero());
+
+  const LawSite& site() const { return site_; }
+  bool dissipative() const {
+    return !has_potential(variable_);
+  }  ///< the force is against a velocity
+  Eigen::Index terms() const { return static_cast<Eigen::Index>(grammar_->terms.size()); }
+  /// Sets of terms that make a formula, simplest first.
+  const std::vector<std::vector<int>>& forms() const { return grammar_->forms; }
+
+  /// Numbers that a formula has: coefficients, shapes, the fixed point.
+  double constants(const std::vector<int>& form) const;
+
+  /// Generalised forces on the angles of the links, links x terms of the form.
+  Eigen::MatrixXd force(const Eigen::VectorXd& state, const std::vector<int>& form) const;
+  /// Of all terms.
+  Eigen::MatrixXd force(const Eigen::VectorXd& state) const;
+
+  /// Whether these coefficients make a law: every term is there (least squares give 0 to one that the
+  /// others imitate; then a form without it says the same), and it can give no energy: it has a
+  /// potential, or every term is against the velocity.
+  bool admits(const Eigen::VectorXd& coefficients) const;
+
+  /// The same law at another arc length.
+  CandidateLaw moved(double arc_length) const;
+  /// The same law on another chain.
+  CandidateLaw on(const LawChain& chain) const;
+
+  std::string force_name() const, variable_name() const;
+
+  struct Constant {
+    std::string name, unit;
+    double value = 0, deviation = 0;
+    bool amplitude = true;        ///< the law vanishes where all of these are zero
+    double lower = 0, upper = 0;  ///< what a fit may give it
+    bool from_grid = false;       ///< one of a few values that were tried; a fit makes it exact
+  };
+  /// The law in physical units.
+  struct Formula {
+    std::string text;  ///< "side force = -linear x (side position - rest)"
+    std::vector<Constant> constants;
+    bool dissipation = false;  ///< `energy` is one, else a potential
+    /// The integral of -force over the variable in the language of effects (docs/effects.md). A
+    /// place is `offset` past the middle of a link.
+    std::string energy;
+    std::vector<Constant> fixed;  ///< further constants in it, known
+  };
+  /// `covariance`: of the coefficients.
+  Formula formula(const std::vector<int>& form, const Eigen::VectorXd& coefficients,
+                  const Eigen::MatrixXd& covariance) const;
+
+ private:
+  LawSite site_;
+  LawVariable variable_;
+  LawChain chain_;
+  Eigen::Vector2d fixed_point_;
+  const LawGrammar* grammar_;
+  double middle_ = 0, half_ = 1;
+};
+
+/// Candidates at a site, each with every variable. For the distance of a place, fixed points around
+/// what it visits.
+std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& chain,
+                                        const std::vector<Eigen::VectorXd>& visited);
+
+}  // namespace catena

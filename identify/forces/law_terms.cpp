@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/forces/law_terms.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace catena {
+
+namespace {
+
+/// max(y, 0), smooth.
+double positive_part(double y) { return 0.5 * (y + std::hypot(y, kEdgeWidth)); }
+
+#define CATENA_STOP(Y) \
+  "(" Y "^2 + " Y "*sqrt(" Y "^2 + edge_width^2) + edge_width^2*asinh(" Y "/edge_width))/4"
+
+LawGrammar grammar(std::vector<std::vector<LawTerm>> forms) {
+  LawGrammar grammar;
+  for (const std::vector<LawTerm>& form : forms) {
+    std::vector<int>& places = grammar.forms.emplace_back();
+    for (const LawTerm& term : form) {
+      int place = 0;
+      while (place < static_cast<int>(grammar.terms.size()) &&
+             (grammar.terms[static_cast<std::size_t>(place)].kind != term.kind ||
+              grammar.terms[static_cast<std::size_t>(place)].shape != term.shape))
+        ++place;
+      if (place == static_cast<int>(grammar.terms.size())) grammar.terms.push_back(term);
+      places.push_back(place);
+    }
+  }
+  return grammar;
+}
+
+using Forms = std::vector<std::vector<LawTerm>>;
+
+void add_shapes(Forms& forms, TermKind kind, std::initializer_list<double> shapes) {
+  for (const double shape : shapes) forms.push_back({{kind, shape}});
+}
+
+const LawTerm kOne{TermKind::kConstant}, kX{TermKind::kLinear}, kX2{TermKind::kQuadratic},
+    kX3{TermKind::kCubic};
+
+}  // namespace
+
+double value_of(const LawTerm& term, double u) {
+  switch (term.kind) {
+    case TermKind::kConstant:
+      return 1;
+    case TermKind::kLinear:
+    case TermKind::kViscous:
+      return u;
+    case TermKind::kQuadratic:
+      return u * u;
+    case TermKind::kCubic:
+    case TermKind::kCube:
+      return u * u * u;
+    case TermKind::kUpperStop:
+      return positive_part(u - term.shape);
+    case TermKind::kLowerStop:
+      return -positive_part(term.shape - u);
+    case TermKind::kDeadZone:
+      return positive_part(u - term.shape) - positive_part(-u - term.shape);
+    case TermKind::kUpperExponential:
+      return std::exp(u / term.shape);
+    case TermKind::kLowerExponential:
+      return -std::exp(-u / term.shape);
+    case TermKind::kInverse:
+      return 1 / u;
+    case TermKind::kInverseSquare:
+      return 1 / (u * u);
+    case TermKind::kInverseCube:
+      return 1 / (u * u * u);
+    case TermKind::kFriction:
+      return u / std::hypot(u, kSignWidth);
+    case TermKind::kSquare:
+      return std::abs(u) * u;
+    case TermKind::kSaturating:
+      return u / std::hypot(u, term.shape);
+    case TermKind::kFalling:
+      return u / (1 + u * u / (term.shape * term.shape));
+  }
+  return 0;
+}
+
+const LawTermText& text_of(TermKind kind) {
+  static constexpr struct {
+    TermKind kind;
+    LawTermText text;
+  } kTexts[] = {
+      {TermKind::kConstant, {"constant", nullptr, 0, "constant", "constant*({z})"}},
+      {TermKind::kLinear, {"linear", nullptr, 1, "linear x ({x})", "linear*({z})^2/2"}},
+      {TermKind::kQuadratic,
+       {"quadratic", nullptr, 2, "quadratic x ({x})^2", "quadratic*({z})^3/3"}},
+      {TermKind::kCubic, {"cubic", nullptr, 3, "cubic x ({x})^3", "cubic*({z})^4/4"}},
+      {TermKind::kUpperStop,
+       {"stiffness", "edge", 1, "stiffness x (({x}) - edge, if it is above)",
+        "stiffness*" CATENA_STOP("({z} - edge)")}},
+      {TermKind::kLowerStop,
+       {"stiffness", "edge", 1, "stiffness x (({x}) - edge, if it is below)",
+        "stiffness*" CATENA_STOP("(edge - ({z}))")}},
+      {TermKind::kDeadZone,
+       {"stiffness", "gap", 1, "stiffness x (({x}) beyond -gap to gap)",
+        "stiffness*(" CATENA_STOP("({z} - gap)") " + " CATENA_STOP("(-({z}) - gap)") ")"}},
+      {TermKind::kUpperExponential,
+       {"force", "decay", 0, "force x exp(({x})/decay)", "force*decay*exp(({z})/decay)"}},
+      {TermKind::kLowerExponential,
+       {"force", "decay", 0, "(-force x exp(-({x})/decay))", "force*decay*exp(-({z})/decay)"}},
+      {TermKind::kInverse, {"pull", nullptr, -1, "pull/({x})", "pull*log({z}/unit)"}},
+      {TermKind::kInverseSquare, {"pull", nullptr, -2, "pull/({x})^2", "-pull/({z})"}},
+      {TermKind::kInverseCube, {"pull", nullptr, -3, "pull/({x})^3", "-pull/(2*({q}))"}},
+      {TermKind::kFriction,
+       {"friction", nullptr, 0, "friction x sign of {x}", "friction*(sqrt({q} + step^2) - step)"}},
+      {TermKind::kViscous, {"linear", nullptr, 1, "linear x {x}", "linear*({q})/2"}},
+      {TermKind::kSquare,
+       {"quadratic", nullptr, 2, "quadratic x |{x}| x {x}", "quadratic*({q} + floor^2)^(3/2)/3"}},
+      {TermKind::kCube, {"cubic", nullptr, 3, "cubic x {x}^3", "cubic*({q})^2/4"}},
+      {TermKind::kSaturating,
+       {"friction", "saturation", 0, "friction x {x}/sqrt({x}^2 + saturation^2)",
+        "friction*(sqrt({q} + saturation^2) - saturation)"}},
+      {TermKind::kFalling,
+       {"linear", "saturation", 1, "linear x {x}/(1 + ({x}/saturation)^2)",
+        "linear*saturation^2*log(1 + ({q})/saturation^2)/2"}},
+  };
+  for (const auto& row : kTexts)
+    if (row.kind == kind) return row.text;
+  return kTexts[0].text;
+}
+
+#undef CATENA_STOP
+
+std::string filled(const std::string& text, const std::string& x, const std::string& z,
+                   const std::string& q) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool slot = text[i] == '{' && i + 2 < text.size() && text[i + 2] == '}';
+    if (!slot) {
+      out += text[i];
+      continue;
+    }
+    out += text[i + 1] == 'x' ? x : text[i + 1] == 'z' ? z : q;
+    i += 2;
+  }
+  return out;
+}
+
+const LawGrammar& position_grammar() {
+  static const LawGrammar kGrammar = [] {
+    Forms forms = {{kOne}, {kOne, kX}, {kOne, kX, kX2}, {kOne, kX, kX2, kX3}};
+    add_shapes(forms, TermKind::kUpperStop, {-0.5, -0.25, 0, 0.25, 0.5});
+    add_shapes(forms, TermKind::kLowerStop, {-0.5, -0.25, 0, 0.25, 0.5});
+    add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
+    add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
+    return grammar(forms);
+  }();
+  return kGrammar;
+}
+
+const LawGrammar& distance_grammar() {
+  static const LawGrammar kGrammar = [] {
+    Forms forms = {
+        {{TermKind::kInverse}}, {{TermKind::kInverseSquare}}, {{TermKind::kInverseCube}}};
+    add_shapes(forms, TermKind::kUpperStop, {-0.5, 0, 0.5});
+    return grammar(forms);
+  }();
+  return kGrammar;
+}
+
+const LawGrammar& angle_grammar() {
+  static const LawGrammar kGrammar = [] {
+    Forms forms = {
+        {kOne}, {kX}, {kX3}, {kOne, kX}, {kX, kX3}, {kOne, kX, kX2}, {kOne, kX, kX2, kX3}};
+    add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
+    add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
+    add_shapes(forms, TermKind::kLowerStop, {-0.5, -0.25, 0, 0.25});
+    return grammar(forms);
+  }();
+  return kGrammar;
+}
+
+const LawGrammar& velocity_grammar() {
+  static const LawGrammar kGrammar = [] {
+    const LawTerm sign{TermKind::kFriction}, v{TermKind::kViscous}, v2{TermKind::kSquare},
+        v3{TermKind::kCube};
+    Forms forms = {{sign},           {v}, {v2}, {v3}, {sign, v}, {sign, v2}, {v, v2}, {v, v3},
+                   {sign, v, v2, v3}};
+    add_shapes(forms, TermKind::kSaturating, {0.15, 0.3, 0.6});
+    add_shapes(forms, TermKind::kFalling, {0.1, 0.2, 0.4, 0.8});
+    forms.push_back({sign, {TermKind::kFalling, 0.1}});
+    forms.push_back({sign, {TermKind::kFalling, 0.2}});
+    return grammar(forms);
+  }();
+  return kGrammar;
+}
+
+}  // namespace catena

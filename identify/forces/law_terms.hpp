@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace catena {
+
+enum class TermKind {
+  // against a position
+  kConstant,
+  kLinear,
+  kQuadratic,
+  kCubic,
+  kUpperStop,  ///< pushes back beyond the shape: what a stop or a taut string does
+  kLowerStop,
+  kDeadZone,          ///< pushes back beyond the shape on both sides: play
+  kUpperExponential,  ///< grows by e within the shape
+  kLowerExponential,
+  // against a distance
+  kInverse,
+  kInverseSquare,
+  kInverseCube,
+  // against a velocity
+  kFriction,
+  kViscous,
+  kSquare,
+  kCube,
+  kSaturating,  ///< viscous far below the shape, constant far above
+  kFalling,     ///< viscous far below the shape, falling above: an eddy brake, Stribeck's friction
+};
+
+/// One term of a law: a function of the variable's distance from a middle, in units of a half width,
+/// and its integral. Force = coefficient x value; formulas have amplitude = -coefficient /
+/// half^power.
+struct LawTerm {
+  TermKind kind = TermKind::kLinear;
+  double shape = 0;  ///< in units of the half width; 0: it has none
+};
+
+double value_of(const LawTerm& term, double u);
+
+/// Width of the step of a sign and of the edge of a stop, over the half width: a step is not linear in
+/// a state. Effects have them as constants `step` and `edge_width`.
+inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
+
+/// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the
+/// power of the variable's unit, words and energy, in which {x} is the variable in words, {z} in the language
+/// of effects from the middle, {q} its square.
+struct LawTermText {
+  const char *amplitude, *shape;
+  int power = 0;
+  const char *words, *energy;
+};
+const LawTermText& text_of(TermKind kind);
+
+/// A text with {x}, {z}, {q} replaced.
+std::string filled(const std::string& text, const std::string& x, const std::string& z,
+                   const std::string& q);
+
+/// The terms of a variable, and the sets of them that make a formula, simplest first.
+struct LawGrammar {
+  std::vector<LawTerm> terms;
+  std::vector<std::vector<int>> forms;
+};
+const LawGrammar& position_grammar();
+const LawGrammar& distance_grammar();
+const LawGrammar& angle_grammar();
+const LawGrammar& velocity_grammar();
+
+}  // namespace catena
