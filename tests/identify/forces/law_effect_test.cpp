@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ std::vector<MadeLaw> laws_of_all_pairs() {
     visited.push_back(state_of(2, at, -0.5 * at, 2 * at, -3 * at));
   const LawChain chain{lengths_of(2), 2};
   std::vector<MadeLaw> laws;
+  std::set<std::string> seen;
 
   for (const LawSite& site :
        {LawSite{SiteKind::kPlace, kInside}, LawSite{SiteKind::kPlace, kLength},
@@ -63,7 +65,14 @@ std::vector<MadeLaw> laws_of_all_pairs() {
     for (const CandidateLaw& law : candidates_at(site, chain, visited)) {
       if (law.variable_name().starts_with("distance") && distances++ > 0) continue;
       for (const std::vector<int>& form : law.forms()) {
-        if (law.dissipative() && form.size() == 1 && law.terms() > 4 && form[0] < 3) continue;
+        // Every term once inside, in a joint, in all joints and along the velocity; else all
+        // powers together.
+        const bool each =
+            site.arc_length != kLength &&
+            (!law.dissipative() || law.variable_name() == "speed" ||
+             law.variable_name().ends_with("rate") || law.variable_name() == "rate of curvature");
+        if (each ? form.size() > 2 : form.size() != 4) continue;
+        if (each && form.size() == 2 && law.dissipative()) continue;
         const auto terms = static_cast<Index>(form.size());
         laws.push_back({law, form, VectorXd::LinSpaced(terms, -0.3, -0.5), {}});
         MadeLaw& made = laws.back();
@@ -74,6 +83,10 @@ std::vector<MadeLaw> laws_of_all_pairs() {
         made.of_any_links = site.kind == SiteKind::kPlace && site.arc_length == kInside;
         made.found.formula =
             law.formula(form, made.coefficients, 1e-4 * MatrixXd::Identity(terms, terms));
+        // One shape of each kind of term is enough.
+        if (!seen.insert(site_in_words(site) + law.variable_name() + made.found.formula.energy)
+                 .second)
+          laws.pop_back();
       }
     }
   }
