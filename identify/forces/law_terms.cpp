@@ -8,11 +8,13 @@ namespace catena {
 
 namespace {
 
-/// max(y, 0), smooth.
-double positive_part(double y) { return 0.5 * (y + std::hypot(y, kEdgeWidth)); }
+/// max(y, 0), smooth: the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
+double positive_part(double y) {
+  const double size = std::hypot(y, kEdgeWidth);
+  return 0.25 * (y + size) * (y + size) / size;
+}
 
-#define CATENA_STOP(Y) \
-  "(" Y "^2 + " Y "*sqrt(" Y "^2 + edge_width^2) + edge_width^2*asinh(" Y "/edge_width))/4"
+#define CATENA_STOP(Y) "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/8"
 
 LawGrammar grammar(std::vector<std::vector<LawTerm>> forms) {
   LawGrammar grammar;
@@ -147,7 +149,7 @@ const LawGrammar& position_grammar() {
   static const LawGrammar kGrammar = [] {
     Forms forms = {{kOne}, {kOne, kX}, {kOne, kX, kX2}, {kOne, kX, kX2, kX3}};
     add_shapes(forms, TermKind::kUpperStop, {-0.5, -0.25, 0, 0.25, 0.5});
-    add_shapes(forms, TermKind::kLowerStop, {-0.5, -0.25, 0, 0.25, 0.5});
+    add_shapes(forms, TermKind::kLowerStop, {0.5, 0.25, 0, -0.25, -0.5});
     add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
     add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
     return grammar(forms);
@@ -171,7 +173,7 @@ const LawGrammar& angle_grammar() {
         {kOne}, {kX}, {kX3}, {kOne, kX}, {kX, kX3}, {kOne, kX, kX2}, {kOne, kX, kX2, kX3}};
     add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
     add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
-    add_shapes(forms, TermKind::kLowerStop, {-0.5, -0.25, 0, 0.25});
+    add_shapes(forms, TermKind::kLowerStop, {0.25, 0, -0.25, -0.5});
     return grammar(forms);
   }();
   return kGrammar;
