@@ -101,8 +101,10 @@ VectorXd force_of(const MadeLaw& made, const VectorXd& state, int links) {
 Model compiled_model(const std::filesystem::path& folder, int links) {
   const std::string derive = (tests::build_folder() / "bin" / "catena-derive").string();
   const std::string commands = fmt::format(
-      "cd '{0}' && '{1}' derive --yes --description {2}.toml --links {2} --format c --output {2} && "
-      "echo 'const catena_model* catena_model_table(void) {{ return laws_{2}(); }}' >> {2}/laws_{2}.c && "
+      "cd '{0}' && '{1}' derive --yes --description {2}.toml --links {2} --format c --output {2} "
+      "&& "
+      "echo 'const catena_model* catena_model_table(void) {{ return laws_{2}(); }}' >> "
+      "{2}/laws_{2}.c && "
       "cc -std=c99 -shared -fPIC {2}/laws_{2}.c -lm -o {2}.so",
       folder.string(), derive, links);
   REQUIRE(std::system(commands.c_str()) == 0);
