@@ -24,6 +24,9 @@ constexpr double kSpeedFloor = 1e-6;
 /// Amplitudes are at most so many times the one found, others so many deviations from the value
 /// found; a positive shape changes at most by so much. A fit that goes there has lost its way.
 constexpr double kBound = 1000, kMostShapeChange = 20;
+/// A step of a number, over its size; the least shape that is no edge, in half widths.
+constexpr double kStep = 0.02, kLeastShape = 0.01;
+constexpr const char* kEdge = "edge";
 /// Fixed points of a distance: in so many directions, so far beyond what the place visits, over the
 /// length of the cable.
 constexpr int kDirections = 8;
@@ -78,19 +81,18 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
       most = std::max(most, element.value);
     }
   const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
-  grammar_ = dissipative()                        ? &velocity_grammar()
-             : angle                              ? &angle_grammar()
-             : variable == LawVariable::kDistance ? &distance_grammar()
-                                                  : &position_grammar();
-  if (!dissipative() && !angle && variable != LawVariable::kDistance)
-    middle_ = 0.5 * (least + most);
+  grammar_ = dissipative() ? velocity_grammar()
+             : angle       ? angle_grammar()
+             : has_point() ? distance_grammar()
+                           : position_grammar();
+  if (!dissipative() && !angle && !has_point()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
-  double count = variable_ == LawVariable::kDistance ? 2 : 0;
+  double count = has_point() ? 2 : 0;
   for (const int term : form)
-    count += text_of(grammar_->terms[static_cast<std::size_t>(term)].kind).shape ? 2 : 1;
+    count += text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).shape ? 2 : 1;
   return count;
 }
 
@@ -100,7 +102,7 @@ MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form
     const double u = (element.value - middle_) / half_;
     for (std::size_t j = 0; j < form.size(); ++j)
       force.col(static_cast<Index>(j)) +=
-          element.weight * value_of(grammar_->terms[static_cast<std::size_t>(form[j])], u) *
+          element.weight * value_of(grammar_.terms[static_cast<std::size_t>(form[j])], u) *
           element.gradient;
   }
   return force;
@@ -112,10 +114,66 @@ bool CandidateLaw::admits(const VectorXd& coefficients) const {
   return (coefficients.array() != 0).all() && (!dissipative() || (coefficients.array() <= 0).all());
 }
 
-CandidateLaw CandidateLaw::moved(double arc_length) const {
+bool CandidateLaw::has_place() const {
+  return site_.kind == SiteKind::kPlace && !at_end(site_.arc_length, chain_.lengths.sum());
+}
+
+std::string CandidateLaw::shape_name(int term) const {
+  const char* const name = text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).shape;
+  return name ? name : "";
+}
+
+VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
+  std::vector<double> numbers;
+  if (has_place()) numbers.push_back(site_.arc_length);
+  if (has_point()) numbers.insert(numbers.end(), {fixed_point_[0], fixed_point_[1]});
+  for (const int term : form)
+    if (!shape_name(term).empty())
+      numbers.push_back(grammar_.terms[static_cast<std::size_t>(term)].shape);
+  return VectorXd::Map(numbers.data(), static_cast<Index>(numbers.size()));
+}
+
+VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
+  VectorXd steps = kStep * numbers(form).cwiseAbs();
+  if (has_point()) steps.segment(has_place(), 2).setConstant(kStep * half_);
+  Index next = has_place() + 2 * has_point();
+  for (const int term : form) {
+    if (shape_name(term).empty()) continue;
+    if (shape_name(term) == kEdge) steps[next] = kStep;
+    ++next;
+  }
+  return steps;
+}
+
+std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
+                                               const VectorXd& numbers) const {
   CandidateLaw other = *this;
-  other.site_.arc_length = arc_length;
+  Index next = 0;
+  if (has_place()) other.site_.arc_length = numbers[next++];
+  if (has_point()) other.fixed_point_ = numbers.segment<2>(next), next += 2;
+  bool possible =
+      numbers.allFinite() && (!has_place() || (other.site_.arc_length > 0 && other.has_place()));
+  for (const int term : form) {
+    if (shape_name(term).empty()) continue;
+    const double shape = numbers[next++];
+    other.grammar_.terms[static_cast<std::size_t>(term)].shape = shape;
+    possible = possible && (shape_name(term) == kEdge || shape > kLeastShape);
+  }
+  if (!possible) return std::nullopt;
   return other;
+}
+
+bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
+                                      const std::vector<int>& other_form) const {
+  const auto kinds_of = [](const CandidateLaw& law, const std::vector<int>& of) {
+    std::vector<TermKind> kinds;
+    for (const int term : of)
+      kinds.push_back(law.grammar_.terms[static_cast<std::size_t>(term)].kind);
+    return kinds;
+  };
+  return site_.kind == other.site_.kind && site_.joint == other.site_.joint &&
+         has_place() == other.has_place() && variable_ == other.variable_ &&
+         kinds_of(*this, form) == kinds_of(other, other_form);
 }
 
 CandidateLaw CandidateLaw::on(const LawChain& chain) const {
@@ -141,18 +199,22 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                  dissipative() ? 0.0 : -bound, bound});
   };
   const auto kind_of = [&](std::size_t j) {
-    return grammar_->terms[static_cast<std::size_t>(form[j])].kind;
+    return grammar_.terms[static_cast<std::size_t>(form[j])].kind;
   };
   const auto fix = [&](const char* name, double value) {
     if (formula.energy.find(name) != std::string::npos)
       formula.fixed.push_back({name, names.variable_unit, value});
   };
+  const auto deviation_of = [&](Index number) {
+    const Index i = coefficients.size() + number;
+    return std::sqrt(std::max(0.0, covariance(i, i)));
+  };
   const auto add_point = [&] {
-    if (variable_ != LawVariable::kDistance) return;
+    if (!has_point()) return;
     for (const int k : {0, 1})
       formula.constants.push_back({k ? "point_down" : "point_side", "m", fixed_point_[k],
-                                   0.25 * half_, false, fixed_point_[k] - 2 * half_,
-                                   fixed_point_[k] + 2 * half_, true});
+                                   deviation_of(has_place() + k), false,
+                                   fixed_point_[k] - 2 * half_, fixed_point_[k] + 2 * half_});
   };
   if (form.size() == 2 && kind_of(0) == TermKind::kConstant && kind_of(1) == TermKind::kLinear &&
       coefficients[1] != 0) {
@@ -168,6 +230,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                  rest - kBound * deviation, rest + kBound * deviation});
     formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
     formula.energy = fmt::format("linear*({} - rest)^2/2", names.symbols);
+    add_point();
     return formula;
   }
   const bool about_middle = middle_ != 0 && (form.size() > 1 || kind_of(0) != TermKind::kConstant);
@@ -178,8 +241,9 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   const std::string symbols =
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
+  Index shapes = has_place() + 2 * has_point();
   for (std::size_t j = 0; j < form.size(); ++j) {
-    const LawTerm& term = grammar_->terms[static_cast<std::size_t>(form[j])];
+    const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
     terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "");
     formula.energy +=
@@ -187,10 +251,11 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
     add_amplitude(text.amplitude, text.power, static_cast<Index>(j));
     if (!text.shape) continue;
     const double shape = term.shape * half_;
-    const bool edge = std::string(text.shape) == "edge";
-    formula.constants.push_back({text.shape, names.variable_unit, shape, 0.1 * half_, false,
+    const bool edge = shape_name(form[j]) == kEdge;
+    formula.constants.push_back({text.shape, names.variable_unit, shape,
+                                 half_ * deviation_of(shapes++), false,
                                  edge ? shape - 2 * half_ : shape / kMostShapeChange,
-                                 edge ? shape + 2 * half_ : shape * kMostShapeChange, true});
+                                 edge ? shape + 2 * half_ : shape * kMostShapeChange});
   }
   add_point();
   formula.text =

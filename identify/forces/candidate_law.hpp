@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,9 @@ class CandidateLaw {
   bool dissipative() const {
     return !has_potential(variable_);
   }  ///< the force is against a velocity
-  Eigen::Index terms() const { return static_cast<Eigen::Index>(grammar_->terms.size()); }
+  Eigen::Index terms() const { return static_cast<Eigen::Index>(grammar_.terms.size()); }
   /// Sets of terms that make a formula, simplest first.
-  const std::vector<std::vector<int>>& forms() const { return grammar_->forms; }
+  const std::vector<std::vector<int>>& forms() const { return grammar_.forms; }
 
   /// Numbers that a formula has: coefficients, shapes, the fixed point.
   double constants(const std::vector<int>& form) const;
@@ -41,8 +42,17 @@ class CandidateLaw {
   /// potential, or every term is against the velocity.
   bool admits(const Eigen::VectorXd& coefficients) const;
 
-  /// The same law at another arc length.
-  CandidateLaw moved(double arc_length) const;
+  /// Numbers that the force of a formula is not linear in: the arc length of a place inside of the cable, m; the
+  /// fixed point, side and down, m; the shape of every term that has one, in units of the half width.
+  Eigen::VectorXd numbers(const std::vector<int>& form) const;
+  /// Changes of these over which the force is close to linear.
+  Eigen::VectorXd steps(const std::vector<int>& form) const;
+  /// The law with other numbers; nothing where no law has them.
+  std::optional<CandidateLaw> with(const std::vector<int>& form,
+                                   const Eigen::VectorXd& numbers) const;
+  /// Whether fits of both could find the same law: they differ by nothing but numbers.
+  bool differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
+                          const std::vector<int>& other_form) const;
   /// The same law on another chain.
   CandidateLaw on(const LawChain& chain) const;
 
@@ -53,7 +63,6 @@ class CandidateLaw {
     double value = 0, deviation = 0;
     bool amplitude = true;        ///< the law vanishes where all of these are zero
     double lower = 0, upper = 0;  ///< what a fit may give it
-    bool from_grid = false;       ///< one of a few values that were tried; a fit makes it exact
   };
   /// The law in physical units.
   struct Formula {
@@ -65,16 +74,20 @@ class CandidateLaw {
     std::string energy;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };
-  /// `covariance`: of the coefficients.
+  /// `covariance`: of the coefficients and the numbers.
   Formula formula(const std::vector<int>& form, const Eigen::VectorXd& coefficients,
                   const Eigen::MatrixXd& covariance) const;
 
  private:
+  bool has_place() const;
+  bool has_point() const { return variable_ == LawVariable::kDistance; }
+  std::string shape_name(int term) const;
+
   LawSite site_;
   LawVariable variable_;
   LawChain chain_;
   Eigen::Vector2d fixed_point_;
-  const LawGrammar* grammar_;
+  LawGrammar grammar_;
   double middle_ = 0, half_ = 1;
 };
 

@@ -24,12 +24,13 @@ namespace {
 /// Random forces for the null distribution: a chance of 1 in 200 can be told.
 constexpr Index kRandomForces = 199;
 constexpr LawThresholds kLawThresholds;
-/// Share of the arc length by which the place is moved to see what that changes.
-constexpr double kApart = 0.02;
-constexpr int kClosedLoops = 3;
+/// Fits in which the force follows the state; more where there are numbers to be found, at most so many of
+/// their steps at a time, until they move by less than such a part of one.
+constexpr int kClosedLoops = 3, kMostLoops = 16;
+constexpr double kMostSteps = 5, kSettledStep = 0.01;
 /// Times that the motion is linearised anew about the law.
 constexpr int kRoundsAboutLaw = 2;
-/// Deviation of a coefficient's prior there, in units of its size; of the place, of what it is moved by.
+/// Deviation of a coefficient's prior there, in units of its size; of another number, of its step.
 constexpr double kWide = 100;
 /// Steps of the integration in one of the estimate of the force. A law has few constants, which all
 /// frames determine: with one they are wrong by half their standard error.
@@ -153,10 +154,8 @@ struct FittedForm {
   CandidateLaw law;
   std::vector<int> form;
   VectorXd coefficients;
-  double shift = 0;  ///< m, of the place
-  MatrixXd covariance;
-  double place_variance = 0;
-  double squares = 0, freedom = 0;
+  MatrixXd covariance;  // of the coefficients and the law's numbers
+  double squares = HUGE_VAL, freedom = 0;
 
   double constants() const { return law.constants(form); }
 };
@@ -166,11 +165,9 @@ struct FittedForm {
 std::string with_constants(const CandidateLaw::Formula& formula) {
   std::string words = formula.text;
   for (const CandidateLaw::Constant& constant : formula.constants)
-    words += constant.from_grid
-                 ? fmt::format(", {} about {:.3g} {}", constant.name, constant.value, constant.unit)
-                 : fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
-                               constant.value - 1.96 * constant.deviation,
-                               constant.value + 1.96 * constant.deviation, constant.unit);
+    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
+                         constant.value - 1.96 * constant.deviation,
+                         constant.value + 1.96 * constant.deviation, constant.unit);
   return words;
 }
 
@@ -284,9 +281,16 @@ class LawSearch {
     std::sort(all.begin(), all.end(),
               [](const Close& a, const Close& b) { return a.criterion < b.criterion; });
     std::size_t of_chosen = 0, others = 0;
-    for (const Close& close : all)
+    for (const Close& close : all) {
+      const CandidateLaw& law = candidates_[close.candidate];
+      // The fit finds the numbers: one beginning is enough.
+      if (std::any_of(some.begin(), some.end(), [&](const Close& better) {
+            return law.differs_by_numbers(close.form, candidates_[better.candidate], better.form);
+          }))
+        continue;
       if (close.candidate == chosen ? of_chosen++ < kFittedOfChosen : others++ < kFittedOfOthers)
         some.push_back(close);
+    }
     return some;
   }
 
@@ -294,29 +298,23 @@ class LawSearch {
   /// left in the motion. The law stays as it was where the equations cannot be followed.
   void follow(FittedForm& fitted) {
     for (int round = 0; round < kRoundsAboutLaw; ++round) {
-      const double apart = apart_of(fitted.law);
-      VectorXd wide(fitted.coefficients.size() + (apart != 0 ? 1 : 0));
-      wide.head(fitted.coefficients.size()) = kWide * fitted.coefficients.cwiseAbs();
-      if (apart != 0) wide[wide.size() - 1] = std::abs(apart) * kWide;
+      const VectorXd steps = fitted.law.steps(fitted.form);
+      VectorXd wide(fitted.coefficients.size() + steps.size());
+      wide << kWide * fitted.coefficients.cwiseAbs(), kWide * steps;
       const LinearProblem closed =
           with_law(linear_, forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
       paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
-      VectorXd sizes(wide.size());
-      sizes.head(fitted.coefficients.size()) = fitted.coefficients;
-      if (apart != 0) sizes[wide.size() - 1] = fitted.shift;
       std::vector<MatrixXd> taken;
       for (const NodeForces& of : forces_of(fitted.law, fitted.form, fitted.coefficients)) {
         MatrixXd& force = taken.emplace_back(links(), static_cast<Index>(of.columns.size()));
         for (std::size_t k = 0; k < of.columns.size(); ++k)
-          force.col(static_cast<Index>(k)) = of.columns[k] * sizes;
+          force.col(static_cast<Index>(k)) =
+              of.columns[k].leftCols(fitted.coefficients.size()) * fitted.coefficients;
       }
       paths_.take_forces(taken);
       std::optional<LinearProblem> linear = paths_.linearise(kFiner);
       if (!linear) return;
       linear_ = std::move(*linear);
-      const double place = fitted.law.site().arc_length + fitted.shift;
-      if (std::abs(fitted.shift) > std::abs(apart) && place > 0 && place < chain_.lengths.sum())
-        fitted.law = fitted.law.moved(place);
       const FittedForm next = fit(fitted.law, fitted.form, fitted.coefficients);
       if (!std::isfinite(next.squares) || !next.law.admits(next.coefficients)) return;
       fitted = next;
@@ -336,33 +334,33 @@ class LawSearch {
 
   Index links() const { return chain_.lengths.size(); }
 
-  /// By how much the place of a law is moved to see what that changes, m; 0 where it has none.
-  double apart_of(const CandidateLaw& law) const {
-    const LawSite& site = law.site();
-    return site.kind == SiteKind::kPlace && !at_end(site.arc_length, chain_.lengths.sum())
-               ? -kApart * site.arc_length
-               : 0;
-  }
-
-  /// The terms of a form about the motion found, and how its force follows the state. With
-  /// coefficients also, last, how the law's force changes where its place moves.
+  /// The terms of a form about the motion found. With coefficients also how the law's force changes with
+  /// each of its numbers, and how it follows the state.
   std::vector<NodeForces> forces_of(const CandidateLaw& law, const std::vector<int>& form,
                                     const VectorXd& coefficients) const {
     std::vector<NodeForces> forces;
     const bool known = coefficients.size() > 0;
-    const double apart = known ? apart_of(law) : 0;
     const auto terms = static_cast<Index>(form.size());
-    const CandidateLaw beside = law.moved(law.site().arc_length + apart);
+    // Downwards: a place at the end has nothing beyond it.
+    const VectorXd numbers = law.numbers(form), steps = -law.steps(form);
+    std::vector<CandidateLaw> beside;
+    for (Index i = 0; known && i < numbers.size(); ++i)
+      beside.push_back(
+          law.with(form, numbers + steps[i] * VectorXd::Unit(numbers.size(), i)).value_or(law));
     for (const ForcePath& path : paths_.paths()) {
       NodeForces& of_recording = forces.emplace_back();
       for (Index k = 0; k < path.state.cols(); ++k) {
         VectorXd state = path.state.col(k);
-        MatrixXd& columns = of_recording.columns.emplace_back(links(), terms + (apart != 0));
+        MatrixXd& columns =
+            of_recording.columns.emplace_back(links(), terms + static_cast<Index>(beside.size()));
         columns.leftCols(terms) = law.force(state, form);
         if (!known) continue;
         const VectorXd here = columns.leftCols(terms) * coefficients;
-        if (apart != 0)
-          columns.col(terms) = (beside.force(state, form) * coefficients - here) / apart;
+        for (std::size_t i = 0; i < beside.size(); ++i) {
+          const auto number = static_cast<Index>(i);
+          columns.col(terms + number) =
+              (beside[i].force(state, form) * coefficients - here) / steps[number];
+        }
         constexpr double kDifference = 1e-7;  // rad, rad/s
         MatrixXd& by_state =
             of_recording.by_state.emplace_back(MatrixXd::Zero(links(), state.size()));
@@ -380,31 +378,45 @@ class LawSearch {
     return forces;
   }
 
-  /// `first`: coefficients to begin with, or none.
-  FittedForm fit(const CandidateLaw& law, const std::vector<int>& form,
-                 const VectorXd& first = {}) const {
-    FittedForm fitted{.law = law, .form = form, .coefficients = first, .covariance = {}};
+  /// The coefficients and numbers of least squares, by Gauss-Newton steps. `first`: coefficients to begin
+  /// with, or none.
+  FittedForm fit(CandidateLaw law, const std::vector<int>& form, VectorXd first = {}) const {
+    FittedForm best{.law = law, .form = form, .coefficients = {}, .covariance = {}};
     const auto terms = static_cast<Index>(form.size());
-    for (int loop = 0; loop <= kClosedLoops; ++loop) {
-      const LawPart part =
-          law_part(linear_, forces_of(law, form, fitted.coefficients), FrameHalf::kBoth);
+    const Index numbers = law.numbers(form).size();
+    VectorXd coefficients = std::move(first);
+    for (int loop = 0; loop <= (numbers > 0 ? kMostLoops : kClosedLoops); ++loop) {
+      const bool open = coefficients.size() == 0;
+      const LawPart part = law_part(linear_, forces_of(law, form, coefficients), FrameHalf::kBoth);
       MatrixXd columns(part.value.size(), part.forces.cols() + 1);
       columns << part.forces, part.value;
       const MatrixXd left = without_nuisance(part, columns);
+      const VectorXd value = left.rightCols(1);
       const MatrixXd laws = left.leftCols(part.forces.cols());
-      const VectorXd all = least_squares(laws, VectorXd(left.rightCols(1)));
-      fitted.coefficients = all.head(terms);
-      fitted.squares = (left.rightCols(1) - laws * all).squaredNorm();
-      fitted.freedom = static_cast<double>(part.seen - laws.cols());
-      const MatrixXd covariance = inverse(laws.transpose() * laws);
-      fitted.covariance = covariance.topLeftCorner(terms, terms);
-      if (covariance.cols() > terms) {
-        fitted.place_variance = covariance(terms, terms);
-        fitted.shift = all[terms];
+      coefficients = least_squares(MatrixXd(laws.leftCols(terms)), value);
+      if (!coefficients.allFinite()) break;
+      if (open) continue;
+      // Those before were not of a force that follows the state as it does with them.
+      const double squares = (value - laws.leftCols(terms) * coefficients).squaredNorm();
+      if (loop >= kClosedLoops && (squares < best.squares || numbers == 0)) {
+        best.law = law;
+        best.coefficients = coefficients;
+        best.squares = squares;
+        best.freedom = static_cast<double>(part.seen - laws.cols());
+        best.covariance = inverse(laws.transpose() * laws);
       }
-      if (!fitted.coefficients.allFinite()) break;
+      if (numbers == 0) continue;
+      const VectorXd all = least_squares(laws, value);
+      VectorXd moved = all.tail(numbers);
+      const double most = moved.cwiseQuotient(law.steps(form)).cwiseAbs().maxCoeff();
+      if (!(most > kSettledStep) && loop >= kClosedLoops) break;
+      const double part_of_it = std::min(1.0, kMostSteps / most);
+      std::optional<CandidateLaw> next = law.with(form, law.numbers(form) + part_of_it * moved);
+      if (!next) break;
+      law = std::move(*next);
+      coefficients += part_of_it * (all.head(terms) - coefficients);
     }
-    return fitted;
+    return best;
   }
 
   /// The simplest formula that the data do not decide against; the others, too.
@@ -437,25 +449,21 @@ class LawSearch {
     }
     for (const FittedForm& fitted : fits)
       if (&fitted != best && criterion(fitted) < criterion(*best) + kLawThresholds.undecided) {
-        ForceLaw rival;
-        if (take_law(fitted, inflation, rival)) law.rivals.push_back(std::move(rival));
+        take_law(fitted, inflation, law.rivals.emplace_back());
       }
     FittedForm found = *best;
     follow(found);
-    law.found = take_law(found, std::max(1.0, found.squares / found.freedom), law);
+    take_law(found, std::max(1.0, found.squares / found.freedom), law);
   }
 
-  /// False where the law does not hold where it was tried.
-  bool take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {
+  void take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {
     take_names(fitted.law, law);
     law.formula =
         fitted.law.formula(fitted.form, fitted.coefficients, inflation * fitted.covariance);
-    law.place = fitted.law.site().arc_length;
-    if (apart_of(fitted.law) == 0) return true;
-    law.place += fitted.shift;
-    law.place_deviation = std::sqrt(inflation * fitted.place_variance);
-    law.site.arc_length = law.place;
-    return law.place > 0 && law.place < chain_.lengths.sum();
+    law.place = law.site.arc_length;
+    const Index terms = fitted.coefficients.size();
+    if (law.site.kind == SiteKind::kPlace && !at_end(law.place, chain_.lengths.sum()))
+      law.place_deviation = std::sqrt(inflation * fitted.covariance(terms, terms));
   }
 
   ForcePaths& paths_;

@@ -159,9 +159,11 @@ const LawGrammar& position_grammar() {
 
 const LawGrammar& distance_grammar() {
   static const LawGrammar kGrammar = [] {
-    Forms forms = {
-        {{TermKind::kInverse}}, {{TermKind::kInverseSquare}}, {{TermKind::kInverseCube}}};
-    add_shapes(forms, TermKind::kUpperStop, {-0.5, 0, 0.5});
+    Forms forms = {{kOne, kX},
+                   {{TermKind::kInverse}},
+                   {{TermKind::kInverseSquare}},
+                   {{TermKind::kInverseCube}}};
+    add_shapes(forms, TermKind::kUpperStop, {0.5, 0.7, 0.8, 0.9});
     return grammar(forms);
   }();
   return kGrammar;

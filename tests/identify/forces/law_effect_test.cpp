@@ -58,7 +58,7 @@ std::vector<MadeLaw> laws_of_all_pairs() {
     visited.push_back(state_of(2, at, -0.5 * at, 2 * at, -3 * at));
   const LawChain chain{lengths_of(2), 2};
   std::vector<MadeLaw> laws;
-  std::set<const void*> grammars;
+  std::set<std::vector<std::vector<int>>> grammars;  // by their forms
   for (const LawSite& site :
        {LawSite{SiteKind::kPlace, kInside}, LawSite{SiteKind::kPlace, kLength},
         LawSite{SiteKind::kJoint, 0, 0}, LawSite{SiteKind::kJoint, 0.5 * kLength, 1},
@@ -66,7 +66,7 @@ std::vector<MadeLaw> laws_of_all_pairs() {
     std::set<std::string> variables;
     for (const CandidateLaw& law : candidates_at(site, chain, visited)) {
       if (!variables.insert(law.variable_name()).second) continue;  // another fixed point
-      const bool every_term = grammars.insert(&law.forms()).second;
+      const bool every_term = grammars.insert(law.forms()).second;
       const bool has_two = std::any_of(law.forms().begin(), law.forms().end(),
                                        [](const auto& form) { return form.size() == 2; });
       std::set<std::string> energies;  // one shape of each kind of term is enough
@@ -74,14 +74,15 @@ std::vector<MadeLaw> laws_of_all_pairs() {
         if (every_term ? form.size() > 1 && form.size() < 4 : form.size() != (has_two ? 2 : 1))
           continue;
         const auto terms = static_cast<Index>(form.size());
+        const Index numbers = law.numbers(form).size();
         MadeLaw made{law, form, VectorXd::LinSpaced(terms, -0.3, -0.5), {}};
         made.found.force = law.force_name();
         made.found.variable = law.variable_name();
         made.found.site = site;
         made.found.place = site.arc_length;
         made.of_any_links = energies.empty() && site.arc_length == kInside;
-        made.found.formula =
-            law.formula(form, made.coefficients, 1e-4 * MatrixXd::Identity(terms, terms));
+        made.found.formula = law.formula(
+            form, made.coefficients, 1e-4 * MatrixXd::Identity(terms + numbers, terms + numbers));
         if (!energies.insert(made.found.formula.energy).second) continue;
         laws.push_back(std::move(made));
         if (!every_term) break;
@@ -138,8 +139,11 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
       if (!std::isfinite(plain[i])) plain[i] = 0.1;
     for (Index k = 0; k < links; ++k)
       plain[model.parameter_index(fmt::format("length_{}", k + 1))] = lengths_of(links)[k];
-    const VectorXd state = state_of(links, 0.3, -0.7, 1.1, -1.8), none = VectorXd::Zero(links);
-    const auto residual = [&](const VectorXd& parameters) {
+    // A one-sided spring acts in one of them at least.
+    const VectorXd states[] = {state_of(links, 0.3, -0.7, 1.1, -1.8),
+                               state_of(links, -1, 0.45, 0.7, 0.9)};
+    const VectorXd none = VectorXd::Zero(links);
+    const auto residual = [&](const VectorXd& state, const VectorXd& parameters) {
       VectorXd r(links);
       model.residual(
           {0, state.data(), state.data() + links, none.data(), nullptr, nullptr, parameters.data()},
@@ -155,11 +159,15 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
       for (const CandidateLaw::Constant& constant : made.found.formula.constants)
         if (constant.amplitude)
           with[model.parameter_index(fmt::format("law_{}.{}", i, constant.name))] = constant.value;
-      const VectorXd force = force_of(made, state, links);
+      double largest = 0;
+      for (const VectorXd& state : states)
+        largest = std::max(largest, force_of(made, state, links).norm());
+      REQUIRE(largest > 1e-6);
       // The residual is what is lacking: a force lowers it.
-      const VectorXd change = residual(plain) - residual(with);
-      REQUIRE(force.norm() > 1e-6);
-      CHECK((change - force).norm() < 1e-8 * force.norm());
+      for (const VectorXd& state : states) {
+        const VectorXd change = residual(state, plain) - residual(state, with);
+        CHECK((change - force_of(made, state, links)).norm() < 1e-8 * largest);
+      }
     }
   }
 }

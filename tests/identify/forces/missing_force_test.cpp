@@ -167,6 +167,35 @@ TEST_CASE("the law of drag at a place: along the velocity, with the square of th
   check_constant(found.law->formula.constants[0], 0.1, "N s^2/m^2");
 }
 
+TEST_CASE(
+    "a string to a hook: the hook is found, and a one-sided spring to the side is told as its "
+    "class") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.string = 0.5;  // N/m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  std::vector<ForceLaw> all = found.law->rivals;
+  all.push_back(*found.law);
+  const auto string = std::find_if(all.begin(), all.end(), [](const ForceLaw& law) {
+    return law.variable == "distance from it" && law.formula.constants.front().name == "spring";
+  });
+  REQUIRE(string != all.end());
+  const auto check = [&](std::size_t i, const char* name, double truth) {
+    const CandidateLaw::Constant& constant = string->formula.constants[i];
+    CAPTURE(constant.value);
+    CHECK(constant.name == name);
+    CHECK(std::abs(constant.value - truth) < 3 * constant.deviation);
+    CHECK(constant.deviation < 0.2);
+  };
+  check(0, "spring", hidden.string);
+  check(1, "edge", hidden.string_slack);
+  check(2, "point_side", hidden.string_side);
+  check(3, "point_down", hidden.string_down);
+}
+
 TEST_CASE("a force that follows the velocity and drives it is no law") {
   testing::Film film = short_film();
   film.camera.duration = 4;
