@@ -25,7 +25,7 @@ constexpr double kSpeedFloor = 1e-6;
 /// found; a positive shape changes at most by so much. A fit that goes there has lost its way.
 constexpr double kBound = 1000, kMostShapeChange = 20;
 /// A step of a number, over its size; the least shape that is no edge, in half widths.
-constexpr double kStep = 0.02, kLeastShape = 0.01;
+constexpr double kNumberStep = 0.02, kLeastShape = 0.01;
 constexpr const char* kEdge = "edge";
 /// Fixed points of a distance: in so many directions, so far beyond what the place visits, over the
 /// length of the cable.
@@ -134,12 +134,12 @@ VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
 }
 
 VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
-  VectorXd steps = kStep * numbers(form).cwiseAbs();
-  if (has_point()) steps.segment(has_place(), 2).setConstant(kStep * half_);
+  VectorXd steps = kNumberStep * numbers(form).cwiseAbs();
+  if (has_point()) steps.segment(has_place(), 2).setConstant(kNumberStep * half_);
   Index next = has_place() + 2 * has_point();
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
-    if (shape_name(term) == kEdge) steps[next] = kStep;
+    if (shape_name(term) == kEdge) steps[next] = kNumberStep;
     ++next;
   }
   return steps;
