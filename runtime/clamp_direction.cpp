@@ -11,7 +11,8 @@ namespace catena {
 
 std::string clamp_without_direction(const Model& model, const Eigen::VectorXd& parameters, double t,
                                     const Signals& signals) {
-  if (!model.in_space()) return "";
+  // A table for fits has no internal forces that could tell.
+  if (!model.in_space() || model.table().internal_forces == nullptr) return "";
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
   const Eigen::VectorXd a = Eigen::VectorXd::Zero(model.coordinates());
