@@ -278,7 +278,7 @@ ex Chain::define_variable(const std::string& family, int index, const ex& value)
 
 // A variable of the load. Functions in its value have names; these are variables, too.
 ex Chain::define_shape(const std::string& family, const ex& value) {
-  const ex variable = define_variable(family, kNoIndex, value);
+  ex variable = define_variable(family, kNoIndex, value);
   differentiate_names_in(definitions_[definitions_.number_of(variable)].value);
   return variable;
 }

@@ -380,11 +380,13 @@ void add_path(Chain& chain, const Weights& weights, const std::string& prefix,
   for (size_t i = 1; i <= n; ++i) {
     const int link = static_cast<int>(i);
     for (size_t a = 0; a < block; ++a) {
-      const std::string component = "_" + std::to_string(a);
-      const ex column = definitions.define(prefix + "path_column" + component, link,
+      const auto named = [&](std::string family) {
+        return family.append("_").append(std::to_string(a));
+      };
+      const ex column = definitions.define(named(prefix + "path_column"), link,
                                            by_path.of(chain.residual()[a * n + i - 1]));
       const Basis moved{Basis::kPerturbation, "", link, static_cast<int>(a)};
-      const ex row = definitions.define(prefix + "path_row" + component, link,
+      const ex row = definitions.define(named(prefix + "path_row"), link,
                                         weights.velocity * entry(rate, moved));
       result.upper_row[i][a].push_back(column);
       result.lower_row[i][a].push_back(column);

@@ -90,7 +90,8 @@ TableFamilies table_families(const Description& description) {
       const std::string number = state.at == Place::kPivot ? "_1" : "";
       for (const std::string& component : components_of(state, description))
         table.states.push_back(
-            {{id + state.name + component + number, state.unit}, state.at == Place::kJoint});
+            {{std::string(id).append(state.name).append(component).append(number), state.unit},
+             state.at == Place::kJoint});
     }
     if (effect.held_end.twists()) table.states.push_back({{id + "twist_of_path", "rad"}});
     for (const SignalChannel& signal : effect.signals)

@@ -167,6 +167,7 @@ bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const Candid
                                       const std::vector<int>& other_form) const {
   const auto kinds_of = [](const CandidateLaw& law, const std::vector<int>& of) {
     std::vector<TermKind> kinds;
+    kinds.reserve(of.size());
     for (const int term : of)
       kinds.push_back(law.grammar_.terms[static_cast<std::size_t>(term)].kind);
     return kinds;
@@ -277,6 +278,7 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
       continue;
     }
     std::vector<Vector2d> positions;
+    positions.reserve(visited.size());
     for (const VectorXd& state : visited)
       positions.emplace_back(
           place_kinematics(state, chain.coordinates, chain.lengths, site.arc_length)

@@ -16,7 +16,7 @@ double positive_part(double y) {
 
 #define CATENA_STOP(Y) "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/8"
 
-LawGrammar grammar(std::vector<std::vector<LawTerm>> forms) {
+LawGrammar grammar(const std::vector<std::vector<LawTerm>>& forms) {
   LawGrammar grammar;
   for (const std::vector<LawTerm>& form : forms) {
     std::vector<int>& places = grammar.forms.emplace_back();

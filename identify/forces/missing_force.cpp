@@ -235,6 +235,7 @@ class PlaceSearch {
     };
     while (!joints.empty()) {
       std::vector<ForcePattern> patterns;
+      patterns.reserve(joints.size());
       for (const Index joint : joints) patterns.push_back(moment_pattern(joint, chain_.lengths));
       if (!linearise(std::move(patterns))) return false;
       for (std::size_t i = 0; i < joints.size(); ++i) {

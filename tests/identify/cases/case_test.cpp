@@ -284,8 +284,9 @@ markers = [{name = "knot", side = "x", down = "y", camera = "right_2", load = tr
       {"centre = [960, 540.5]", "", "centre"},
       {"centre = [960, 540.5]", "centre = [960, 540.5]\nfocal_length = 1000", "focal_length"},
   };
-  for (const auto& [right, wrong, rule] : all) {
-    CAPTURE(std::string(wrong));
+  for (const auto& row : all) {
+    const std::string right = std::get<0>(row), wrong = std::get<1>(row), rule = std::get<2>(row);
+    CAPTURE(wrong);
     const std::string message = failure([&] { read(replaced(text, right, wrong)); });
     CHECK_MESSAGE(message.find(rule) != std::string::npos, message);
   }
