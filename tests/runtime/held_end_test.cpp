@@ -32,11 +32,9 @@ using testing::askew;
 using testing::cable;
 using testing::kGravity;
 using testing::run;
+using testing::set;
 using testing::tight;
-
-void set(const Model& model, VectorXd& p, const char* name, double value) {
-  p[model.parameter_index(name)] = value;
-}
+using testing::vector_of;
 
 /// Between the support and (0.7, 0.2, 0.1), where the end swings; m.
 VectorXd swung(const Model& model) {
@@ -67,10 +65,6 @@ VectorXd accelerations(const Model& model, const VectorXd& p, const State& state
       model.acceleration({t, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()},
                          a.data()) == 0);
   return a;
-}
-
-Vector3d vector_of(const VectorXd& all, Eigen::Index links, Eigen::Index i) {
-  return {all[i], all[links + i], all[2 * links + i]};
 }
 
 /// Of all links and the load, kg m/s.

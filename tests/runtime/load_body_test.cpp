@@ -31,11 +31,8 @@ using testing::askew;
 using testing::cable;
 using testing::kGravity;
 using testing::run;
+using testing::set;
 using testing::tight;
-
-void set(const Model& model, VectorXd& p, const char* name, double value) {
-  p[model.parameter_index(name)] = value;
-}
 
 VectorXd accelerations(const Model& model, const VectorXd& p, const State& state) {
   VectorXd a = VectorXd::Zero(model.coordinates());

@@ -20,6 +20,7 @@ using catena::Model;
 using catena::State;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using testing::set;
 
 constexpr double kLength = 760, kDepth = 200, kDensity = 390, kDisplaced = 51;  // m, kg/m
 constexpr double kWeight = (kDensity - kDisplaced) * testing::kGravity;         // N/m, in water
@@ -33,10 +34,6 @@ double sunk() {
     (kFirmness * p * p / size < kWeight ? up : down) = d;
   }
   return up;
-}
-
-void set(const Model& model, VectorXd& p, const char* name, double value) {
-  p[model.parameter_index(name)] = value;
 }
 
 /// A chain from a ship to an anchor at this distance (m), whose lying part is as deep as the anchor. The anchor is

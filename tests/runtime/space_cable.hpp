@@ -34,6 +34,15 @@ inline VectorXd cable(const Model& model, double stiffness, double damping) {
   return p;
 }
 
+inline void set(const Model& model, VectorXd& parameters, const char* name, double value) {
+  parameters[model.parameter_index(name)] = value;
+}
+
+/// Vector i of `links` vectors that are stored by axis, as q and v are.
+inline Eigen::Vector3d vector_of(const VectorXd& all, Eigen::Index links, Eigen::Index i) {
+  return {all[i], all[links + i], all[2 * links + i]};
+}
+
 inline catena::SimulationOptions tight() {
   catena::SimulationOptions options;
   options.relative_tolerance = 1e-11;

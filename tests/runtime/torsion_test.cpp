@@ -30,17 +30,11 @@ using testing::askew;
 using testing::cable;
 using testing::kGravity;
 using testing::run;
+using testing::set;
 using testing::tight;
+using testing::vector_of;
 
 constexpr double kPi = std::numbers::pi;
-
-void set(const Model& model, VectorXd& p, const char* name, double value) {
-  p[model.parameter_index(name)] = value;
-}
-
-Vector3d vector_of(const VectorXd& all, Index links, Index i) {
-  return {all[i], all[links + i], all[2 * links + i]};
-}
 
 /// Both ends are clamped; the far one swings, both turn, and it rolls.
 VectorXd moved(const Model& model) {

@@ -16,6 +16,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/problem/prediction_difference.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
 
@@ -256,13 +257,7 @@ TEST_CASE("derivatives of what cameras see are differences") {
   for (Index j = 0; j < x.size(); ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     CAPTURE(unknown.name);
-    const double step = 1e-5 * (1 + std::abs(x[j]));
-    VectorXd more = x, less = x;
-    more[j] += step;
-    less[j] -= step;
-    const Eigen::MatrixXd difference =
-        (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
-        (2 * step);
+    const Eigen::MatrixXd difference = testing::difference_along(problem, x, j);
     const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
     CHECK(difference.norm() > 1e-4);
     CHECK((found - difference).norm() < 1e-5 * (1e-3 + difference.norm()));

@@ -15,6 +15,7 @@
 #include "identify/problem/initial_state.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
+#include "tests/identify/problem/prediction_difference.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -97,13 +98,7 @@ TEST_CASE("derivatives by the unknowns of a start and by parameters are differen
     REQUIRE_MESSAGE(here.ok(), here.message);
     for (Eigen::Index j = 0; j < x.size(); ++j) {
       CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
-      const double step = 1e-5 * (1 + std::abs(x[j]));
-      VectorXd more = x, less = x;
-      more[j] += step;
-      less[j] -= step;
-      const Eigen::MatrixXd difference =
-          (problem.predict(more, 0, true).simulated - problem.predict(less, 0, true).simulated) /
-          (2 * step);
+      const Eigen::MatrixXd difference = testing::difference_along(problem, x, j);
       const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
       CHECK(difference.norm() > 1e-3);
       CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
