@@ -36,8 +36,8 @@ class Attribution {
       add_scale(chain.inertia[i]);
       add_scale(chain.stiffness[i]);
       add_scale(chain.damping[i]);
-      add_scale(chain.torque[i]);
     }
+    for (std::size_t i = 1; i < chain.torque.size(); ++i) add_scale(chain.torque[i]);
     add_scale(chain.load_mass);
     for (const auto& [name, symbols] : chain.effects)
       for (const ex& symbol : symbols)

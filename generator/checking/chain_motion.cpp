@@ -70,7 +70,7 @@ std::optional<Vector> solved(const std::vector<std::vector<ex>>& mass, const std
 }
 
 GiNaC::exmap moving(GiNaC::exmap values, const ChainSymbols& chain, const Vector& accelerations) {
-  for (int j = 1; j <= chain.links; ++j)
+  for (int j = 1; j <= chain.coordinates(); ++j)
     values[chain.acceleration[as_index(j)]] = accelerations[as_index(j) - 1];
   return values;
 }
@@ -83,11 +83,12 @@ ChainMotion::ChainMotion(const ChainSymbols& chain, const FlatDerivation& model,
     : chain_(chain), seed_(seed) {
   Replacement replaced(given);
   GiNaC::exmap no_accelerations;
-  for (int i = 1; i <= chain.links; ++i) no_accelerations[chain.acceleration[as_index(i)]] = 0;
+  for (int i = 1; i <= chain.coordinates(); ++i)
+    no_accelerations[chain.acceleration[as_index(i)]] = 0;
   Replacement at_rest(no_accelerations);
-  for (int i = 1; i <= chain.links; ++i) {
+  for (int i = 1; i <= chain.coordinates(); ++i) {
     system_.mass.emplace_back();
-    for (int j = 1; j <= chain.links; ++j)
+    for (int j = 1; j <= chain.coordinates(); ++j)
       system_.mass.back().push_back(replaced(total(model.mass(i, j))));
     system_.rest.push_back(at_rest(replaced(total(model.equation(i)))));
   }
@@ -130,7 +131,8 @@ std::optional<bool> ChainMotion::is_obeyed(const ex& h) {
   const std::optional<ex> rational = exact_ ? (*exact_)(h) : std::nullopt;
   if (!rational) return std::nullopt;
   ExactForm::Degrees known;
-  for (int j = 1; j <= chain_.links; ++j) known[chain_.acceleration[as_index(j)]] = solution_;
+  for (int j = 1; j <= chain_.coordinates(); ++j)
+    known[chain_.acceleration[as_index(j)]] = solution_;
   const std::optional<int> bits = bits_for(exact_->degree(*rational, known));
   if (!bits) return std::nullopt;
   std::optional<Evaluation>& here = point(*bits);
@@ -160,7 +162,7 @@ std::map<int, numeric> ChainMotion::factors(const Vector& slope, const GiNaC::ex
   std::map<int, numeric> result;
   const std::optional<std::vector<Vector>> mass = values_of(system_.mass, evaluate);
   const std::optional<Vector> f = mass ? solution(*mass, slope) : std::nullopt;
-  for (int j = 1; f && j <= chain_.links; ++j)
+  for (int j = 1; f && j <= chain_.coordinates(); ++j)
     if (GiNaC::abs((*f)[as_index(j) - 1]) > closeness()) result[j] = (*f)[as_index(j) - 1];
   return result;
 }
@@ -168,7 +170,7 @@ std::map<int, numeric> ChainMotion::factors(const Vector& slope, const GiNaC::ex
 std::optional<Vector> acceleration_factors(const ex& h, const ChainSymbols& chain,
                                            const GiNaC::exmap& values) {
   GiNaC::exmap numbers = values;
-  for (int j = 1; j <= chain.links; ++j) numbers.erase(chain.acceleration[as_index(j)]);
+  for (int j = 1; j <= chain.coordinates(); ++j) numbers.erase(chain.acceleration[as_index(j)]);
   Evaluation evaluate(numbers);
   for (const ex& part : transcendental_parts({h})) {
     const std::optional<numeric> value = evaluate(part);
@@ -178,7 +180,7 @@ std::optional<Vector> acceleration_factors(const ex& h, const ChainSymbols& chai
   try {
     const ex left = Replacement(numbers)(h).expand();  // only accelerations
     Vector result;
-    for (int j = 1; j <= chain.links; ++j) {
+    for (int j = 1; j <= chain.coordinates(); ++j) {
       const ex factor =
           left.diff(GiNaC::ex_to<GiNaC::symbol>(chain.acceleration[as_index(j)])).evalf();
       if (!GiNaC::is_a<numeric>(factor)) return std::nullopt;

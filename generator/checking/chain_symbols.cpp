@@ -83,8 +83,9 @@ class TimeDerivative {
 
 }  // namespace
 
-ChainSymbols::ChainSymbols(int number_of_links, const std::vector<Effect>& added)
+ChainSymbols::ChainSymbols(int number_of_links, const std::vector<Effect>& added, Space in)
     : links(number_of_links),
+      space(in),
       angle(family("theta", links)),
       rate(family("thetadot", links)),
       acceleration(family("thetaddot", links)),
@@ -93,9 +94,22 @@ ChainSymbols::ChainSymbols(int number_of_links, const std::vector<Effect>& added
       inertia(positive_family("I", links)),
       stiffness(positive_family("k", links)),
       damping(positive_family("c", links)),
-      torque(family("T", links)),
+      torque(family("T", in == Space::kPlane ? links : 2 * links)),
       load_mass(GiNaC::possymbol("m_c")),
       gravity(GiNaC::possymbol("g")) {
+  direction.resize(angle.size());
+  direction[0] = {0, 1, 0};
+  if (space == Space::kPlane) {
+    for (std::size_t i = 1; i < angle.size(); ++i)
+      direction[i] = {GiNaC::sin(angle[i]), GiNaC::cos(angle[i]), 0};
+  } else {
+    const auto append = [](std::vector<GiNaC::ex>& to, const std::vector<GiNaC::ex>& azimuths) {
+      to.insert(to.end(), azimuths.begin() + 1, azimuths.end());
+    };
+    append(angle, azimuth = family("phi", links));
+    append(rate, azimuth_rate = family("phidot", links));
+    append(acceleration, azimuth_acceleration = family("phiddot", links));
+  }
   for (std::size_t i = 1; i < angle.size(); ++i) {
     derivative_[angle[i]] = rate[i];
     derivative_[rate[i]] = acceleration[i];

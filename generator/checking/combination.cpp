@@ -26,7 +26,7 @@ ex minor(const GiNaC::matrix& m, unsigned row, unsigned column) {
 /// det(M) h = sum_j (adj(M) A)_j r_j, A_j = dh/dthetaddot_j.
 Combination from_accelerations(const ex& hand, const ChainSymbols& chain,
                                const FlatDerivation& model) {
-  const auto n = static_cast<unsigned>(chain.links);
+  const auto n = static_cast<unsigned>(chain.coordinates());
   GiNaC::matrix mass(n, n);
   for (unsigned i = 0; i < n; ++i)
     for (unsigned j = 0; j < n; ++j)
@@ -52,8 +52,9 @@ std::vector<Combination> possible_combinations(const ex& hand, const ChainSymbol
                                                const FlatDerivation& model) {
   Combination by_torque, by_inertia, by_damping, by_stiffness;
   ex damping_sum = 0, stiffness_sum = 0;
-  for (int j = 1; j <= chain.links; ++j) {
+  for (int j = 1; j <= chain.coordinates(); ++j)
     set(by_torque, j, -derivative(hand, chain.torque[as_index(j)]));
+  for (int j = 1; j <= chain.links; ++j) {
     set(by_inertia, j,
         derivative(derivative(hand, chain.inertia[as_index(j)]), chain.acceleration[as_index(j)]));
     damping_sum +=
@@ -64,7 +65,8 @@ std::vector<Combination> possible_combinations(const ex& hand, const ChainSymbol
     set(by_stiffness, j, stiffness_sum);
   }
   std::vector<Combination> result{by_torque, by_inertia, by_damping, by_stiffness};
-  if (chain.links <= kMostSolvedLinks) result.push_back(from_accelerations(hand, chain, model));
+  if (chain.coordinates() <= kMostSolvedLinks)
+    result.push_back(from_accelerations(hand, chain, model));
   std::erase_if(result, [](const Combination& combination) { return combination.factors.empty(); });
   return result;
 }

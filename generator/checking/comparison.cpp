@@ -307,7 +307,7 @@ class Comparison {
   /// The k for which h = 0 reads thetaddot_k = ... with no other acceleration; 0 if there is none,
   /// or none other.
   int solved_for(const ex& hand) const {
-    if (derivation_.chain->links == 1) return 0;
+    if (derivation_.chain->coordinates() == 1) return 0;
     const std::optional<ChainMotion::Vector> factors =
         acceleration_factors(hand, *derivation_.chain, common_state().values);
     int result = 0;
@@ -538,12 +538,12 @@ std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed) {
   return result;
 }
 
-int independent_equations(const std::vector<Finding>& findings, int links) {
+int independent_equations(const std::vector<Finding>& findings, int coordinates) {
   std::vector<std::vector<numeric>> rows;  // in echelon form, each with its pivot
   std::vector<std::size_t> pivots;
   for (const Finding& finding : findings) {
     if (finding.combination.empty()) continue;
-    std::vector<numeric> row(static_cast<std::size_t>(links) + 1);
+    std::vector<numeric> row(static_cast<std::size_t>(coordinates) + 1);
     for (const auto& [number, factor] : finding.combination)
       row[static_cast<std::size_t>(number)] = factor;
     for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -38,6 +38,6 @@ struct Finding {
 std::vector<Finding> compare(const Derivation& derivation, std::uint64_t seed);
 
 /// How many of the equations that hold are independent of one another, at a random state.
-int independent_equations(const std::vector<Finding>& findings, int links);
+int independent_equations(const std::vector<Finding>& findings, int coordinates);
 
 }  // namespace catena::checking

@@ -8,6 +8,7 @@
 #include "common/most_links.hpp"
 #include "generator/checking/budget.hpp"
 #include "generator/checking/expression_evaluator.hpp"
+#include "generator/checking/normal_form.hpp"
 #include "generator/checking/scope.hpp"
 
 namespace catena::checking {
@@ -40,6 +41,7 @@ class Evaluator {
     scope_.fail(at, message);
   }
   [[nodiscard]] int links() const { return scope_.links(); }
+  [[nodiscard]] int coordinates() const { return scope_.coordinates(); }
   [[nodiscard]] bool scalar() const { return !scope_.free_symbols.empty(); }
 
   // ---- statements ----
@@ -105,7 +107,51 @@ class Evaluator {
     if (number < 1 || number > kMostLinks)
       fail(statement.at, "links = " + std::to_string(number) + "; must be from 1 to " +
                              std::to_string(kMostLinks));
-    scope_.chain = std::make_unique<ChainSymbols>(number, result_.effects);
+    const bool in_space = !statement.names.empty();
+    if (in_space && !result_.effects.empty())
+      fail(statement.at, "derivations with effects are compared in the plane only");
+    scope_.chain = std::make_unique<ChainSymbols>(
+        number, result_.effects, in_space ? Space::kThreeDimensional : Space::kPlane);
+    if (in_space) store_direction(0, statement.at);
+  }
+
+  [[nodiscard]] bool is_direction(const Reference& reference) const {
+    return scope_.chain && scope_.chain->space == Space::kThreeDimensional && reference.name == "q";
+  }
+
+  /// q[i,1], q[i,2], q[i,3] are the components of the unit vector of link i.
+  void store_direction(int link, Location at) {
+    for (int axis = 0; axis < 3; ++axis)
+      store({"q", {link, axis + 1}},
+            scope_.chain->direction[static_cast<std::size_t>(link)][static_cast<std::size_t>(axis)],
+            at);
+  }
+
+  /// q_i = [side, down, across]: what the angles of link i mean.
+  void assign_direction(const Reference& reference, const Expression& target,
+                        const Expression& value) {
+    if (reference.indices.size() != 1)
+      fail(target.at, "q has one index: q_i is the unit vector of link i");
+    const int link = reference.indices[0];
+    expressions_.check_range(target.at, reference, link, 1, links());
+    if (value.kind != Expression::Kind::kMatrix || value.children.size() != 1 ||
+        value.children[0].children.size() != 3)
+      fail(value.at, "the unit vector of a link is written [side, down, across]");
+    std::vector<ex>& direction = scope_.chain->direction[static_cast<std::size_t>(link)];
+    if (!direction.empty()) fail(target.at, reference.text() + " is set twice");
+    ex square = 0;
+    for (const Expression& component : value.children[0].children) {
+      direction.push_back(expressions_.value(component));
+      square += GiNaC::pow(direction.back(), 2);
+      for (const auto* moving : {&scope_.chain->rate, &scope_.chain->acceleration})
+        if (std::any_of(moving->begin() + 1, moving->end(),
+                        [&](const ex& symbol) { return direction.back().has(symbol); }))
+          fail(component.at, "the unit vector of a link contains a rate or an acceleration");
+    }
+    NormalForm form({square});
+    if (!form(square - 1).numerator.is_zero())
+      fail(value.at, reference.text() + " is no unit vector: its square is not proved to be 1");
+    store_direction(link, target.at);
   }
 
   void declare(const Statement& statement) {
@@ -157,6 +203,7 @@ class Evaluator {
     const Reference reference = expressions_.resolve(target);
     if (scope_.chain && reference.name == "thetaddot" && reference.indices.size() == 1)
       return solved_equation(reference, target, value);
+    if (is_direction(reference)) return assign_direction(reference, target, value);
     check_assignable(target, reference);
     if (value.kind == Expression::Kind::kMatrix) return assign_matrix(reference, value);
     const Target* known = scope_.chain ? target_named(reference.name) : nullptr;
@@ -168,7 +215,7 @@ class Evaluator {
                                   (known->indices == 1 ? " index" : " indices") +
                                   ", or a whole matrix in [ ]");
       for (const int index : reference.indices)
-        expressions_.check_range(target.at, reference, index, 1);
+        expressions_.check_range(target.at, reference, index, 1, coordinates());
     }
     store(reference, expressions_.value(value), statement.at);
   }
@@ -177,7 +224,7 @@ class Evaluator {
   void solved_equation(const Reference& reference, const Expression& target,
                        const Expression& value) {
     const int number = reference.indices[0];
-    expressions_.check_range(target.at, reference, number, 1);
+    expressions_.check_range(target.at, reference, number, 1, links());
     stated_.push_back({Quantity::kEquation,
                        number,
                        0,
@@ -195,7 +242,7 @@ class Evaluator {
     const bool parameter =
         scope_.chain &&
         (name == "m_c" || name == "g" || name == "n" ||
-         (families().count(name) != 0 && !(name == "T" && reference.indices.empty())) ||
+         (is_family(name, *scope_.chain) && !(name == "T" && reference.indices.empty())) ||
          scope_.chain->effects.contains(name));
     if (parameter && name == "I" && reference.indices.size() == 2)
       fail(target.at, "the mass matrix is called M; I_i is the inertia of link i");
@@ -213,22 +260,23 @@ class Evaluator {
     if (known == nullptr || known->indices == 0 || !reference.indices.empty())
       fail(matrix.at, "only M, C, K, F and G can be given whole");
     std::vector<const Expression*> flat;
-    bool square = matrix.children.size() == static_cast<std::size_t>(links());
+    const auto size = static_cast<std::size_t>(coordinates());
+    bool square = matrix.children.size() == size;
     for (const Expression& row : matrix.children) {
-      square = square && row.children.size() == static_cast<std::size_t>(links());
+      square = square && row.children.size() == size;
       for (const Expression& entry : row.children) flat.push_back(&entry);
     }
-    const bool vector = flat.size() == static_cast<std::size_t>(links()) &&
+    const bool vector = flat.size() == size &&
                         (matrix.children.size() == 1 || matrix.children.size() == flat.size());
     if (known->indices == 2 ? !square : !vector)
       fail(matrix.at,
            reference.name + " has " + std::to_string(matrix.children.size()) + " rows and " +
-               std::to_string(flat.size()) + " entries; expected " + std::to_string(links()) +
+               std::to_string(flat.size()) + " entries; expected " + std::to_string(size) +
                (known->indices == 2 ? " rows of as many entries (rows end with ;)" : " entries"));
     for (std::size_t index = 0; index < flat.size(); ++index) {
-      const int row = static_cast<int>(index) / (known->indices == 2 ? links() : 1) + 1;
+      const int row = static_cast<int>(index) / (known->indices == 2 ? coordinates() : 1) + 1;
       Reference entry{reference.name, {row}};
-      if (known->indices == 2) entry.indices.push_back(static_cast<int>(index) % links() + 1);
+      if (known->indices == 2) entry.indices.push_back(static_cast<int>(index) % coordinates() + 1);
       store(entry, expressions_.value(*flat[index]), flat[index]->at);
     }
   }
@@ -243,9 +291,10 @@ class Evaluator {
   void equation(const Statement& statement) {
     if (!scope_.chain) fail(statement.at, "equations of motion belong to a chain; set links first");
     const int number = expressions_.integer(statement.expressions[0], "the number of the equation");
-    if (number < 1 || number > links())
+    if (number < 1 || number > coordinates())
       fail(statement.at, "equation " + std::to_string(number) + ": there are " +
-                             std::to_string(links()) + " links");
+                             std::to_string(links()) + " links" +
+                             (coordinates() > links() ? " with two angles each" : ""));
     stated_.push_back({Quantity::kEquation,
                        number,
                        0,
@@ -289,6 +338,12 @@ class Evaluator {
 
   void collect() {
     if (scope_.chain) {
+      for (std::size_t i = 0; i < scope_.chain->direction.size(); ++i)
+        if (scope_.chain->direction[i].empty())
+          throw InputError(
+              scope_.file + ": error: q_" + std::to_string(i) +
+              " is not set; say what the angles mean by q_i = [side, down, across] for "
+              "i = 1..n");
       for (const Target& target : kTargets) {
         for (const auto& [reference, stored] : scope_.values) {
           if (reference.name != target.name) continue;

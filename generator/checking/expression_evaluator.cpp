@@ -62,10 +62,10 @@ Reference ExpressionEvaluator::resolve(const Expression& name) {
 }
 
 void ExpressionEvaluator::check_range(Location at, const Reference& reference, int index,
-                                      int lowest) const {
-  if (index < lowest || index > links())
+                                      int lowest, int highest) const {
+  if (index < lowest || index > highest)
     fail(at, reference.text() + ": the index " + std::to_string(index) + " is not in " +
-                 std::to_string(lowest) + ".." + std::to_string(links()) + " (there are " +
+                 std::to_string(lowest) + ".." + std::to_string(highest) + " (there are " +
                  std::to_string(links()) + " links)");
 }
 
@@ -88,13 +88,14 @@ ex ExpressionEvaluator::read(const Expression& name) {
   } else if (scope_.chain) {
     const auto effect = scope_.chain->effects.find(reference.name);
     if (effect != scope_.chain->effects.end() && reference.indices.size() == 1) {
-      check_range(name.at, reference, reference.indices[0], 1);
+      check_range(name.at, reference, reference.indices[0], 1, links());
       if (effect->second.size() == 1)
         fail(name.at, "'" + reference.name + "' has no index; there is one for all links");
       return effect->second[static_cast<std::size_t>(reference.indices[0])];
     }
     const auto family = families().find(reference.name);
-    if (family != families().end()) return family_member(name.at, reference, family->second);
+    if (is_family(reference.name, *scope_.chain))
+      return family_member(name.at, reference, family->second);
   }
   const auto stored = scope_.values.find(reference);
   if (stored != scope_.values.end()) return stored->second.value;
@@ -106,8 +107,10 @@ ex ExpressionEvaluator::family_member(Location at, const Reference& reference,
   if (reference.indices.size() != 1)
     fail(at, reference.text() + ": expected one index" +
                  (reference.name == "I" ? "; the mass matrix is called M" : ""));
-  const bool state = reference.name.rfind("theta", 0) == 0;  // theta_0 = 0, as in (2.9)
-  check_range(at, reference, reference.indices[0], state ? 0 : 1);
+  const bool state = reference.name.rfind("theta", 0) == 0 ||  // theta_0 = 0, as in (2.9)
+                     reference.name.rfind("phi", 0) == 0;
+  check_range(at, reference, reference.indices[0], state ? 0 : 1,
+              reference.name == "T" ? coordinates() : links());
   return ((*scope_.chain).*family)[static_cast<std::size_t>(reference.indices[0])];
 }
 
@@ -115,7 +118,7 @@ ex ExpressionEvaluator::family_member(Location at, const Reference& reference,
 ex ExpressionEvaluator::unset(Location at, const Reference& reference) {
   const Target* target = scope_.chain ? target_named(reference.name) : nullptr;
   if (target != nullptr && target->indices > 0 && target->indices == reference.indices.size()) {
-    for (const int index : reference.indices) check_range(at, reference, index, 1);
+    for (const int index : reference.indices) check_range(at, reference, index, 1, coordinates());
     if (scope_.noted.insert({at.line, at.column}).second)
       scope_.notes.push_back("line " + std::to_string(at.line) + ": " + reference.text() +
                              " is read before it is set; unset entries are taken as 0");
@@ -125,7 +128,7 @@ ex ExpressionEvaluator::unset(Location at, const Reference& reference) {
     fail(at,
          "expected entries such as " + reference.name + (target->indices == 2 ? "[1,2]" : "[1]"));
   if (scope_.chain &&
-      (families().contains(reference.name) || scope_.chain->effects.contains(reference.name)))
+      (is_family(reference.name, *scope_.chain) || scope_.chain->effects.contains(reference.name)))
     fail(at, "'" + reference.name + "' needs an index, as in " + reference.name + "_1");
   for (const auto& [known, stored] : scope_.values)
     if (known.name == reference.name)
@@ -282,7 +285,8 @@ ex ExpressionEvaluator::call(const Expression& call) {
                         GiNaC::subs_options::no_pattern);
   }
   // M(i,j) is M[i,j], as the dissertation writes it.
-  const bool known = scope_.chain && (target_named(name) != nullptr || families().count(name) != 0);
+  const bool known =
+      scope_.chain && (target_named(name) != nullptr || is_family(name, *scope_.chain));
   const bool assigned = std::any_of(
       scope_.values.begin(), scope_.values.end(),
       [&](const auto& value) { return value.first.name == name && !value.first.indices.empty(); });

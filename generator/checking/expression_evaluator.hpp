@@ -28,8 +28,9 @@ class ExpressionEvaluator {
   Reference resolve(const Expression& name);
   /// The value of a name.
   GiNaC::ex read(const Expression& name);
-  /// Fails unless lowest <= index <= links.
-  void check_range(Location at, const Reference& reference, int index, int lowest) const;
+  /// Fails unless lowest <= index <= highest, the number of links or of coordinates.
+  void check_range(Location at, const Reference& reference, int index, int lowest,
+                   int highest) const;
 
   /// Runs `body` with the index bound to each number of a range for which the condition, if there
   /// is one, holds.
@@ -41,6 +42,7 @@ class ExpressionEvaluator {
     scope_.fail(at, message);
   }
   [[nodiscard]] int links() const { return scope_.links(); }
+  [[nodiscard]] int coordinates() const { return scope_.coordinates(); }
 
   [[nodiscard]] GiNaC::ex family_member(Location at, const Reference& reference,
                                         Family family) const;

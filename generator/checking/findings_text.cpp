@@ -58,7 +58,7 @@ std::string paragraph(const Entry& entry, const Finding& finding, std::size_t wi
 /// Remarks on a whole matrix.
 std::string matrix_remarks(const Derivation& derivation, const std::vector<Finding>& findings,
                            Quantity quantity) {
-  const int n = derivation.chain->links;
+  const int n = derivation.chain->coordinates();
   std::map<std::pair<int, int>, const Entry*> entries;
   bool different = false;
   for (std::size_t i = 0; i < findings.size(); ++i) {
@@ -85,7 +85,10 @@ std::string matrix_remarks(const Derivation& derivation, const std::vector<Findi
   }
   if (diagonal)
     text += name + " comes out diagonal; the chain's is " +
-            (quantity == Quantity::kMass ? "full" : "tridiagonal") + "\n";
+            (quantity == Quantity::kMass                           ? "full"
+             : derivation.chain->space == Space::kThreeDimensional ? "tridiagonal in each block"
+                                                                   : "tridiagonal") +
+            "\n";
   if (!mirrored) text += name + " is not symmetric as written; the chain's is\n";
   return text;
 }
@@ -95,12 +98,12 @@ std::string equations_remark(const Derivation& derivation, const std::vector<Fin
   const auto hold = std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
     return !finding.combination.empty();
   });
-  const int links = derivation.chain->links;
-  const int independent = independent_equations(findings, links);
-  if (hold < links || independent == links) return "";
+  const int coordinates = derivation.chain->coordinates();
+  const int independent = independent_equations(findings, coordinates);
+  if (hold < coordinates || independent == coordinates) return "";
   return "of the " + std::to_string(hold) + " equations that hold " + std::to_string(independent) +
          (independent == 1 ? " is" : " are") + " independent; the motion needs " +
-         std::to_string(links) + "\n";
+         std::to_string(coordinates) + "\n";
 }
 
 }  // namespace
@@ -111,6 +114,7 @@ std::string findings_text(const std::string& file, const Derivation& derivation,
   if (derivation.chain) {
     text += ": " + std::to_string(derivation.chain->links) +
             (derivation.chain->links == 1 ? " link" : " links");
+    if (derivation.chain->space == Space::kThreeDimensional) text += " in space";
     for (std::size_t i = 0; i < derivation.effects.size(); ++i)
       text += (i == 0 ? ", with " : " and ") + derivation.effects[i].id;
   }

@@ -2,6 +2,7 @@
 #include "generator/checking/flat_derivation.hpp"
 
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 namespace catena::checking {
@@ -24,6 +25,14 @@ Contributions each(const Contributions& parts, const std::function<ex(const ex&)
   return result;
 }
 
+ex dot(const std::vector<ex>& a, const std::vector<ex>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+std::vector<ex> cross(const std::vector<ex>& a, const std::vector<ex>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 }  // namespace
 
 ex total(const Contributions& parts) {
@@ -36,36 +45,51 @@ FlatDerivation::FlatDerivation(const ChainSymbols& symbols, EffectParts effects)
     : symbols_(symbols), effects_(std::move(effects)) {
   effects_.equation.resize(symbols.angle.size());
   const ex half = GiNaC::numeric(1, 2);
-  ex joint_down = 0, joint_side = 0, joint_height = 0;  // the joint above the link
-  const auto kinetic_energy = [&](const ex& mass, const ex& down, const ex& side) {
-    return half * mass *
-           (GiNaC::pow(symbols.time_derivative(down), 2) +
-            GiNaC::pow(symbols.time_derivative(side), 2));
+  const bool in_plane = symbols.space == Space::kPlane;
+  std::vector<ex> joint(3);  // where the joint above the link is
+  ex joint_height = 0;
+  const auto velocity = [&](const std::vector<ex>& position) {
+    std::vector<ex> result;
+    for (const ex& component : position) result.push_back(symbols.time_derivative(component));
+    return result;
   };
-  for (std::size_t k = 1; k < symbols.angle.size(); ++k) {
+  const auto moved = [](std::vector<ex> from, const ex& distance, const std::vector<ex>& along) {
+    for (std::size_t axis = 0; axis < 3; ++axis) from[axis] += distance * along[axis];
+    return from;
+  };
+  const auto kinetic_energy = [&](const ex& mass, const std::vector<ex>& position) {
+    const std::vector<ex> v = velocity(position);
+    return half * mass * dot(v, v);
+  };
+  for (std::size_t k = 1; k < symbols.length.size(); ++k) {
     const std::string index = std::to_string(k);
-    const ex& theta = symbols.angle[k];
+    const std::vector<ex>& q = symbols.direction[k];
+    const std::vector<ex>& above = symbols.direction[k - 1];
     const ex& l = symbols.length[k];
     const ex& m = symbols.mass[k];
-    const ex down = joint_down + l / 2 * GiNaC::cos(theta);            // (2.24)
-    const ex side = joint_side + l / 2 * GiNaC::sin(theta);            // (2.24)
-    const ex height = joint_height + l / 2 * (1 - GiNaC::cos(theta));  // (2.7)
-    kinetic_.push_back({"kinetic energy of link " + index, kinetic_energy(m, down, side)});
+    const ex height = joint_height + l / 2 * (1 - q[1]);  // (2.7)
+    kinetic_.push_back(                                   // (2.24)
+        {"kinetic energy of link " + index, kinetic_energy(m, moved(joint, l / 2, q))});
+    const std::vector<ex> rate = velocity(q), rate_above = velocity(above);
     kinetic_.push_back({"rotational energy of link " + index,
-                        half * symbols.inertia[k] * GiNaC::pow(symbols.rate[k], 2)});
+                        half * symbols.inertia[k] *
+                            (in_plane ? GiNaC::pow(symbols.rate[k], 2) : dot(rate, rate))});
     gravity_potential_.push_back({"gravity of link " + index, m * symbols.gravity * height});
+    const ex bend =
+        in_plane ? ex(symbols.angle[k] - symbols.angle[k - 1]) : ex(GiNaC::acos(dot(above, q)));
     elastic_potential_.push_back(
-        {"spring of joint " + index,
-         half * symbols.stiffness[k] * GiNaC::pow(theta - symbols.angle[k - 1], 2)});
+        {"spring of joint " + index, half * symbols.stiffness[k] * GiNaC::pow(bend, 2)});
+    elastic_at_plumb_.push_back(
+        {"spring of joint " + index, symbols.stiffness[k] * (1 - dot(above, q))});
+    std::vector<ex> turning{symbols.rate[k] - symbols.rate[k - 1], 0, 0};
+    if (!in_plane) turning = moved(cross(q, rate), -1, cross(above, rate_above));
     dissipation_.push_back(
-        {"damper of joint " + index,
-         half * symbols.damping[k] * GiNaC::pow(symbols.rate[k] - symbols.rate[k - 1], 2)});
-    joint_down += l * GiNaC::cos(theta);
-    joint_side += l * GiNaC::sin(theta);
-    joint_height += l * (1 - GiNaC::cos(theta));
+        {"damper of joint " + index, half * symbols.damping[k] * dot(turning, turning)});
+    joint = moved(joint, l, q);
+    joint_height += l * (1 - q[1]);
   }
   kinetic_.push_back(  // (2.25): the load sits at the end of the last link
-      {"kinetic energy of the load", kinetic_energy(symbols.load_mass, joint_down, joint_side)});
+      {"kinetic energy of the load", kinetic_energy(symbols.load_mass, joint)});
   gravity_potential_.push_back(
       {"gravity of the load", symbols.load_mass * symbols.gravity * joint_height});
 }
@@ -110,17 +134,34 @@ const Contributions& FlatDerivation::momentum(int i) const {
 }
 
 Contributions FlatDerivation::damping(int i, int j) const {
-  return each(dissipation_, [&](const ex& part) {
+  return at_plumb(each(dissipation_, [&](const ex& part) {
     return derivative(derivative(part, symbols_.rate[static_cast<std::size_t>(i)]),
                       symbols_.rate[static_cast<std::size_t>(j)]);
-  });
+  }));
 }
 
 Contributions FlatDerivation::stiffness(int i, int j) const {
-  return each(elastic_potential_, [&](const ex& part) {
+  const bool in_plane = symbols_.space == Space::kPlane;
+  return at_plumb(each(in_plane ? elastic_potential_ : elastic_at_plumb_, [&](const ex& part) {
     return derivative(derivative(part, symbols_.angle[static_cast<std::size_t>(i)]),
                       symbols_.angle[static_cast<std::size_t>(j)]);
-  });
+  }));
+}
+
+Contributions FlatDerivation::at_plumb(const Contributions& parts) const {
+  if (symbols_.space == Space::kPlane) return parts;  // C and K of the plane hold no angles
+  GiNaC::exmap plumb;
+  for (std::size_t i = 1; i < symbols_.angle.size(); ++i) plumb[symbols_.angle[i]] = 0;
+  const auto there = [&](const ex& value) {
+    return value.subs(plumb, GiNaC::subs_options::no_pattern);
+  };
+  for (const std::vector<ex>& q : symbols_.direction)
+    if (there(q[0]) != 0 || there(q[1]) != 1 || there(q[2]) != 0)
+      throw std::domain_error(
+          "C and K are those of small motions about the plumb cable, but where all angles are zero "
+          "the "
+          "links do not point down");
+  return each(parts, there);
 }
 
 Contributions FlatDerivation::coriolis(int i) const {

@@ -12,16 +12,25 @@ const Target* target_named(const std::string& name) {
 }
 
 const std::map<std::string, Family>& families() {
-  static const std::map<std::string, Family> table = {{"theta", &ChainSymbols::angle},
-                                                      {"thetadot", &ChainSymbols::rate},
-                                                      {"thetaddot", &ChainSymbols::acceleration},
-                                                      {"l", &ChainSymbols::length},
-                                                      {"m", &ChainSymbols::mass},
-                                                      {"I", &ChainSymbols::inertia},
-                                                      {"k", &ChainSymbols::stiffness},
-                                                      {"c", &ChainSymbols::damping},
-                                                      {"T", &ChainSymbols::torque}};
+  static const std::map<std::string, Family> table = {
+      {"theta", &ChainSymbols::angle},
+      {"thetadot", &ChainSymbols::rate},
+      {"thetaddot", &ChainSymbols::acceleration},
+      {"phi", &ChainSymbols::azimuth},
+      {"phidot", &ChainSymbols::azimuth_rate},
+      {"phiddot", &ChainSymbols::azimuth_acceleration},
+      {"l", &ChainSymbols::length},
+      {"m", &ChainSymbols::mass},
+      {"I", &ChainSymbols::inertia},
+      {"k", &ChainSymbols::stiffness},
+      {"c", &ChainSymbols::damping},
+      {"T", &ChainSymbols::torque}};
   return table;
+}
+
+bool is_family(const std::string& name, const ChainSymbols& chain) {
+  const auto found = families().find(name);
+  return found != families().end() && !(chain.*(found->second)).empty();
 }
 
 const std::map<std::string, Function>& functions() {

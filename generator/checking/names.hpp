@@ -38,6 +38,9 @@ const Target* target_named(const std::string& name);
 using Family = std::vector<GiNaC::ex> ChainSymbols::*;
 const std::map<std::string, Family>& families();
 
+/// Whether this chain has symbols of that name: the plane has no phi.
+bool is_family(const std::string& name, const ChainSymbols& chain);
+
 /// sin, exp, ...: the functions of one argument.
 using Function = GiNaC::ex (*)(const GiNaC::ex&);
 const std::map<std::string, Function>& functions();

@@ -107,7 +107,10 @@ class Parser {
     const Location at = next().at;
     if (accept("links")) {
       accept("=");
-      return simple(Statement::Kind::kLinks, at, {}, one(expression()));
+      std::vector<Expression> number = one(expression());
+      if (!accept("in")) return simple(Statement::Kind::kLinks, at, {}, std::move(number));
+      expect("space", "'space', as in 'links 3 in space'");
+      return simple(Statement::Kind::kLinks, at, {"space"}, std::move(number));
     }
     if (accept("symbols")) return simple(Statement::Kind::kSymbols, at, names(), {});
     if (accept("positive")) return simple(Statement::Kind::kPositive, at, names(), {});

@@ -32,6 +32,7 @@ struct Scope {
   std::set<std::pair<int, int>> noted;            ///< places (line, column) that have their note
 
   [[nodiscard]] int links() const { return chain ? chain->links : 0; }
+  [[nodiscard]] int coordinates() const { return chain ? chain->coordinates() : 0; }
   [[noreturn]] void fail(Location at, const std::string& message) const {
     throw error_at(file, at, message);
   }

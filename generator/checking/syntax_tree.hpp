@@ -37,7 +37,7 @@ struct Expression {
 /// One statement of a derivation as written.
 struct Statement {
   enum class Kind {
-    kLinks,      ///< expressions: the number of links
+    kLinks,      ///< expressions: the number of links; names: "space", or nothing for the plane
     kSymbols,    ///< names: free symbols of a scalar derivation
     kPositive,   ///< names: symbols that stand for positive numbers
     kSymmetric,  ///< names: matrices whose unwritten entries are mirrored

@@ -39,6 +39,7 @@ const std::vector<Row>& rows() {
                                          {"accelerations_by_cofactors.txt", 4, 0, 0},
                                          {"accelerations_by_elimination.txt", 4, 0, 0},
                                          {"air_drag.txt", 7, 0, 0, {"air_drag_linear"}},
+                                         {"elevation_azimuth_4_1.txt", 128, 0, 0},
                                          {"lagrangian_2_9.txt", 0, 1, 0},
                                          {"lagrangian_2_9_mended.txt", 7, 0, 0},
                                          {"catenary_2_32_2_33.txt", 1, 1, 0},
