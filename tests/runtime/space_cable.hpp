@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,14 @@ inline VectorXd cable(const Model& model, double stiffness, double damping) {
 
 inline void set(const Model& model, VectorXd& parameters, const char* name, double value) {
   parameters[model.parameter_index(name)] = value;
+}
+
+/// The vector turned as the shortest turn of the unit vector `from` to `to` turns it. (Reading Eigen's
+/// Quaterniond::FromTwoVectors takes ten seconds: it has a singular value decomposition.)
+inline Eigen::Vector3d carried(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                               const Eigen::Vector3d& vector) {
+  const Eigen::Vector3d axis = from.cross(to), first = axis.cross(vector);
+  return vector + first + axis.cross(first) / (1 + from.dot(to));
 }
 
 /// Vector i of `links` vectors that are stored by axis, as q and v are.

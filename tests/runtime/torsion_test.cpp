@@ -3,13 +3,11 @@
 // Twisted cables between two clamps: against geometry, balances, Michell's ring, and their own derivatives.
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "linear_algebra/decompositions.hpp"
 #include "runtime/adjoint.hpp"
 #include "runtime/held_end.hpp"
 #include "runtime/internal_forces.hpp"
@@ -28,6 +26,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::askew;
 using testing::cable;
+using testing::carried;
 using testing::kGravity;
 using testing::run;
 using testing::set;
@@ -61,11 +60,6 @@ Vector3d clamp(const Model& model, const VectorXd& p, const char* turn, double t
   const double across = p[model.parameter_index("twists.turn_across")] *
                         std::sin(times * kPi * p[model.parameter_index("twists.frequency")] * t);
   return Vector3d(std::sin(angle), std::cos(angle), across).normalized();
-}
-
-/// The vector turned as the shortest turn of `from` to `to` turns it: carried along without twist.
-Vector3d carried(const Vector3d& from, const Vector3d& to, const Vector3d& vector) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to) * vector;
 }
 
 }  // namespace
@@ -315,10 +309,13 @@ struct Ring {
         kept(4 + i, axis * count + i) = direction[axis];
       }
     }
-    const MatrixXd free = kept.fullPivLu().kernel();
-    const MatrixXd mass = free.transpose() * free, k = free.transpose() * stiffness * free;
+    const MatrixXd rows = catena::orthonormal_basis(kept.transpose(), 1e-10);
+    const MatrixXd free = catena::orthonormal_basis(
+        MatrixXd::Identity(links, links) - rows * rows.transpose(), 1e-10);
+    REQUIRE(free.cols() == links - kept.rows());
+    const MatrixXd k = free.transpose() * stiffness * free;
     CHECK((k - k.transpose()).norm() < 1e-9 * k.norm());  // there is an energy
-    return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(k, mass).eigenvalues()[0];
+    return catena::symmetric_eigenpairs(k).values[0];
   }
 
   double critical_twist() {
