@@ -68,7 +68,8 @@ double largest_difference(const std::string& text, std::uint64_t seed) {
           std::pair{"damping", &symbols.damping}})
       inputs[name + index] = value((*family)[at]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string name = "direction_" + std::string(std::array{"side", "down", "across"}[axis]);
+      const std::string name =
+          "direction_" + std::string(std::array{"side", "down", "across"}[axis]);
       const ex& q = symbols.direction[at][axis];
       const ex rate = symbols.time_derivative(q);
       inputs[name + index] = value(q);
@@ -91,14 +92,14 @@ double largest_difference(const std::string& text, std::uint64_t seed) {
     const int link = (entry.row - 1) % symbols.links + 1;
     ex along = 0;
     for (int axis = 0; axis < 3; ++axis)
-      along += value(derivative(symbols.direction[static_cast<std::size_t>(link)]
-                                                 [static_cast<std::size_t>(axis)],
-                                angle)) *
-               evaluation.of(chain.residual()[static_cast<std::size_t>(
-                   axis * symbols.links + link - 1)]);
+      along +=
+          value(derivative(
+              symbols.direction[static_cast<std::size_t>(link)][static_cast<std::size_t>(axis)],
+              angle)) *
+          evaluation.of(
+              chain.residual()[static_cast<std::size_t>(axis * symbols.links + link - 1)]);
     const ex difference = (value(entry.value - entry.right) - along).evalf();
-    largest =
-        std::max(largest, std::abs(GiNaC::ex_to<GiNaC::numeric>(difference).to_double()));
+    largest = std::max(largest, std::abs(GiNaC::ex_to<GiNaC::numeric>(difference).to_double()));
   }
   CHECK(equations == 2 * symbols.links);
   return largest;
@@ -136,7 +137,8 @@ TEST_CASE("a mistake in a block is different, and its origin is named") {
   const Checked sign = checked(replaced(text, "M[i,n+j] = A", "M[i,n+j] = -A"));
   CHECK(sign.of("M[1,5]").verdict == Verdict::kDifferent);
   CHECK(sign.of("M[1,2]").verdict == Verdict::kEqual);
-  const Checked damper = checked(replaced(text, "-thetadot_i*cos(phi_i)^2", "-thetadot_i*cos(phi_i)"));
+  const Checked damper =
+      checked(replaced(text, "-thetadot_i*cos(phi_i)^2", "-thetadot_i*cos(phi_i)"));
   CHECK(damper.of("D").verdict == Verdict::kDifferent);
   const Checked load = checked(replaced(text, "G[i] = g*l_i*(m_c + m_i/2", "G[i] = g*l_i*(m_i/2"));
   CHECK(load.of("G[2]").origins == std::vector<std::string>{"gravity of the load: missing"});
@@ -147,7 +149,8 @@ TEST_CASE("what the angles mean is the derivation's choice") {
   const Checked result = checked(kAboutVertical);
   CHECK(result.count(Verdict::kEqual) == 37);
   CHECK(result.findings.size() == 37);
-  CHECK(checked(replaced(kAboutVertical, "q[i,2]", "q[i,1]")).of("L").verdict == Verdict::kDifferent);
+  CHECK(checked(replaced(kAboutVertical, "q[i,2]", "q[i,1]")).of("L").verdict ==
+        Verdict::kDifferent);
 }
 
 TEST_CASE("directions that cannot be meant are refused") {
@@ -156,7 +159,8 @@ TEST_CASE("directions that cannot be meant are refused") {
     return failure([&] { checked("links 1 in space\n" + direction + rest); });
   };
   CHECK(refusal("") ==
-        "test: error: q_1 is not set; say what the angles mean by q_i = [side, down, across] for i = 1..n");
+        "test: error: q_1 is not set; say what the angles mean by q_i = [side, down, across] for i "
+        "= 1..n");
   CHECK(refusal("q_1 = [sin(theta_1), cos(theta_1), phi_1]\n") ==
         "test:2:7: error: q[1] is no unit vector: its square is not proved to be 1");
   CHECK(refusal("q_1 = [sin(theta_1), cos(theta_1)]\n") ==
@@ -171,12 +175,14 @@ TEST_CASE("directions that cannot be meant are refused") {
   CHECK(failure([] {
           checked("links 1 in space\n", std::nullopt, {built_in_effect("load_drag")});
         }) == "test:1:1: error: derivations with effects are compared in the plane only");
-  const Checked slanted =
-      checked("links 1 in space\nq_1 = [cos(theta_1)*cos(phi_1), sin(theta_1)*cos(phi_1), sin(phi_1)]\nK[1,1] = k_1\n");
+  const Checked slanted = checked(
+      "links 1 in space\nq_1 = [cos(theta_1)*cos(phi_1), sin(theta_1)*cos(phi_1), "
+      "sin(phi_1)]\nK[1,1] = k_1\n");
   CHECK(slanted.findings[0].verdict == Verdict::kDifferent);
   CHECK(slanted.findings[0].remark.find("the links do not point down") != std::string::npos);
 }
 
 TEST_CASE("phi is a name of one's own in the plane") {
-  CHECK(checked("links 1\nphi = theta_1\nG_1 = g*l_1*(m_1/2 + m_c)*sin(phi)\n").count(Verdict::kEqual) == 1);
+  CHECK(checked("links 1\nphi = theta_1\nG_1 = g*l_1*(m_1/2 + m_c)*sin(phi)\n")
+            .count(Verdict::kEqual) == 1);
 }
