@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -31,6 +33,18 @@ const std::map<std::string, std::string>& smooth_substitutes() {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+/// 0, or between 1e-300 and 1e300 in size: what pages and emitted programs can hold. Zeros may not
+/// have such an exponent either.
+bool is_ordinary(const std::string& number) {
+  constexpr double kGreatestExponent = 300;
+  const double size = std::strtod(number.c_str(), nullptr);
+  const std::size_t e = number.find_first_of("eE");
+  const double exponent = e == std::string::npos ? 0 : std::strtod(number.c_str() + e + 1, nullptr);
+  const bool is_zero = number.substr(0, e).find_first_of("123456789") == std::string::npos;
+  return std::abs(exponent) <= kGreatestExponent &&
+         (is_zero || std::abs(std::log10(size)) <= kGreatestExponent);
+}
 
 class Parser {
  public:
@@ -166,6 +180,8 @@ class Parser {
     }
     const std::string text(text_.substr(begin, at_ - begin));
     if (!any) fail(in_quotes(text) + " is not a number; write 12, 0.5 or 1e-6");
+    if (!is_ordinary(text))
+      fail(in_quotes(text) + " is too large or too small: at most 1e300, and 0 or at least 1e-300");
     return node(SyntaxNode::kNumber, begin, text);
   }
 

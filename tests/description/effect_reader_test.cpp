@@ -73,6 +73,7 @@ TEST_CASE("an effect is read whole") {
 
 TEST_CASE("numbers are not taken for names") {
   CHECK(read("[[force]]\nat = \"load\"\nside = \"1e-6*2.5e3\"\n").forces.size() == 1);
+  CHECK(read("[[force]]\nat = \"load\"\nside = \"0.0e0 + 1e-300 + 1E+300\"\n").forces.size() == 1);
 }
 
 TEST_CASE("a value at which the effect vanishes only in the limit gives no default") {
@@ -242,6 +243,13 @@ TEST_CASE("errors in an effect name their line") {
       {kParameter + kForceAlone, "drag.toml:1: \"c\" stands in no expression; use it or take"},
       {"[constants.e]\nvalue = 1e-6\nunit = \"1\"\n" + kForceAlone,
        "drag.toml:1: \"e\" stands in no expression"},
+      {"[[force]]\nat = \"load\"\nside = \"2e3333333333333333333333\"\n",
+       "drag.toml:8: force.side: in \"2e3333333333333333333333\": \"2e3333333333333333333333\" is "
+       "too large or too small: at most 1e300, and 0 or at least 1e-300"},
+      {"[[force]]\nat = \"load\"\nside = \"0e-99999999999999999999\"\n",
+       "drag.toml:8: force.side: in \"0e-99999999999999999999\": \"0e-99999999999999999999\" is "},
+      {"[[force]]\nat = \"load\"\nside = \"0.0001e-298\"\n",
+       "drag.toml:8: force.side: in \"0.0001e-298\": \"0.0001e-298\" is too large or too small"},
       {energy("potential", "gravity*time"),
        "drag.toml:8: potential.value: in \"gravity*time\": \"time\" cannot stand in an energy"},
       {energy("kinetic", "gravity*time"),

@@ -227,9 +227,7 @@ TEST_CASE("positions follow from pictures") {
   // They are held against the cable; a pose may be wrong, so what no cable can do is a warning.
   const Recording longer =
       testing::with_truth(the_case, model(), film({"left", "right"}, 60, 0.03));
-  const auto said = [&](double focal_length) {
-    VectorXd wrong = parameters;
-    wrong[with.parameter_index("left.focal_length")] = focal_length;
+  const auto said_with = [&](const VectorXd& wrong) {
     const VectorXd lengths = VectorXd::Constant(kLinks, 1.0 / kLinks);
     std::string all;
     for (const std::string& warning :
@@ -238,8 +236,23 @@ TEST_CASE("positions follow from pictures") {
       all += warning + "\n";
     return all;
   };
-  CHECK(said(1000) == "");
-  CHECK(said(5000).find("camera: ") == 0);
+  const auto said = [&](std::initializer_list<const char*> names, double more) {
+    VectorXd wrong = parameters;
+    for (const char* name : names) wrong[with.parameter_index(name)] += more;
+    return said_with(wrong);
+  };
+  CHECK(said({}, 0) == "");
+  CHECK(said({"left.focal_length"}, 4000).find("camera: ") == 0);
+  // Both cameras stand elsewhere, and the support with them: a case with pictures has no `origin`.
+  const std::string beside = said({"left.side", "right.side"}, 0.35);
+  CHECK_MESSAGE(beside.find("camera: marker 1 is 0.") == 0, beside);
+  CHECK_MESSAGE(beside.find("m from the support, but only 0.15 m along the cable; are the ") !=
+                    std::string::npos,
+                beside);
+  const std::string above = said({"left.down", "right.down"}, -0.1);
+  CHECK_MESSAGE(above.find("camera: marker 1 is only 0.") == 0, above);
+  CHECK(beside.find("origin") == std::string::npos);
+  CHECK(above.find("origin") == std::string::npos);
 }
 
 TEST_CASE("derivatives of what cameras see are differences") {
