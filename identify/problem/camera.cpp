@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <complex>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -22,7 +25,8 @@ using Eigen::VectorXd;
 
 constexpr double kFar = 1e5;  // m
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr Index kCount = 7;
+constexpr double kMostDistortion = 0.5;  // wide-angle lenses have -0.4
+constexpr Index kCount = 8;
 constexpr catena_parameter kParameters[kCount] = {
     {"side", "m", "Where the camera stands", 0, -kFar, kFar, kNotGiven},
     {"down", "m", "Where the camera stands", 0, -kFar, kFar, kNotGiven},
@@ -32,6 +36,8 @@ constexpr catena_parameter kParameters[kCount] = {
     {"roll", "rad", "Turns the camera about its axis, from right to down", 0, -kTurn, kTurn,
      kNotGiven},
     {"focal_length", "1", "Focal length of the camera, px", kNotGiven, 1, 1e6, kNotGiven},
+    {"lens", "1", "Radial distortion k1 of the camera's lens", 0, -kMostDistortion, kMostDistortion,
+     kNotGiven},
 };
 
 /// The components of a vector along the camera's right, its down and its axis.
@@ -50,7 +56,26 @@ template <class T>
 Eigen::Vector<T, 2> project(const Eigen::Vector<T, kCount>& p, const Eigen::Vector<T, 3>& point) {
   const Eigen::Vector<T, 3> from_camera = point - p.template head<3>();
   const Eigen::Vector<T, 3> seen = in_camera(p[3], p[4], p[5], from_camera);
-  return p[6] / seen[2] * seen.template head<2>();
+  const Eigen::Vector<T, 2> straight = seen.template head<2>() / seen[2];
+  return p[6] * (T(1) + p[7] * (straight[0] * straight[0] + straight[1] * straight[1])) * straight;
+}
+
+/// The square of the distance from the axis, over what is ahead, where a lens bends the picture back on itself.
+double seen_twice_from(double lens) {
+  return lens < 0 ? -1 / (3 * lens) : std::numeric_limits<double>::infinity();
+}
+
+/// r of r (1 + lens r^2) = distorted, the least one; where the picture bends back there is none beyond.
+double straightened(double distorted, double lens) {
+  const double most = std::sqrt(seen_twice_from(lens));
+  double r = std::min(distorted, most);
+  for (int step = 0; step < 50;
+       ++step) {  // Newton: from below if the lens is a barrel, else from above
+    const double slope = 1 + 3 * lens * r * r, excess = r * (1 + lens * r * r) - distorted;
+    if (!(slope > 0) || std::abs(excess) < 1e-15 * (1 + distorted)) break;
+    r = std::min(r - excess / slope, most);
+  }
+  return r;
 }
 
 bool same_place(const PointSpec& a, const PointSpec& b) {
@@ -102,7 +127,8 @@ Camera::Camera(const Model& model, const std::string& name)
 
 Vector2d Camera::picture(const VectorXd& parameters, const Vector3d& point) const {
   const Eigen::Vector<double, kCount> p = parameters.segment<kCount>(first_);
-  if (!(ray(parameters, Vector2d::Zero()).dot(point - p.head<3>()) > 0))
+  const Vector3d seen = in_camera<double>(p[3], p[4], p[5], point - p.head<3>());
+  if (!(seen[2] > 0) || !(seen.head<2>().squaredNorm() < seen_twice_from(p[7]) * seen[2] * seen[2]))
     return Vector2d::Constant(kNotGiven);
   return project<double>(p, point);
 }
@@ -125,7 +151,9 @@ Vector3d Camera::ray(const VectorXd& parameters, const Vector2d& picture) const 
   Matrix3d axes;  // rows: the camera's right, its down, its axis
   for (Index k = 0; k < 3; ++k)
     axes.col(k) = in_camera<double>(p[3], p[4], p[5], Vector3d::Unit(k));
-  return (axes.transpose() * Vector3d(picture[0], picture[1], p[6])).normalized();
+  const double distorted = picture.norm() / p[6];
+  const double scale = distorted > 0 ? straightened(distorted, p[7]) / distorted : 1;
+  return (axes.transpose() * Vector3d(scale * picture[0], scale * picture[1], p[6])).normalized();
 }
 
 Recording positions_from_pictures(const Recording& pictures, const Model& model,

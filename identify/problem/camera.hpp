@@ -10,22 +10,24 @@
 
 namespace catena {
 
-/// The model of a case. Its parameters are followed by seven of every camera of the case: NAME.side, NAME.down,
-/// NAME.across (m), NAME.pan, NAME.tilt, NAME.roll (rad) and NAME.focal_length (px). No equation reads them. A
+/// The model of a case. Its parameters are followed by eight of every camera of the case: NAME.side, NAME.down,
+/// NAME.across (m), NAME.pan, NAME.tilt, NAME.roll (rad), NAME.focal_length (px) and NAME.lens. No equation reads them. A
 /// model that has them is returned as it is. Throws InputError for cameras and a model of the plane, and for a camera
 /// with the name of one of the model's effects.
 Model with_cameras(const Case& the_case, Model model);
 
 /// A pinhole camera. It stands at (side, down, across). With all angles zero it looks along across; its
 /// picture then has side to the right and down downwards. Pan turns its axis from across towards side, then
-/// tilt turns it downwards, then roll turns the camera about its axis, from right to down.
+/// tilt turns it downwards, then roll turns the camera about its axis, from right to down. A lens k1 shows what should be
+/// r px from the axis at r (1 + k1 r^2 / focal_length^2).
 class Camera {
  public:
   /// `model`: with_cameras().
   Camera(const Model& model, const std::string& name);
 
   /// Where a point (m; side, down, across) is in the picture: to the right and downwards from where the
-  /// axis meets it, px. NaN where the point is not in front of the camera. `parameters`: the model's array.
+  /// axis meets it, px. NaN where the point is not in front of the camera, and where the lens would show what is
+  /// closer to the axis, too. `parameters`: the model's array.
   Eigen::Vector2d picture(const Eigen::VectorXd& parameters, const Eigen::Vector3d& point) const;
 
   /// The derivative of picture() along a change `along` of the parameters and a change of the point.

@@ -30,15 +30,15 @@ namespace {
 
 constexpr int kLinks = 3;
 constexpr double kMetresPerPixel = 0.003;  // about that of 1000 px at 3 m
-constexpr std::array<const char*, 7> kOfCamera = {"side", "down", "across",      "pan",
-                                                  "tilt", "roll", "focal_length"};
+constexpr std::array<const char*, 8> kOfCamera = {"side", "down", "across",       "pan",
+                                                  "tilt", "roll", "focal_length", "lens"};
 // The left camera stands before the cable, the right one beside it.
-constexpr std::array<double, 7> kLeft = {-0.2, 0.4, -3, 0.05, 0.02, -0.03, 1000};
-constexpr std::array<double, 7> kRight = {-2.5, 0.1, -1.5, 1.0, 0.15, 0.04, 900};
+constexpr std::array<double, 8> kLeft = {-0.2, 0.4, -3, 0.05, 0.02, -0.03, 1000, -0.12};
+constexpr std::array<double, 8> kRight = {-2.5, 0.1, -1.5, 1.0, 0.15, 0.04, 900, 0.05};
 
 Model model() { return Model::load(SPATIAL_3); }
 
-void add_camera(Case& the_case, const std::string& name, const std::array<double, 7>& values) {
+void add_camera(Case& the_case, const std::string& name, const std::array<double, 8>& values) {
   CameraSpec camera;
   camera.name = name;
   camera.where = "case.toml:7";
@@ -103,9 +103,9 @@ Recording film(const std::vector<std::string>& cameras, int frames, double step)
 }
 
 /// The array of a model with one camera.
-VectorXd array_of(const Model& model, const std::array<double, 7>& values) {
+VectorXd array_of(const Model& model, const std::array<double, 8>& values) {
   VectorXd parameters = model.default_parameters();
-  parameters.tail<7>() = Eigen::Map<const Eigen::Vector<double, 7>>(values.data());
+  parameters.tail<8>() = Eigen::Map<const Eigen::Vector<double, 8>>(values.data());
   return parameters;
 }
 
@@ -115,20 +115,27 @@ TEST_CASE("what a camera sees is what closed forms say") {
   const Model with = with_cameras(filmed_by({"left"}), model());
   const Camera camera(with, "left");
   // Not turned: similar triangles.
-  const VectorXd straight = array_of(with, {0.5, 0.25, -3, 0, 0, 0, 1000});
+  const VectorXd straight = array_of(with, {0.5, 0.25, -3, 0, 0, 0, 1000, 0});
   const Vector2d seen = camera.picture(straight, {0.8, 0.75, 1});
   CHECK(seen[0] == doctest::Approx(1000 * 0.3 / 4).epsilon(1e-14));
   CHECK(seen[1] == doctest::Approx(1000 * 0.5 / 4).epsilon(1e-14));
   // Behind it nothing is seen.
   CHECK(camera.picture(straight, {0.8, 0.75, -3.1}).hasNaN());
+  // A barrel of k1 = -1/3 shows nothing farther from the axis than 1 at 1 ahead.
+  const VectorXd barrel = array_of(with, {0, 0, 0, 0, 0, 0, 900, -1.0 / 3});
+  CHECK(camera.picture(barrel, {0.99, 0, 1})[0] ==
+        doctest::Approx(900 * (0.99 - 0.99 * 0.99 * 0.99 / 3)).epsilon(1e-14));
+  CHECK(camera.picture(barrel, {1.01, 0, 1}).hasNaN());
+  CHECK(camera.ray(barrel, {650, 0}).isApprox(Vector3d(1, 0, 1).normalized()));  // beyond: its edge
 
   // Turned: rotations of its three axes, one after the other.
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    std::array<double, 7> values;
+    std::array<double, 8> values;
     for (double& value : values) value = uniform(generator);
     values[6] = 800;
+    values[7] *= 0.1;
     const VectorXd parameters = array_of(with, values);
     Vector3d right = Vector3d::UnitX(), below = Vector3d::UnitY(), axis = Vector3d::UnitZ();
     const auto turn = [](double angle, Vector3d& from, Vector3d& towards) {
@@ -142,7 +149,8 @@ TEST_CASE("what a camera sees is what closed forms say") {
     const Vector3d place(values[0], values[1], values[2]);
     const double ahead = 2.5, to_right = uniform(generator), downwards = uniform(generator);
     const Vector3d point = place + ahead * (axis + to_right * right + downwards * below);
-    const Vector2d expected = 800 * Vector2d(to_right, downwards);
+    const double bent = 1 + values[7] * (to_right * to_right + downwards * downwards);
+    const Vector2d expected = 800 * bent * Vector2d(to_right, downwards);
     CHECK((camera.picture(parameters, point) - expected).norm() < 1e-9);
     CHECK((camera.ray(parameters, expected) - (point - place).normalized()).norm() < 1e-14);
     CHECK((camera.place(parameters) - place).norm() == 0);
@@ -156,8 +164,8 @@ TEST_CASE("what a camera sees is what closed forms say") {
 TEST_CASE("the model with cameras has their parameters and keeps its own") {
   const Case the_case = filmed_by({"left", "right"});
   const Model plain = model(), with = with_cameras(the_case, plain);
-  REQUIRE(with.parameters() == plain.parameters() + 14);
-  CHECK(with.parameter_index("right.focal_length") == with.parameters() - 1);
+  REQUIRE(with.parameters() == plain.parameters() + 16);
+  CHECK(with.parameter_index("right.lens") == with.parameters() - 1);
   CHECK(with.parameter_index("load_mass") == plain.parameter_index("load_mass"));
   CHECK(with_cameras(the_case, with).parameters() == with.parameters());
   CHECK(&with_cameras(testing::sections(testing::kTwoLinks), plain).table() == &plain.table());
@@ -179,7 +187,8 @@ TEST_CASE("the model with cameras has their parameters and keeps its own") {
         [&] { const Problem problem(std::move(wrong), model(), {film({"left"}, 2, 0.1)}); });
   };
   Case unknown = filmed_by({"left"});
-  unknown.parameters.pop_back();
+  std::erase_if(unknown.parameters,
+                [](const ParameterSpec& each) { return each.sets == "left.focal_length"; });
   CHECK(of_problem(unknown).find("the model's left.focal_length (1) has no value; add a "
                                  "[[parameter]] that sets it") != std::string::npos);
   Case impossible = filmed_by({"left"});
@@ -264,7 +273,7 @@ TEST_CASE("derivatives of what cameras see are differences") {
   the_case.simulation.absolute_tolerance_velocity = 1e-11;
   const Problem problem(the_case, model(), {film({"left", "right"}, 4, 0.1)});
   const VectorXd x = problem.start();
-  REQUIRE(x.size() == 2 + 14 + 4 * kLinks);
+  REQUIRE(x.size() == 2 + 16 + 4 * kLinks);
   const Prediction here = problem.predict(x, 0, true, problem.directions(x, 0));
   REQUIRE_MESSAGE(here.ok(), here.message);
   for (Index j = 0; j < x.size(); ++j) {
@@ -333,14 +342,28 @@ TEST_CASE("stiffness, damping and the pose of a camera are found from the pictur
   the_case.parameters[0].value = 0.05;
   the_case.parameters[1].value = 0.002;
   // About 0.2 m, 4 degrees and a tenth of the focal length off.
-  const std::array<double, 7> off = {0.2, -0.2, 0.2, 0.07, -0.07, 0.07, 90};
+  const std::array<double, 8> off = {0.2, -0.2, 0.2, 0.07, -0.07, 0.07, 90, 0};
   for (std::size_t i = 0; i < kOfCamera.size(); ++i) {
     ParameterSpec& each = parameter(the_case, std::string("right_") + kOfCamera[i]);
     each.value += off[i];
-    each.free = true;
+    each.free = off[i] != 0;
   }
   parameter(the_case, "left_focal_length").free = true;
   parameter(the_case, "left_focal_length").value = 1040;
+  check_found(fitted(truth, the_case, {"left", "right"}), truth);
+}
+
+TEST_CASE("what lenses bend is found, with a doubt about each that the case states") {
+  const Case truth = filmed_by({"left", "right"});
+  Case the_case = truth;
+  the_case.parameters[0].value = 0.05;
+  the_case.experiments[0].noise = 0.3 * kMetresPerPixel;
+  for (const char* lens : {"left_lens", "right_lens"}) {
+    ParameterSpec& each = parameter(the_case, lens);
+    each.value = each.measured = 0;
+    each.standard_deviation = 0.1;
+    each.free = true;
+  }
   check_found(fitted(truth, the_case, {"left", "right"}), truth);
 }
 
