@@ -144,11 +144,9 @@ results::MissingForce entry_of(const MissingForce& force) {
         history_entry(history, "patterns", "", names, history.size, history.deviation));
   }
   for (const MissingForce::History& history : force.at_best) {
-    const bool torque = history.size.rows() == 1;
-    entry.at_best.push_back(history_entry(
-        history, force.best->name, torque ? "N m" : "N",
-        torque ? std::vector<std::string>{"moment"} : std::vector<std::string>{"side", "down"},
-        history.size, history.deviation));
+    const bool torque = force.best->joint >= 0;
+    entry.at_best.push_back(history_entry(history, force.best->name, torque ? "N m" : "N",
+                                          history.rows, history.size, history.deviation));
   }
   for (const MissingForce::Parameter& parameter : force.parameters) {
     const double half = 1.96 * parameter.deviation;

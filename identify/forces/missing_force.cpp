@@ -149,6 +149,11 @@ MissingForce::History history_of(const ForcePaths& paths, std::size_t number,
   history.time = paths.times(number);
   const auto& patterns = paths.patterns();
   const Smoothed::Recording& found = smoothed.recordings[number];
+  if (!densities)
+    for (const ForcePattern& pattern : patterns)
+      history.rows.emplace_back(!pattern.torque.isZero() ? "moment"
+                                : !pattern.side.isZero() ? "side"
+                                                         : "down");
   const auto count = static_cast<Index>(patterns.size());
   const Index times = found.force.cols(), links = chain.lengths.size();
   history.size.resize(count, times);
@@ -380,26 +385,30 @@ void describe_place(MissingForce& missing) {
   const MissingForce::Place& best = *missing.best;
   const MissingForce::History* where = &missing.at_best.front();
   Strongest at;
-  double most = -1, side = 0, down = 0;
+  const std::vector<std::string>& rows = where->rows;
+  VectorXd squares = VectorXd::Zero(static_cast<Index>(rows.size()));
+  double most = -1;
   for (const MissingForce::History& history : missing.at_best) {
-    side += history.size.row(0).squaredNorm();
-    if (history.size.rows() > 1) down += history.size.row(1).squaredNorm();
+    squares += history.size.rowwise().squaredNorm();
     Strongest here;
     const double size = history.size.colwise().norm().maxCoeff(&here.time);
     if (size > most) most = size, where = &history, at = here;
   }
   const bool torque = best.joint >= 0;
-  const Index row = !torque && down > side ? 1 : 0;
-  const std::string what =
-      torque ? "a " + best.name
-             : fmt::format("{} at arc length {:.3g} m", direction_of(side, down), best.arc_length);
+  squares.maxCoeff(&at.row);
+  const auto of = [&](const char* name) {
+    const auto row = std::find(rows.begin(), rows.end(), name);
+    return row == rows.end() ? 0.0 : squares[row - rows.begin()];
+  };
+  const std::string what = torque
+                               ? "a " + best.name
+                               : fmt::format("{} at arc length {:.3g} m",
+                                             direction_of(of("side"), of("down")), best.arc_length);
   missing.words.push_back(fmt::format(
       "{}, strongest at {:.3g} s of {}: {}{}", what, where->time[static_cast<std::size_t>(at.time)],
-      where->experiment,
-      torque     ? ""
-      : row == 0 ? "side "
-                 : "down ",
-      sized(where->size(row, at.time), where->deviation(row, at.time), torque ? "N m" : "N")));
+      where->experiment, torque ? "" : rows[static_cast<std::size_t>(at.row)] + " ",
+      sized(where->size(at.row, at.time), where->deviation(at.row, at.time),
+            torque ? "N m" : "N")));
   missing.words.push_back(
       "a force there alone explains the recordings as well as forces everywhere do");
 }
@@ -497,6 +506,35 @@ std::vector<LawSite> sites_of(const MissingForce& missing, const ChainMeasures& 
   return sites;
 }
 
+/// A force that has settled, and the motion with it.
+struct SettledForce {
+  ForcePaths paths;
+  Smoothed smoothed;
+};
+
+/// The side and the down force at a place; the stronger alone where the other is not shown, as a force
+/// is. A cable hardly shows what pushes along it, so that a direction of small size that follows the
+/// noise takes from the other what is not its own. Nothing where the equations cannot be followed.
+std::optional<SettledForce> directions_shown(SettledForce both,
+                                             const std::vector<double>& variance) {
+  std::vector<double> squares = {0, 0};
+  for (const Smoothed::Recording& recording : both.smoothed.recordings)
+    for (const Index m : {0, 1})
+      squares[static_cast<std::size_t>(m)] += recording.force.row(2 * m).squaredNorm();
+  const std::size_t stronger = squares[1] > squares[0];
+  SettledForce alone = both;
+  std::vector<ForcePattern> patterns = {both.paths.patterns()[stronger]};
+  patterns.front().group = 0;
+  alone.paths.act(std::move(patterns));
+  std::vector<double> of_stronger = {variance[stronger]};
+  std::optional<Smoothed> smoothed = alone.paths.settle(of_stronger, true);
+  if (!smoothed) return std::nullopt;
+  if (both.smoothed.log_evidence - smoothed->log_evidence > kForceThresholds.log_evidence)
+    return both;
+  alone.smoothed = std::move(*smoothed);
+  return alone;
+}
+
 /// False where the equations cannot be followed.
 bool examine(const Problem& problem, const VectorXd& x, const std::vector<double>& sigmas,
              const std::function<bool()>& keep_going, MissingForce& missing) {
@@ -561,10 +599,13 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   missing.best->log_evidence = there->log_evidence - search.none();
   missing.one_place = there->log_evidence >= everywhere->log_evidence;
   missing.log_probability = std::max(missing.log_probability, there->log_evidence);
+  const std::optional<SettledForce> shown =
+      moment ? SettledForce{paths, *there} : directions_shown({paths, *there}, at_place);
+  if (!shown) return false;
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
-    missing.at_best.push_back(history_of(paths, r, problem, *there, chain, false));
+    missing.at_best.push_back(history_of(shown->paths, r, problem, shown->smoothed, chain, false));
   if (missing.one_place) {
-    add_parameters(problem, x, paths, unknowns, *there, missing);
+    add_parameters(problem, x, shown->paths, unknowns, shown->smoothed, missing);
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
   }

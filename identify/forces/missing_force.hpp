@@ -57,6 +57,7 @@ struct MissingForce {
     std::string experiment;
     std::vector<double> time;         ///< s, of the frames that are fitted
     Eigen::MatrixXd size, deviation;  ///< patterns x times
+    std::vector<std::string> rows;    ///< of a single place: "side", "down" or "moment"
     /// Densities to the side and down at the middles of the links, links x times, N/m; empty for a
     /// single place.
     Eigen::MatrixXd side, down, side_deviation, down_deviation;
@@ -84,8 +85,8 @@ struct MissingForce {
     double log_evidence = 0;  ///< against none
   };
   std::optional<Sensor> sensor;
-  /// The best place of all, refined, and what acts there if it acts nowhere else: one pattern for
-  /// a moment, else side and down, N.
+  /// The best place of all, refined, and what acts there if it acts nowhere else: a moment, N m, or
+  /// the directions that are shown (`MissingForceThresholds::log_evidence`) of side and down, N.
   std::optional<Place> best;
   std::vector<History> at_best;
   bool one_place = false;       ///< the evidence of the best place is not below that of all forces

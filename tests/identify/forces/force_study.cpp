@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   const testing::Recovery side = testing::recovery_of_side_modes(filmed, hidden, found);
   fmt::print("of these to the side: error {:.1f} %, covered {:.1f} %\n", 100 * side.error,
              100 * side.covered);
-  if (found.at_best.empty() || found.at_best[0].size.rows() < 2) return 0;
+  if (found.at_best.empty() || found.best->joint >= 0) return 0;
   const testing::Recovery place = testing::recovery_at_place(filmed, hidden, found);
   fmt::print("at the place {:.3f} m (true {:.3f} m): error {:.1f} % (asked: 5), covered {:.1f} %\n",
              found.best->arc_length, testing::true_place(film), 100 * place.error,
