@@ -28,6 +28,12 @@ constexpr double kGreatestAngle = 0x1p30;
 // limited so that the first step does not skip changes of the signals.
 constexpr double kFirstSight = 100.0;
 
+// Of failures of the step, which sizes that differ too much have in common.
+constexpr const char* kRemedy =
+    ". Something is too stiff, too strongly damped or too light beside the rest: make the joints "
+    "less stiff, look at "
+    "masses, damping and units, or add damping";
+
 SUNContext new_context() {
   SUNContext context = nullptr;
   if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
@@ -408,7 +414,8 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
   }
   result.status = failure.status;
   result.message = std::string(what) + ": " + name_of(failure.element) +
-                   " at t = " + number_text(failure.t) + " s";
+                   " at t = " + number_text(failure.t) + " s" +
+                   (failure.status == Status::kNotFinite ? "" : kRemedy);
 }
 
 std::string Integrator::name_of(int element) const {

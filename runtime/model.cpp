@@ -19,6 +19,9 @@
 namespace catena {
 namespace {
 
+// Products of six parameters are finite.
+constexpr double kGreatestParameter = 1e50;
+
 std::span<const catena_model* const> built_in_tables() {
   int count = 0;
   const catena_model* const* tables = built_in_models(&count);
@@ -138,6 +141,10 @@ void Model::check_parameters(const Eigen::VectorXd& values) const {
     if (std::isnan(values[i])) throw ImpossibleValue(name + " has no value");
     if (!std::isfinite(values[i]))
       throw ImpossibleValue(name + " = " + number_text(values[i]) + " must be finite");
+    if (std::abs(values[i]) > kGreatestParameter)
+      throw ImpossibleValue(name + " = " + number_text(values[i]) + " " + parameter.unit +
+                            " is more than " + number_text(kGreatestParameter) +
+                            ", beyond which products of parameters overflow; give a smaller one");
     if (values[i] < parameter.lower)
       throw ImpossibleValue(name + " = " + number_text(values[i]) + " " + parameter.unit +
                             " is below its lower bound " + number_text(parameter.lower));

@@ -141,8 +141,8 @@ class Model {
   /// One value per parameter, in the order of the table: its default, or NaN if it has none.
   Eigen::VectorXd default_parameters() const;
 
-  /// Throws ImpossibleValue naming the parameter, its value and the rule it breaks: finite, within
-  /// the bounds of the parameter table; std::invalid_argument for another number of values.
+  /// Throws ImpossibleValue naming the parameter, its value and the rule it breaks: finite, at most
+  /// 1e50 in size, within the bounds of the parameter table; std::invalid_argument for another number of values.
   void check_parameters(const Eigen::VectorXd& parameters) const;
 
  private:
