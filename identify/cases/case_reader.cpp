@@ -259,9 +259,11 @@ CameraSpec read_camera(const TomlTable& table) {
   if (camera.name.empty() || !std::all_of(camera.name.begin(), camera.name.end(), inner))
     table.fail("name", in_quotes(camera.name) + "; give one of letters, digits and _");
   const std::vector<double> centre = table.numbers("centre");
-  if (centre.size() != 2 || !std::isfinite(centre[0]) || !std::isfinite(centre[1]))
+  constexpr double kWidest = 1e6;  // px, as the greatest focal length
+  if (centre.size() != 2 || !(std::abs(centre[0]) <= kWidest) || !(std::abs(centre[1]) <= kWidest))
     table.fail("centre",
-               "must be two numbers, px: the place in the picture that the camera's axis meets");
+               "must be two numbers of at most 1e6, px: the place in the picture that the camera's "
+               "axis meets");
   camera.centre = {centre[0], centre[1]};
   return camera;
 }

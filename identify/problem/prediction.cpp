@@ -113,6 +113,11 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   if (!finite) {
     prediction.status = Status::kNotFinite;
     prediction.message = "what the sensors would see is not finite";
+    const std::vector<PointSpec>& points = experiment.recording.points;
+    if (!points.empty() && !points.front().camera.empty())
+      prediction.message +=
+          "; a camera sees only what lies before it: look at the places and directions of the "
+          "cameras";
   }
   prediction.trajectory = std::move(simulation.trajectory);
   return prediction;

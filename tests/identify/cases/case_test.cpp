@@ -280,7 +280,8 @@ markers = [{name = "knot", side = "x", down = "y", camera = "right_2", load = tr
       {"name = \"left\"", "name = \"left one\"",
        "case.toml:9: camera.name: \"left one\"; give one of letters, digits and _"},
       {"name = \"left\"", "name = \"right_2\"", "name: \"right_2\"; names must differ"},
-      {"centre = [960, 540.5]", "centre = [960]", "centre: must be two numbers, px"},
+      {"centre = [960, 540.5]", "centre = [960]", "centre: must be two numbers of at most 1e6, px"},
+      {"centre = [960, 540.5]", "centre = [960, -1e300]", "centre: must be two numbers of at most"},
       {"centre = [960, 540.5]", "", "centre"},
       {"centre = [960, 540.5]", "centre = [960, 540.5]\nfocal_length = 1000", "focal_length"},
   };

@@ -264,6 +264,16 @@ TEST_CASE("positions follow from pictures") {
   CHECK(above.find("origin") == std::string::npos);
 }
 
+TEST_CASE("a cable behind a camera is a failure that says where to look") {
+  Case the_case = filmed_by({"left"});
+  parameter(the_case, "left_across").value = 3;
+  const Problem problem(the_case, model(), {film({"left"}, 3, 0.1)});
+  const Prediction prediction = problem.predict(problem.start(), 0, true);
+  CHECK(prediction.status == Status::kNotFinite);
+  CHECK_MESSAGE(prediction.message.find("look at the places and directions") != std::string::npos,
+                prediction.message);
+}
+
 TEST_CASE("derivatives of what cameras see are differences") {
   Case the_case = filmed_by({"left", "right"});
   for (ParameterSpec& each : the_case.parameters) each.free = true;
