@@ -78,8 +78,9 @@ std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
       return each.refitted && nearly_closes(each.fit, before);
     });
   };
-  // Far from the truth the score ranks wrongly: the others may be what is missing.
-  if (all || (far && !closed())) refit_rest(search, explanations);
+  // Where the best leave a gap, the score ranked wrongly: what holds and slips scores little if it
+  // holds most of the time. The others may be what is missing.
+  if (all || !closed()) refit_rest(search, explanations);
   context.stop_if_asked();
   // Effects that need a model of their own cost more: only if the others leave a gap.
   if (!closed()) {

@@ -75,6 +75,14 @@ std::string remainder_in_words(const Diagnosis& found) {
   return words;
 }
 
+/// Whether what is no effect, a start that bends more or moves, does as well in the place of one.
+bool needs_no_effect(const Diagnosis& found, const std::string& effect) {
+  return std::any_of(found.alternatives.begin(), found.alternatives.end(),
+                     [&](const Alternative& other) {
+                       return other.instead_of == effect && !other.explanation.is_effect();
+                     });
+}
+
 /// "joint_hysteresis (or joint_dry_friction)"
 std::string with_rivals(const Diagnosis& found, const std::string& effect) {
   std::vector<std::string> rivals;
@@ -154,8 +162,13 @@ std::string wrong_knowns_in_words(const DiagnosisState& state) {
   return words;
 }
 
-/// The model with those of its effects only that are no laws, fitted again: errors of what is known
-/// and of sensors. The model itself where all are, or where that cannot be fitted.
+bool effects_close_gap(DiagnosisState& state, const FittedModel& model,
+                       const std::vector<std::string>& effects) {
+  return closes_gap(model, without_laws(state, model, effects), state.found.noise);
+}
+
+}  // namespace
+
 FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
                          const std::vector<std::string>& effects) {
   std::vector<std::string> exact;
@@ -174,13 +187,6 @@ FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
                 state.context.least_squares, state.context.stop);
   return fitted.ok ? fitted : model;
 }
-
-bool effects_close_gap(DiagnosisState& state, const FittedModel& model,
-                       const std::vector<std::string>& effects) {
-  return closes_gap(model, without_laws(state, model, effects), state.found.noise);
-}
-
-}  // namespace
 
 bool gap_left(const Stage& stage) { return stage.fit.present || stage.held_out.present; }
 
@@ -264,6 +270,7 @@ void conclude(DiagnosisState& state, const Case& asked) {
   }
   if (!is_closed) {
     std::vector<std::string> stand = standing_effects(found);
+    std::erase_if(stand, [&](const std::string& id) { return needs_no_effect(found, id); });
     std::erase_if(stand, errors_could_explain);
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);

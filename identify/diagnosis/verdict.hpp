@@ -24,6 +24,11 @@ bool one_may_imitate_two(const Stage& last);
 /// The last stage that had no effect; the baseline has none.
 const Stage& last_without_effects(const std::vector<Stage>& stages);
 
+/// A model with those of its effects only that are no laws, fitted again: errors of what is known
+/// and of sensors. The model itself where all are, or where that cannot be fitted.
+FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
+                         const std::vector<std::string>& effects);
+
 /// Effects that stand whatever else is missing: each takes some of the misfit away where it was
 /// fitted and where it was not, a good part in one of them (which one depends on where the recording
 /// was cut). Where the data do not decide against others in its place, one of them is what stands.
