@@ -220,7 +220,8 @@ std::vector<std::string> standing_effects(const Diagnosis& found) {
     const double most = found.shares.has_held_out
                             ? std::max(share.fitted.lower, share.held_out.lower)
                             : share.fitted.lower;
-    if (predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile)
+    if (predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile &&
+        !needs_no_effect(found, share.effect))
       stand.push_back(share.effect);
   }
   return stand;
@@ -270,7 +271,6 @@ void conclude(DiagnosisState& state, const Case& asked) {
   }
   if (!is_closed) {
     std::vector<std::string> stand = standing_effects(found);
-    std::erase_if(stand, [&](const std::string& id) { return needs_no_effect(found, id); });
     std::erase_if(stand, errors_could_explain);
     for (const std::string& id : stand)
       if (with_rivals(found, id) == id) found.certain.push_back(id);

@@ -31,7 +31,8 @@ FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
 
 /// Effects that stand whatever else is missing: each takes some of the misfit away where it was
 /// fitted and where it was not, a good part in one of them (which one depends on where the recording
-/// was cut). Where the data do not decide against others in its place, one of them is what stands.
+/// was cut). Where the data do not decide against others in its place, one of them is what stands;
+/// nothing stands where what is no effect, a start that bends more or moves, does as well.
 std::vector<std::string> standing_effects(const Diagnosis& found);
 
 /// Divides the misfit among the effects, fits the final model as `asked` says, and tells what the

@@ -226,3 +226,19 @@ TEST_CASE("an effect stands that shows in both parts, and well in one") {
   CHECK_FALSE(stands({0.1, -0.01, 0.2}, {0.9, 0.86, 0.95}));
   CHECK_FALSE(stands({0.1, 0.01, 0.2}, {0.1, 0.01, 0.2}));
 }
+
+TEST_CASE("nothing stands where a freer start does as well; beside another effect one of both does") {
+  Diagnosis found;
+  found.shares.effects = {{"clock_offset", {0.9, 0.8, 1.0}, {}}};
+  const auto stands_beside = [&](const char* rival, int candidate) {
+    Explanation explanation;
+    explanation.id = rival;
+    explanation.candidate = candidate;
+    found.alternatives = {{"clock_offset", explanation, {}}};
+    return !standing_effects(found).empty();
+  };
+  CHECK(stands_beside("support_motion", 0));
+  CHECK_FALSE(stands_beside(kStartShape, -1));
+  found.alternatives.front().instead_of = "load_drag";
+  CHECK_FALSE(standing_effects(found).empty());
+}
