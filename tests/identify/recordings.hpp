@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
 #include <random>
 #include <string>
 #include <vector>
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/problem/problem.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace catena::testing {
 
@@ -84,6 +87,23 @@ inline Recording with_truth(const Case& truth, const Model& model, Recording rec
   if (noise > 0)
     for (double& value : recording.measured.reshaped()) value += normal(generator);
   return recording;
+}
+
+/// The case with the markers of its only experiment in a file, equally far from one another from the support
+/// to the end. The last three tenths are held out.
+inline Case measured(Case the_case, const TemporaryFolder& folder, const Recording& recording) {
+  std::string text = "time_s";
+  for (std::size_t p = 1; p <= recording.points.size(); ++p)
+    text += fmt::format(",side_{0}_m,down_{0}_m", p);
+  for (std::size_t k = 0; k < recording.time.size(); ++k) {
+    text += fmt::format("\n{}", recording.time[k]);
+    for (const double value : recording.measured.col(static_cast<Eigen::Index>(k)))
+      text += fmt::format(",{}", value);
+  }
+  ExperimentSpec& spec = the_case.experiments.front();
+  spec.data = folder.write("markers.csv", text + "\n");
+  spec.fit_until = recording.time[7 * recording.time.size() / 10];
+  return the_case;
 }
 
 }  // namespace catena::testing

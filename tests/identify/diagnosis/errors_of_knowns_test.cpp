@@ -2,7 +2,6 @@
 #include "identify/diagnosis/errors_of_knowns.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -17,7 +16,7 @@ using namespace catena;
 namespace {
 
 constexpr double kNoise = 1e-3;
-constexpr int kFrames = 240, kFitted = 170;
+constexpr int kFrames = 240;
 const std::vector<double> kPlaces = {0.25, 0.5, 0.75, 1.0};
 
 Case two_links() {
@@ -37,23 +36,6 @@ ProviderOptions provider() {
   return options;
 }
 
-/// The case with these markers in a file, which says that they sit at kPlaces.
-Case measured(const testing::TemporaryFolder& folder, const Recording& recording) {
-  std::string text =
-      "time_s,side_1_m,down_1_m,side_2_m,down_2_m,side_3_m,down_3_m,side_4_m,down_4_m\n";
-  for (std::size_t k = 0; k < recording.time.size(); ++k) {
-    text += fmt::format("{}", recording.time[k]);
-    for (const double value : recording.measured.col(static_cast<Eigen::Index>(k)))
-      text += fmt::format(",{}", value);
-    text += "\n";
-  }
-  Case the_case = two_links();
-  ExperimentSpec& spec = the_case.experiments.front();
-  spec.data = folder.write("markers.csv", text);
-  spec.fit_until = recording.time[kFitted];
-  return the_case;
-}
-
 /// What the effect explains beyond errors of knowns, of a motion with the effect's first parameter at
 /// `amount` and a cable that is heavier than stated by the share `heavier`.
 BeyondErrorsOfKnowns beyond(const std::string& effect, double amount, double heavier) {
@@ -70,9 +52,10 @@ BeyondErrorsOfKnowns beyond(const std::string& effect, double amount, double hea
   truth.parameters[1].value = 0.005;
   truth.parameters[2].value = amount;
   truth.cable.density *= 1 + heavier;
-  const Case asked = measured(
-      folder, testing::with_truth(truth, model, testing::empty_markers(kPlaces, kFrames, 1.0 / 60),
-                                  kNoise));
+  Case asked = testing::measured(
+      two_links(), folder,
+      testing::with_truth(truth, model, testing::empty_markers(kPlaces, kFrames, 1.0 / 60),
+                          kNoise));
   const auto fitted = [&](const Case& the_case) {
     const auto problem = std::make_shared<const Problem>(the_case, model);
     return fit_model(problem, problem->start(), {}, fit_least_squares, nullptr);

@@ -227,7 +227,8 @@ TEST_CASE("an effect stands that shows in both parts, and well in one") {
   CHECK_FALSE(stands({0.1, 0.01, 0.2}, {0.1, 0.01, 0.2}));
 }
 
-TEST_CASE("nothing stands where a freer start does as well; beside another effect one of both does") {
+TEST_CASE(
+    "nothing stands where a freer start does as well; beside another effect one of both does") {
   Diagnosis found;
   found.shares.effects = {{"clock_offset", {0.9, 0.8, 1.0}, {}}};
   const auto stands_beside = [&](const char* rival, int candidate) {
