@@ -47,8 +47,8 @@ TEST_CASE("without its laws a model keeps errors of what is known, fitted again"
   const auto fitted = [&](const std::vector<std::string>& effects) {
     std::vector<Candidate> candidates;
     for (const std::string& id : effects) candidates.push_back(*context.find(id));
-    const auto problem = std::make_shared<const Problem>(
-        with_effects(asked, candidates, true), model);
+    const auto problem =
+        std::make_shared<const Problem>(with_effects(asked, candidates, true), model);
     return fit_model(problem, problem->start(), {}, fit_least_squares, nullptr);
   };
   state.enter(fitted({}), {}, "");
