@@ -530,13 +530,14 @@ void Chain::add_chain_terms() {
   rest_bend_.resize(1);
   for (Link k = 1; k <= links_; ++k) {
     if (wanted("kinetic")) {
-      add_kinetic("kinetic", kHalf * mass_[k] * speed_squared(at(centre_, k)) +
-                                 kHalf * inertia_[k] * turning(k));
+      ex energy =
+          kHalf * mass_[k] * speed_squared(at(centre_, k)) + kHalf * inertia_[k] * turning(k);
       if (!in_plane()) {
         const ex rate = time_.of(direction_square_[k]);
-        add_kinetic("kinetic",
-                    (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate / 8);
+        energy += (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate / 8;
       }
+      // One part of the energy a link: sums over links become loops.
+      add_kinetic("kinetic", energy);
     }
     hanging_depth_.push_back(
         definitions_.define("hanging_depth", k, hanging_depth_[k - 1] + length_[k]));
