@@ -132,6 +132,7 @@ class CanonicalText {
     line("support.bend_axis_side", effect.support.bend_axis_side);
     line("support.bend_axis_down", effect.support.bend_axis_down);
     line("support.bend_axis_across", effect.support.bend_axis_across);
+    if (effect.held_end.link > 0) line("held_joint", std::to_string(effect.held_end.link));
     line("held_end.side", effect.held_end.side);
     line("held_end.down", effect.held_end.down);
     line("held_end.across", effect.held_end.across);

@@ -144,7 +144,7 @@ std::string why_not_in(Space space, const Effect& effect) {
     return "needs space = \"" + effect.space + "\", as its file says, and space is \"" + word +
            "\"";
   if (space == Space::kPlane) {
-    if (effect.held_end.holds()) return "holds the far end, which needs space = \"3d\"";
+    if (effect.held_end.holds()) return "holds a point of the cable, which needs space = \"3d\"";
     if (effect.kinematics.load_across.given())
       return "moves the load across the plane, which needs space = \"3d\"";
     if (effect.support.across.given() || effect.support.turns() || effect.support.has_bend_axis())
@@ -158,7 +158,8 @@ std::string why_not_in(Space space, const Effect& effect) {
 }
 
 std::string conflict_in(const Description& description) {
-  bool clamped = false, held = false, has_axis = false, swings = false;
+  bool clamped = false, has_axis = false, swings = false;
+  std::map<int, std::string> held;  // by link: what holds it
   for (const Effect& effect : description.effects) {
     if (const std::string why = why_not_in(description.space, effect); !why.empty())
       return in_quotes(effect.id) + " " + why;
@@ -171,21 +172,27 @@ std::string conflict_in(const Description& description) {
       return in_quotes(effect.id) +
              " is the second effect that gives the axis of rest angles; leave one away";
     has_axis = has_axis || effect.support.has_bend_axis();
-    if (effect.held_end.holds() && held)
-      return in_quotes(effect.id) + " is the second effect that holds the far end; leave one away";
-    held = held || effect.held_end.holds();
+    if (effect.held_end.holds()) {
+      const int link = effect.held_end.link;
+      if (!held.emplace(link, effect.id).second)
+        return in_quotes(effect.id) + " is the second effect that holds the far end" +
+               (link > 0 ? " of link " + std::to_string(link) : "") + ", beside " +
+               in_quotes(held.at(link)) + "; leave one away";
+    }
     swings = swings || effect.moves_load();
-    if (held && swings)
+    if (!held.empty() && swings)
       return in_quotes(effect.id) +
-             ": a far end that is held has no load with coordinates of its own (per = \"load\"); "
-             "leave one away";
+             ": a cable that is held besides at its support has no load with coordinates of its "
+             "own "
+             "(per = \"load\"); leave one away";
   }
-  // What a held end adds to a model has names of these kinds.
+  // What a held place adds to a model has names of these kinds.
   for (const Effect& effect : description.effects)
-    for (const char* const taken : {"end", "gap", "hold"})
-      if (held && effect.id == taken)
-        return in_quotes(effect.id) +
-               " is a name of what holds the far end; give the effect another id in its file";
+    for (const Effect* holding : description.holding())
+      for (const char* const taken : {"end", "gap", "hold"})
+        if (effect.id == holding->held_end.named(taken))
+          return in_quotes(effect.id) +
+                 " is a name of what holds the cable; give the effect another id in its file";
   return conflict_between(description.effects);
 }
 

@@ -30,11 +30,12 @@ struct Description {
   std::string source_file;
   Space space = Space::kPlane;
 
-  /// The effect that holds the far end; null: the end is free.
-  const Effect* holding() const {
+  /// The effects that hold the far end or a joint, in their order; none: the cable hangs from its support alone.
+  std::vector<const Effect*> holding() const {
+    std::vector<const Effect*> list;
     for (const Effect& effect : effects)
-      if (effect.held_end.holds()) return &effect;
-    return nullptr;
+      if (effect.held_end.holds()) list.push_back(&effect);
+    return list;
   }
 };
 

@@ -130,9 +130,9 @@ struct Support {
   }
 };
 
-/// In space: where the far end of the last link is held, m, by a constraint: a vector of time, parameters,
-/// constants and signals. A component that is not given is zero. It may be clamped there, too, in a
-/// direction in which the last link ends without bending: a vector of any length but zero.
+/// In space: where the far end of a link is held, m, by a constraint: a vector of time, parameters,
+/// constants and signals. A component that is not given is zero. The end of the cable may be clamped there, too,
+/// in a direction in which the last link ends without bending: a vector of any length but zero.
 struct HeldEnd {
   Expression side, down, across;
   Expression clamp_side, clamp_down, clamp_across;  ///< of no unit
@@ -142,7 +142,12 @@ struct HeldEnd {
   /// With a clamp: GJ, N m^2, as a function of parameters and constants, and by how much the clamps of the two
   /// ends twist the cable, rad, as a function of time, parameters, constants and signals. Nothing: no torsion.
   Expression torsional_stiffness, roll;
+  int link = 0;  ///< the link, from 1; 0: the last
 
+  /// What names begin with: "hold", or "hold_6" where link 6 is held.
+  std::string named(const std::string& what) const {
+    return link == 0 ? what : what + "_" + std::to_string(link);
+  }
   bool holds() const { return side.given() || down.given() || across.given(); }
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
   bool twists() const { return torsional_stiffness.given(); }

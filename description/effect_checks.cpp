@@ -25,7 +25,7 @@ class Checks {
         !effect_.held_end.holds() && !changes_kinematics && !effect_.sensor.given()) {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
-          "support, held_end, kinematics or sensor");
+          "support, held_end, held_joint, kinematics or sensor");
     }
     if (effect_.flow.given() && effect_.forces.empty()) {
       fail(

@@ -462,6 +462,23 @@ class EffectReader {
       if (end.roll.given() && !end.twists())
         table->fail("has a roll, which twists nothing; give torsional_stiffness, too");
     }
+    if (const auto table = file_.optional_table("held_joint")) {
+      HeldEnd& joint = effect_.held_end;
+      if (joint.holds())
+        table->fail(
+            "stands beside [held_end]; an effect holds one place, so give each its own file");
+      joint.side = expression(*table, "side");
+      joint.down = expression(*table, "down");
+      joint.across = expression(*table, "across");
+      const long link = table->integer("link");
+      if (link < 1 || link > std::numeric_limits<int>::max())
+        table->fail("link",
+                    "is " + std::to_string(link) + "; name the link whose far end is held, from 1");
+      joint.link = static_cast<int>(link);
+      if (!joint.holds())
+        table->fail(
+            "has none of side, down and across, which say where the joint is held; give them");
+    }
     if (const auto table = file_.optional_table("kinematics")) {
       Kinematics& kinematics = effect_.kinematics;
       kinematics.centre_offset = expression(*table, "centre_offset");

@@ -375,7 +375,10 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add(bend_axis + "side", subscripted("a", "s"), effect.support.bend_axis_side);
   all.add(bend_axis + "down", subscripted("a", "d"), effect.support.bend_axis_down);
   all.add(bend_axis + "across", subscripted("a", "a"), effect.support.bend_axis_across);
-  const std::string end = "Held end, ", end_clamp = "Direction of the clamp at the held end, ";
+  const int link = effect.held_end.link;
+  const std::string end = link > 0 ? "Held far end of link " + std::to_string(link) + ", "
+                                   : std::string("Held end, "),
+                    end_clamp = "Direction of the clamp at the held end, ";
   all.add(end + "side", subscripted("h", "s"), effect.held_end.side);
   all.add(end + "down", subscripted("h", "d"), effect.held_end.down);
   all.add(end + "across", subscripted("h", "a"), effect.held_end.across);

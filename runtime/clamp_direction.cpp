@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/clamp_direction.hpp"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -30,9 +29,9 @@ std::string clamp_without_direction(const Model& model, const Eigen::VectorXd& p
     model.internal_forces(at, moment.data(), tension.data(), curvature.data());
     support = support || std::isfinite(curvature[0]);
     if (!model.held()) continue;
-    std::array<double, 6> force{}, moments{};
+    Eigen::VectorXd force(3 + model.constraints()), moments(3 + model.constraints());
     model.reactions(at, force.data(), moments.data());
-    end = end || std::isfinite(moments[3]);
+    end = end || moments.tail(model.constraints()).allFinite();
   }
   if (!support) return "[support]";
   return end ? "" : "[held_end]";

@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -21,19 +22,56 @@ using Eigen::VectorXd;
 
 Matrix3d across(const Vector3d& unit) { return Matrix3d::Identity() - unit * unit.transpose(); }
 
+/// The change of across(unit) w, w fixed, where the unit vector turns.
+Vector3d along_turn(const Vector3d& unit, const Vector3d& turn, const Vector3d& w) {
+  return -turn * unit.dot(w) - unit * turn.dot(w);
+}
+
 struct Gap {
-  Vector3d apart, rate;
+  VectorXd apart, rate;
 };
 
 Gap gap_of(const Model& model, const VectorXd& parameters, const State& state, double t,
            const Signals& signals) {
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
-  Gap gap;
+  Gap gap{VectorXd(model.constraints()), VectorXd(model.constraints())};
   model.gap(
       {t, state.q.data(), state.v.data(), nullptr, state.z.data(), u.data(), parameters.data()},
       gap.apart.data(), gap.rate.data());
   return gap;
+}
+
+/// Links between two neighbouring places where the cable is held, or the support and the first of them.
+struct Span {
+  Index first, count;   ///< of its links, from 0
+  Index place, before;  ///< where it ends, and where it begins, in the gaps; before the first: -1
+
+  /// What belongs to its links, of q or v.
+  VectorXd of(const VectorXd& all, Index links) const {
+    VectorXd own(3 * count);
+    for (Index i = 0; i < count; ++i) put(own, count, i, vector_of(all, links, first + i));
+    return own;
+  }
+  /// From its beginning to its end, of vectors of each place.
+  Vector3d across_it(const VectorXd& places) const {
+    const Vector3d end = places.segment<3>(3 * place);
+    return before < 0 ? end : Vector3d(end - places.segment<3>(3 * before));
+  }
+};
+
+/// Along the cable.
+std::vector<Span> spans_of(const Model& model) {
+  std::map<Index, Index> places;  // by link
+  for (const int link : model.held_links()) places.emplace(link, static_cast<Index>(places.size()));
+  std::vector<Span> spans;
+  Index first = 0, before = -1;
+  for (const auto& [link, place] : places) {
+    spans.push_back({first, link - first, place, before});
+    first = link;
+    before = place;
+  }
+  return spans;
 }
 
 /// Links are parallel if their directions differ so little that nu would bend them a hundred times more:
@@ -147,43 +185,61 @@ Vector3d shift(const VectorXd& q, const VectorXd& lengths, const Vector3d& targe
 State closed_end(const Model& model, const VectorXd& parameters, const State& open, double t,
                  const Signals& signals) {
   const Index n = model.links();
-  const VectorXd lengths = parameters.head(n);
-  const double whole = lengths.sum(), longest = lengths.maxCoeff();
   State closed = open;
-  Vector3d reach = Vector3d::Zero();
   for (Index i = 0; i < n; ++i) {
     const Vector3d unit = vector_of(open.q, n, i).normalized();
     put(closed.q, n, i, unit);
-    reach += lengths[i] * unit;
   }
-  const Vector3d target = reach - gap_of(model, parameters, closed, t, signals).apart;
-  const std::string held =
-      "the end is held " + number_text(target.norm()) + " m from the support, and ";
-  if (!(target.norm() < whole))
-    throw ImpossibleValue(held + "the cable is " + number_text(whole) +
-                          " m long; it must be longer than its ends are apart");
-  if (!(target.norm() > 2 * longest - whole))
-    throw ImpossibleValue(held + "the longest link is " + number_text(longest) +
-                          " m long; the other links, " + number_text(whole - longest) +
-                          " m, must be long enough to reach back");
-  const OpenShape shape(open.q, lengths, target);
-  const Vector3d nu = shift(shape.vectors, lengths, target);
-  Matrix3d mobility = Matrix3d::Zero();
-  for (Index i = 0; i < n; ++i) {
-    const Vector3d unit = (vector_of(shape.vectors, n, i) + nu).normalized();
-    put(closed.q, n, i, unit);
-    put(closed.v, n, i, across(unit) * vector_of(open.v, n, i));
-    mobility += lengths[i] * across(unit);
+  const VectorXd apart = gap_of(model, parameters, closed, t, signals).apart;
+  const std::vector<Span> spans = spans_of(model);
+  std::vector<Matrix3d> mobilities;
+  for (const Span& span : spans) {
+    const VectorXd lengths = parameters.segment(span.first, span.count);
+    const double whole = lengths.sum(), longest = lengths.maxCoeff();
+    Vector3d target = -span.across_it(apart);
+    for (Index i = 0; i < span.count; ++i)
+      target += lengths[i] * vector_of(closed.q, n, span.first + i);
+    const Index last = span.first + span.count;
+    const std::string held =
+        (last == n ? "the end" : "link " + std::to_string(last)) + " is held " +
+        number_text(target.norm()) + " m from " +
+        (span.first == 0 ? "the support"
+                         : "where link " + std::to_string(span.first) + " is held") +
+        ", and ";
+    const std::string between = last == n && span.first == 0 ? "" : " between them";
+    if (!(target.norm() < whole))
+      throw ImpossibleValue(held + "the cable" + between + " is " + number_text(whole) +
+                            " m long; it must be longer than its ends are apart");
+    if (!(target.norm() > 2 * longest - whole))
+      throw ImpossibleValue(held + "the longest link" + between + " is " + number_text(longest) +
+                            " m long; the other links, " + number_text(whole - longest) +
+                            " m, must be long enough to reach back");
+    const OpenShape shape(span.of(open.q, n), lengths, target);
+    const Vector3d nu = shift(shape.vectors, lengths, target);
+    Matrix3d mobility = Matrix3d::Zero();
+    for (Index i = 0; i < span.count; ++i) {
+      const Vector3d unit = (vector_of(shape.vectors, span.count, i) + nu).normalized();
+      put(closed.q, n, span.first + i, unit);
+      mobility += lengths[i] * across(unit);
+    }
+    mobilities.push_back(mobility);
   }
-  const Gap left = gap_of(model, parameters, closed, t, signals);
-  if (!(left.apart.norm() <= kClosed * whole))
-    throw ImpossibleValue(
-        "this start cannot be closed: no vector added to the directions of all links takes the end "
-        "to "
-        "where it is held; give angles that differ from link to link, or shape = \"hanging\"");
-  const Vector3d eta = -mobility.partialPivLu().solve(left.rate);
   for (Index i = 0; i < n; ++i)
-    put(closed.v, n, i, vector_of(closed.v, n, i) + across(vector_of(closed.q, n, i)) * eta);
+    put(closed.v, n, i, across(vector_of(closed.q, n, i)) * vector_of(open.v, n, i));
+  const Gap left = gap_of(model, parameters, closed, t, signals);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    const Span& span = spans[k];
+    const double whole = parameters.segment(span.first, span.count).sum();
+    if (!(span.across_it(left.apart).norm() <= kClosed * whole))
+      throw ImpossibleValue(
+          "this start cannot be closed: no vector added to the directions of all links takes the "
+          "end "
+          "to "
+          "where it is held; give angles that differ from link to link, or shape = \"hanging\"");
+    const Vector3d eta = -mobilities[k].partialPivLu().solve(span.across_it(left.rate));
+    for (Index i = span.first; i < span.first + span.count; ++i)
+      put(closed.v, n, i, vector_of(closed.v, n, i) + across(vector_of(closed.q, n, i)) * eta);
+  }
   return closed;
 }
 
@@ -193,53 +249,69 @@ void close_direction(const Model& model, const VectorXd& parameters, const State
   const VectorXd zero = VectorXd::Zero(model.coordinates());
   const VectorXd dq = direction.q.size() ? direction.q : zero;
   const VectorXd dv = direction.v.size() ? direction.v : zero;
-  const VectorXd lengths = parameters.head(n);
-  Vector3d reach = Vector3d::Zero();
-  for (Index i = 0; i < n; ++i) reach += lengths[i] * vector_of(closed.q, n, i);
-  const OpenShape shape(open.q, lengths, reach);
-  const VectorXd& vectors = shape.vectors;
-  const Vector3d nu = shift(vectors, lengths, reach);
-  const VectorXd changes = shape.tangent(open.q, lengths, dq);
   direction.q = direction.v = zero;
-  Matrix3d mobility = Matrix3d::Zero(), softness = Matrix3d::Zero();
-  Vector3d moved = Vector3d::Zero();
-  VectorXd turned = zero;
-  for (Index i = 0; i < n; ++i) {
-    const Vector3d unit = vector_of(closed.q, n, i);
-    const double size = (vector_of(vectors, n, i) + nu).norm();
-    put(turned, n, i, across(unit) * vector_of(changes, n, i) / size);
-    moved += lengths[i] * vector_of(turned, n, i);
-    softness += lengths[i] * across(unit) / size;
-    mobility += lengths[i] * across(unit);
+  Index behind = 0;
+  for (const Span& span : spans_of(model)) {
+    const Index m = span.count;
+    const VectorXd lengths = parameters.segment(span.first, m);
+    const VectorXd q = span.of(closed.q, n), v = span.of(closed.v, n);
+    const VectorXd open_q = span.of(open.q, n), open_v = span.of(open.v, n);
+    const VectorXd own_dv = span.of(dv, n);
+    Vector3d reach = Vector3d::Zero();
+    for (Index i = 0; i < m; ++i) reach += lengths[i] * vector_of(q, m, i);
+    const OpenShape shape(open_q, lengths, reach);
+    const VectorXd& vectors = shape.vectors;
+    const Vector3d nu = shift(vectors, lengths, reach);
+    const VectorXd changes = shape.tangent(open_q, lengths, span.of(dq, n));
+    Matrix3d mobility = Matrix3d::Zero(), softness = Matrix3d::Zero();
+    Vector3d moved = Vector3d::Zero();
+    VectorXd turned = VectorXd::Zero(3 * m);
+    for (Index i = 0; i < m; ++i) {
+      const Vector3d unit = vector_of(q, m, i);
+      const double size = (vector_of(vectors, m, i) + nu).norm();
+      put(turned, m, i, across(unit) * vector_of(changes, m, i) / size);
+      moved += lengths[i] * vector_of(turned, m, i);
+      softness += lengths[i] * across(unit) / size;
+      mobility += lengths[i] * across(unit);
+    }
+    const Vector3d dnu = -softness.partialPivLu().solve(moved);
+    Vector3d drift = Vector3d::Zero();
+    for (Index i = 0; i < m; ++i) {
+      const Vector3d unit = vector_of(q, m, i);
+      put(turned, m, i,
+          vector_of(turned, m, i) + across(unit) * dnu / (vector_of(vectors, m, i) + nu).norm());
+      drift += lengths[i] * across(unit) * vector_of(own_dv, m, i);
+    }
+    // closed.v = across(unit) w with w = open.v + eta
+    Vector3d eta = Vector3d::Zero();
+    for (Index i = 0; i < m; ++i)
+      eta +=
+          lengths[i] * (vector_of(v, m, i) - across(vector_of(q, m, i)) * vector_of(open_v, m, i));
+    eta = mobility.partialPivLu().solve(eta);
+    VectorXd by_turning = VectorXd::Zero(3 * m);
+    for (Index i = 0; i < m; ++i) {
+      const Vector3d change =
+          along_turn(vector_of(q, m, i), vector_of(turned, m, i), vector_of(open_v, m, i) + eta);
+      put(by_turning, m, i, change);
+      drift += lengths[i] * change;
+    }
+    const Vector3d deta = -mobility.partialPivLu().solve(drift);
+    for (Index i = 0; i < m; ++i) {
+      put(direction.q, n, span.first + i, vector_of(turned, m, i));
+      put(direction.v, n, span.first + i,
+          vector_of(by_turning, m, i) +
+              across(vector_of(q, m, i)) * (vector_of(own_dv, m, i) + deta));
+    }
+    behind = span.first + m;
   }
-  const Vector3d dnu = -softness.partialPivLu().solve(moved);
-  Vector3d drift = Vector3d::Zero();
-  for (Index i = 0; i < n; ++i) {
+  // Links behind the last held place: their directions are made vectors of length one, their rates perpendicular.
+  for (Index i = behind; i < n; ++i) {
     const Vector3d unit = vector_of(closed.q, n, i);
-    const Vector3d turn =
-        vector_of(turned, n, i) + across(unit) * dnu / (vector_of(vectors, n, i) + nu).norm();
+    const Vector3d turn = across(unit) * vector_of(dq, n, i) / vector_of(open.q, n, i).norm();
     put(direction.q, n, i, turn);
-    drift += lengths[i] * across(unit) * vector_of(dv, n, i);
-  }
-  // closed.v = across(unit) w with w = open.v + eta
-  Vector3d eta = Vector3d::Zero();
-  for (Index i = 0; i < n; ++i)
-    eta += lengths[i] * (vector_of(closed.v, n, i) -
-                         across(vector_of(closed.q, n, i)) * vector_of(open.v, n, i));
-  eta = mobility.partialPivLu().solve(eta);
-  VectorXd by_turning = zero;
-  for (Index i = 0; i < n; ++i) {
-    const Vector3d unit = vector_of(closed.q, n, i), turn = vector_of(direction.q, n, i);
-    const Vector3d w = vector_of(open.v, n, i) + eta;
-    const Vector3d change = -turn * unit.dot(w) - unit * turn.dot(w);
-    put(by_turning, n, i, change);
-    drift += lengths[i] * change;
-  }
-  const Vector3d deta = -mobility.partialPivLu().solve(drift);
-  for (Index i = 0; i < n; ++i)
     put(direction.v, n, i,
-        vector_of(by_turning, n, i) +
-            across(vector_of(closed.q, n, i)) * (vector_of(dv, n, i) + deta));
+        across(unit) * vector_of(dv, n, i) + along_turn(unit, turn, vector_of(open.v, n, i)));
+  }
 }
 
 }  // namespace catena

@@ -105,11 +105,10 @@ void Integrator::start_quadratures() {
   const catena_model& table = dynamics_.table();
   for (int i = 0; i < table.energies; ++i)
     if (table.energy_item[i].kind != CATENA_STORED) integrated_.push_back(i);
-  // The forces that move the ends depend on accelerations.
-  for (const int i : integrated_) {
-    const std::string_view name = table.energy_item[i].name;
-    if (name == "support" || name == "end") acceleration_.resize(static_cast<std::size_t>(n_));
-  }
+  // The forces that move the support, and what is held, depend on accelerations.
+  for (const int i : integrated_)
+    if (dynamics_.model().held() || std::string_view(table.energy_item[i].name) == "support")
+      acceleration_.resize(static_cast<std::size_t>(n_));
   if (integrated_.empty()) return;
   quadrature_.reset(
       new_state_vector(static_cast<sunindextype>(integrated_.size()), context_.get()));
@@ -216,8 +215,8 @@ int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
   for (int i = n; i < size; ++i)
     out[i] = 1.0 / (options.relative_tolerance * std::abs(value[i]) +
                     options.absolute_tolerance_velocity);
-  // Integrals of the force that holds an end enter no equation.
-  const int constraints = self.dynamics_.model().held() ? 3 : 0;
+  // Integrals of the forces that hold a place enter no equation.
+  const int constraints = self.dynamics_.model().constraints();
   std::fill_n(out + n - constraints, constraints, 0.0);
   std::fill_n(out + 2 * n - constraints, constraints, 0.0);
   return 0;

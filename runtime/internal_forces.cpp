@@ -15,9 +15,9 @@ InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parame
   const Eigen::Index times = trajectory.q.cols();
   const Eigen::MatrixXd empty(model.links(), times);
   const Eigen::Index axes = model.in_space() ? 3 : 2, moments = model.in_space() ? 3 : 1;
-  const Eigen::Index ends = model.held() ? 2 : 1;
+  const Eigen::Index held = static_cast<Eigen::Index>(model.held_links().size());
   InternalForces result{empty, empty, empty, {}, {}};
-  Eigen::MatrixXd force(axes * ends, times), moment(moments * ends, times);
+  Eigen::MatrixXd force(axes * (1 + held), times), moment(moments * (1 + held), times);
   Eigen::VectorXd a(model.coordinates());
   for (Eigen::Index k = 0; k < times; ++k) {
     const double t = trajectory.time[static_cast<std::size_t>(k)];
@@ -34,7 +34,10 @@ InternalForces internal_forces(const Model& model, const Eigen::VectorXd& parame
   }
   if (!model.table().reactions) return result;
   result.support = {force.topRows(axes), moment.topRows(moments)};
-  if (model.held()) result.end = {force.bottomRows(axes), moment.bottomRows(moments)};
+  for (Eigen::Index place = 1; place <= held; ++place)
+    result.held.push_back(
+        {model.held_links()[static_cast<std::size_t>(place - 1)],
+         {force.middleRows(axes * place, axes), moment.middleRows(moments * place, moments)}});
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "runtime/model.hpp"
 #include "runtime/signals.hpp"
@@ -19,13 +20,18 @@ struct InternalForces {
   /// Curvature at joint i, rad/m: the change of angle over the distance between the middles of its
   /// links; at joint 1, the clamp, over half of link 1.
   Eigen::MatrixXd curvature;
-  /// What the support exerts on the chain, and what holds its far end where it is held, one column a time:
-  /// forces, N, by components side, down and in space across, and moments, N m: in space likewise, in the
-  /// plane one, positive towards growing theta. Empty: the end is free, or the table does not tell.
+  /// What the support exerts on the chain, and what holds the far ends of links where they are held, one column a
+  /// time: forces, N, by components side, down and in space across, and moments, N m: in space likewise, in the
+  /// plane one, positive towards growing theta. Empty: the table does not tell.
   struct Reaction {
     Eigen::MatrixXd force, moment;
   };
-  Reaction support, end;
+  struct Held {
+    int link;  ///< from 1
+    Reaction reaction;
+  };
+  Reaction support;
+  std::vector<Held> held;
 };
 
 /// The internal forces along a motion of the model: accelerations follow from the equations of

@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "common/impossible_value.hpp"
 #include "common/in_quotes.hpp"
@@ -68,6 +69,21 @@ std::string fault_of(const catena_model* table) {
   return {};
 }
 
+// The three coordinates of each constraint are hold_side, ... or hold_6_side, ...
+std::vector<int> held_links_of(const catena_model& table) {
+  std::vector<int> links;
+  if (table.gap == nullptr) return links;
+  const std::string_view before = "hold_", after = "side";
+  for (int i = 3 * table.links; i < table.coordinates; ++i) {
+    std::string_view name = table.coordinate[i].name;
+    if (!name.starts_with(before) || !name.ends_with(after)) continue;
+    name.remove_prefix(before.size());
+    name.remove_suffix(after.size());
+    links.push_back(name.empty() ? table.links : std::stoi(std::string(name)));
+  }
+  return links;
+}
+
 }  // namespace
 
 Model::Model(const catena_model* table) : Model(table, nullptr) {}
@@ -78,6 +94,7 @@ Model::Model(const catena_model* table, std::shared_ptr<const void> owner)
     : table_(table), owner_(std::move(owner)) {
   if (const std::string fault = fault_of(table); !fault.empty())
     throw InputError("the model cannot be used: " + fault);
+  held_links_ = held_links_of(*table);
 }
 
 Model Model::built_in(int links) {

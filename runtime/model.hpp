@@ -113,8 +113,13 @@ class Model {
   void reactions(const catena_point& at, double* force, double* moment) const {
     table_->reactions(table_->context, &at, force, moment);
   }
-  /// Whether a constraint holds the far end; else the next two are not there.
+  /// Whether constraints hold the far end or joints; else the next two are not there.
   bool held() const { return table_->gap != nullptr; }
+  /// The links whose far ends constraints hold, from 1, in the order of `gap` and of the last coordinates, whose
+  /// names tell: hold_6_side is of link 6, hold_side of the last.
+  const std::vector<int>& held_links() const { return held_links_; }
+  /// Of the last coordinates, how many belong to these constraints: three for each.
+  int constraints() const { return 3 * static_cast<int>(held_links_.size()); }
   void gap(const catena_point& at, double* apart, double* rate) const {
     table_->gap(table_->context, &at, apart, rate);
   }
@@ -149,6 +154,7 @@ class Model {
   Model(const catena_model* table, std::shared_ptr<const void> owner);
 
   const catena_model* table_;
+  std::vector<int> held_links_;
   std::shared_ptr<const void> owner_;  // a loaded library, or the table itself
 };
 

@@ -79,8 +79,8 @@ void SensitivitySolver::error_weights(const double* s, const SimulationOptions& 
   const double fill =
       std::sqrt(static_cast<double>(batches_ * kWidth) / static_cast<double>(directions_.size()));
   const int elements = dynamics_.size(), coordinates = dynamics_.coordinates();
-  // Integrals of the force that holds an end enter no equation.
-  const int constraints = dynamics_.model().held() ? 3 : 0;
+  // Integrals of the forces that hold a place enter no equation.
+  const int constraints = dynamics_.model().constraints();
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const auto first = batch_size() * static_cast<int>(k / kWidth) + static_cast<int>(k % kWidth);
     for (int element = 0; element < elements; ++element) {

@@ -53,11 +53,14 @@ std::optional<State> lying(const Model& model, const VectorXd& lengths, const Ve
   return state;
 }
 
-/// Shapes to begin with: a cable between its ends as a catenary, which may lie on a floor; plumb if the end is free.
+/// Shapes to begin with: a cable between its ends as a catenary, which may lie on a floor; plumb if it is not held.
 std::vector<State> first_guesses(const Model& model, const VectorXd& parameters, double t,
                                  const Signals& signals) {
   State state = State::zero(model);
   if (!model.held()) return {state};
+  // Between several places each piece is bent to half a circle that hangs, and closed.
+  if (model.held_links() != std::vector{model.links()})
+    return {closed_end(model, parameters, state, t, signals)};
   const VectorXd lengths = parameters.head(model.links());
   std::vector<double> u(static_cast<std::size_t>(3 * model.signals()));
   signals.evaluate(t, u.data());
@@ -90,7 +93,7 @@ class Search {
         parameters_(parameters),
         t_(t),
         links_(model.links()),
-        movable_(model.coordinates() - (model.held() ? 3 : 0)),
+        movable_(model.coordinates() - model.constraints()),
         u_(static_cast<std::size_t>(3 * model.signals())),
         zero_(VectorXd::Zero(std::max(model.coordinates(), model.states()))),
         a_(VectorXd::Zero(model.coordinates())),

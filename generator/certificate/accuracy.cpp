@@ -359,13 +359,14 @@ class Measurement {
   // The sizes are those of positions.
   void gap(double size, double size_of_change, double speed) {
     const catena_point here = point_.at(), along = direction_.at();
-    double apart[3], rate[3], dapart[3], drate[3];
-    table_.gap(table_.context, &here, apart, rate);
-    table_.gap_tangent(table_.context, &here, &along, dapart, drate);
+    const std::vector<ex>& gaps = chain_.gap();
+    Values apart(gaps.size()), rate(gaps.size()), dapart(gaps.size()), drate(gaps.size());
+    table_.gap(table_.context, &here, apart.data(), rate.data());
+    table_.gap_tangent(table_.context, &here, &along, dapart.data(), drate.data());
     double size_of_rate_change = size_of_change + speed;
     for (const double change : drate) size_of_rate_change += std::abs(change);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const ex& exact = chain_.gap()[k];
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const ex& exact = gaps[k];
       const ex exact_rate = chain_.rate(exact);
       note("gap", difference(apart[k], here_->of(exact)), size + std::abs(apart[k]));
       note("gap", difference(rate[k], here_->of(exact_rate)), speed + std::abs(rate[k]));

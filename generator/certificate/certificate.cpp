@@ -77,8 +77,13 @@ Json proofs(const Description& description, int links, const Json& summary, Json
   if (description.space == Space::kThreeDimensional) {
     add_all(prove_space_closed_form(links), " = closed form in space");
     add_all(prove_plane_in_space(links), " in any vertical plane = closed form");
-    if (description.holding() != nullptr)
-      add_all({prove_constraint(description, links)}, " of the held end = closed form");
+    const std::vector<const Effect*> holding = description.holding();
+    for (std::size_t k = 0; k < holding.size(); ++k) {
+      const int link = holding[k]->held_end.link;
+      add_all({prove_constraint(description, links, k)},
+              (link == 0 ? " of the held end" : " of the held link " + std::to_string(link)) +
+                  " = closed form");
+    }
   } else {
     const std::string whose = description.effects.empty() ? "" : " of the plain chain";
     add_all(prove_closed_form(links), whose + " = closed form");

@@ -72,8 +72,9 @@ RandomPoint random_point(const catena_model& table, std::mt19937_64& generator) 
   }
   point.v = uniform_list(table.coordinates, 3, generator);
   point.a = uniform_list(table.coordinates, 5, generator);
-  // Integrals of the force that holds an end are no motion: v . r has no power of theirs.
-  if (table.gap != nullptr) std::fill(point.v.end() - 3, point.v.end(), 0.0);
+  // Integrals of the forces that hold an end or a joint are no motion: v . r has no power of theirs.
+  if (table.gap != nullptr)
+    std::fill(point.v.begin() + std::ptrdiff_t{3} * table.links, point.v.end(), 0.0);
   // Extra states (slips) stay within the range that motions reach. Outside of it Newton matrices,
   // which are factored without row exchanges, may have no pivots.
   point.z = uniform_list(table.states, 0.2, generator);

@@ -89,15 +89,11 @@ Chain::Chain(const Description& description, int links, const std::string& only_
       forces_(effect_forces) {
   if (const std::string conflict = conflict_in(description_); !in_plane() && !conflict.empty())
     throw std::invalid_argument(conflict);
-  if (const Effect* holding = description_.holding(); holding && links_ < 2)
-    throw InputError(
-        in_quotes(holding->id) +
-        " holds the far end: one link between two fixed points cannot move; ask for 2 links "
-        "or more");
+  check_held();
   make_inputs();
   make_kinematics();
   add_chain_terms();
-  if (description_.holding()) hold_end();
+  hold();
   for (const Effect& effect : description_.effects) {
     if (forces_ == EffectForces::kApart) apart_ = effect.id;
     add_effect_terms(effect);
@@ -229,9 +225,11 @@ void Chain::make_inputs() {
       }
     }
     if (effect.held_end.holds()) {
+      const Link link = effect.held_end.link;
+      held_.push_back({&effect, link == 0 ? links_ : link, {}});
       for (const Axis axis : axes()) {
-        const std::string name = "hold" + ending(axis);
-        hold_.push_back(definitions_.input(name));
+        const std::string name = effect.held_end.named("hold") + ending(axis);
+        held_.back().mu.push_back(definitions_.input(name));
         add_border_coordinate(name);
       }
     }
@@ -381,7 +379,7 @@ void Chain::make_kinematics() {
       tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
 
-  if (description_.holding()) place_held_end();
+  place_held();
   point_ = joint_;
   for (const Axis axis : axes()) point_[axis].push_back(load_[axis]);
 }
@@ -704,11 +702,13 @@ void Chain::pull_back() {
     for (const ex& moment : moment_of_joint(1)) support.moment.push_back(-moment);
   }
   reactions_.push_back(support);
-  if (hold_.empty()) return;
-  Reaction end;
-  for (const ex& mu : hold_) end.force.push_back(-time_.of(time_.of(mu)));
-  end.moment = end_is_clamped_ ? moment_of_joint(links_ + 1) : std::vector<ex>(hold_.size());
-  reactions_.push_back(end);
+  for (const Held& held : held_) {
+    Reaction reaction;
+    for (const ex& mu : held.mu) reaction.force.push_back(-time_.of(time_.of(mu)));
+    reaction.moment = held.effect->held_end.turns() ? moment_of_joint(links_ + 1)
+                                                    : std::vector<ex>(held.mu.size());
+    reactions_.push_back(reaction);
+  }
 }
 
 }  // namespace catena

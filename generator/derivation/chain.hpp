@@ -32,7 +32,8 @@
 // with the constraints |q_i| = 1 and their multipliers, and what is along q_i says that |q_i|^2 has no
 // acceleration. |q_i| may drift by rounding and errors of steps; the motion does not see it.
 //
-// A held end: the constraint g = (far end of link n) - (where it is held) = 0 enters as a kinetic energy
+// A held end: the constraint g = (far end of link n) - (where it is held) = 0, or of any other link that is
+// held, enters as a kinetic energy
 // mu'. g', bilinear in the rates, with three further coordinates mu. Euler-Lagrange makes of it
 //
 //     ... + (dg/dq)' mu'' in the equations of q,      g'' = 0 in those of mu:
@@ -124,17 +125,17 @@ class Chain {
   const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
   /// In space: the generalised force of the unit vector of link i, [axis][i], i = 1 ... n.
   const std::vector<std::vector<GiNaC::ex>>& direction_forces() const { return direction_force_; }
-  /// Of the last coordinates, how many belong to the constraint of a held end: three, or none.
-  int constraints() const { return static_cast<int>(hold_.size()); }
+  /// Of the last coordinates, how many belong to constraints: three for each place that is held.
+  int constraints() const { return 3 * static_cast<int>(held_.size()); }
   /// Of the last coordinates, how many belong to no link: those of the load, or of that constraint.
   int border() const { return border_; }
-  /// The gap of that constraint, m, by axis: empty where the end is free.
+  /// The gaps of those constraints, m: of each by axis.
   const std::vector<GiNaC::ex>& gap() const { return gap_; }
   /// What holds an end exerts on the chain, by axis: force, N, and moment, N m (in the plane one).
   struct Reaction {
     std::vector<GiNaC::ex> force, moment;
   };
-  /// At the support, and where the end is held.
+  /// At the support, and at each place that is held.
   const std::vector<Reaction>& reactions() const { return reactions_; }
   /// Extra states of effects and their rates, in the same order.
   const std::vector<GiNaC::ex>& states() const { return states_; }
@@ -178,6 +179,7 @@ class Chain {
   /// The square of the velocity of a point that has these components.
   ex speed_squared(const std::vector<ex>& position);
 
+  void check_held() const;
   void make_inputs();
   void make_kinematics();
   void add_angles();
@@ -185,9 +187,10 @@ class Chain {
   void turn_clamp();
   void place_bend_axis();
   std::vector<ex> rest_bend(Link i);
-  void place_held_end();
-  void hold_end();
-  void twist();
+  void place_held();
+  void clamp_end(const Effect& effect);
+  void hold();
+  void twist(const Effect& effect);
   std::vector<ex> unit_vector(const Effect& effect,
                               const std::vector<const Expression*>& components,
                               const std::string& name, const std::string& unit_name, int index);
@@ -304,8 +307,14 @@ class Chain {
   EnergyFunctions energy_functions_;
   Sensor sensor_;
   int border_ = 0;
-  std::vector<ex> hold_, end_, gap_;  ///< by axis: mu, where the end is held, what is between
-  bool end_is_clamped_ = false;
+  /// The far end of a link that is held.
+  struct Held {
+    const Effect* effect;
+    Link link;
+    std::vector<ex> mu;  ///< by axis
+  };
+  std::vector<Held> held_;
+  std::vector<ex> gap_;            ///< by place and axis
   ex path_, roll_, twist_moment_;  ///< of torsion; none: zero
   std::vector<ex> path_turning_;   ///< by joint
   std::vector<Reaction> reactions_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The ends of the chain in space: clamps whose direction turns, the constraint that holds the far end,
-// the moments and the power of what holds them.
+// The ends of the chain in space: clamps whose direction turns, the constraints that hold the far end or a
+// joint, the moments and the power of what holds them.
 #include <algorithm>
 
 #include "common/input_error.hpp"
@@ -97,20 +97,56 @@ std::vector<ex> Chain::rest_bend(Link i) {
   return rest;
 }
 
-// Where the end is held, and the joint beyond the last link that clamps it there.
-void Chain::place_held_end() {
-  const Effect& effect = *description_.holding();
+// Links between two places that are held have to be two at least, or they cannot move.
+void Chain::check_held() const {
+  std::map<Link, const Effect*> by_link;
+  for (const Effect* effect : description_.holding()) {
+    const Link link = effect->held_end.link == 0 ? links_ : effect->held_end.link;
+    const std::string what = in_quotes(effect->id) + " holds the far end of link ";
+    if (link > links_)
+      throw InputError(what + std::to_string(link) + ", and the chain has " +
+                       std::to_string(links_) + " links; ask for more, or name another link");
+    if (!by_link.emplace(link, effect).second)
+      throw InputError(what + std::to_string(link) + ", which " + in_quotes(by_link.at(link)->id) +
+                       " holds, too; leave one away");
+  }
+  Link before = 0;
+  for (const auto& [link, effect] : by_link) {
+    if (link < before + 2) {
+      const std::string what = effect->held_end.link == 0 && before == 0
+                                   ? " holds the far end: one link between two fixed points cannot "
+                                     "move; ask for 2 links "
+                                     "or more"
+                                   : " holds the far end of link " + std::to_string(link) +
+                                         ", which is one link away from another place that is "
+                                         "held: it cannot move; hold "
+                                         "places that are 2 links or more apart";
+      throw InputError(in_quotes(effect->id) + what);
+    }
+    before = link;
+  }
+}
+
+// Where the chain is held.
+void Chain::place_held() {
+  for (const Held& held : held_) {
+    const HeldEnd& end = held.effect->held_end;
+    const Expression* const place[] = {&end.side, &end.down, &end.across};
+    std::vector<ex> at;
+    for (const Axis axis : axes())
+      at.push_back(
+          define_variable(end.named("end") + ending(axis), kNoIndex,
+                          evaluate(*held.effect, *place[axis], kShape, Place::kAnywhere, 0, "m")));
+    for (const Axis axis : axes())
+      gap_.push_back(define_variable(end.named("gap") + ending(axis), kNoIndex,
+                                     joint_[axis][held.link] - at[axis]));
+    if (end.turns()) clamp_end(*held.effect);
+  }
+}
+
+// The joint beyond the last link that clamps it where it is held.
+void Chain::clamp_end(const Effect& effect) {
   const HeldEnd& held = effect.held_end;
-  const Expression* const place[] = {&held.side, &held.down, &held.across};
-  for (const Axis axis : axes())
-    end_.push_back(
-        define_variable("end" + ending(axis), kNoIndex,
-                        evaluate(effect, *place[axis], kShape, Place::kAnywhere, 0, "m")));
-  for (const Axis axis : axes())
-    gap_.push_back(
-        define_variable("gap" + ending(axis), kNoIndex, joint_[axis][links_] - end_[axis]));
-  if (!held.turns()) return;
-  end_is_clamped_ = true;
   const Link last = links_ + 1;
   const std::vector<ex> clamp = unit_vector(
       effect, {&held.clamp_side, &held.clamp_down, &held.clamp_across}, "end_clamp", "unit", last);
@@ -134,22 +170,24 @@ void Chain::place_held_end() {
   add(damping_, "end_damping", held.clamp_damping, "N m s/rad");
 }
 
-// The constraint, and the clamp.
-void Chain::hold_end() {
-  if (end_is_clamped_) add_joint_terms(links_ + 1);
-  if (description_.holding()->held_end.twists()) twist();
-  if (!wanted(description_.holding()->id)) return;
-  for (const Axis axis : axes()) {
-    const ex rate = time_.of(gap_[axis]);
-    add_momenta(time_.of(hold_[axis]) * rate);
-    add_generalised_force(hold_[axis],
-                          2 * kClosingRate * rate + kClosingRate * kClosingRate * gap_[axis]);
+// The constraints, and the clamp.
+void Chain::hold() {
+  auto gap = gap_.begin();
+  for (const Held& held : held_) {
+    if (held.effect->held_end.turns()) add_joint_terms(links_ + 1);
+    if (held.effect->held_end.twists()) twist(*held.effect);
+    for (const ex& mu : held.mu) {
+      const ex apart = *gap++;
+      if (!wanted(held.effect->id)) continue;
+      const ex rate = time_.of(apart);
+      add_momenta(time_.of(mu) * rate);
+      add_generalised_force(mu, 2 * kClosingRate * rate + kClosingRate * kClosingRate * apart);
+    }
   }
 }
 
 // Uniform twist of an isotropic rod between two clamps.
-void Chain::twist() {
-  const Effect& effect = *description_.holding();
+void Chain::twist(const Effect& effect) {
   for (Link k = 1; k <= links_ + 1; ++k) {
     ex across = 0;
     for (const Axis axis : axes())
@@ -209,7 +247,7 @@ void Chain::add_power_of_ends() {
   const auto turning = [&](Axis axis, Link i) {
     return in_plane() ? ex(0) : direction_force_[axis][i] * time_.of(direction_[axis][i]);
   };
-  ex of_support = 0, of_end = 0;
+  ex of_support = 0;
   for (const Axis axis : axes())
     of_support += reactions_[0].force[axis] * time_.of(joint_[axis][0]) + turning(axis, 0);
   for (const auto& rest : rest_bend_) {
@@ -220,13 +258,17 @@ void Chain::add_power_of_ends() {
     }
   }
   if (!of_support.is_zero()) add_energy("support", EnergyItem::kSupplied, of_support);
-  if (hold_.empty()) return;
-  for (const Axis axis : axes()) {
-    of_end += reactions_[1].force[axis] * time_.of(joint_[axis][links_]);
-    if (end_is_clamped_) of_end += turning(axis, links_ + 1);
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const Held& held = held_[k];
+    const HeldEnd& end = held.effect->held_end;
+    ex power = 0;
+    for (const Axis axis : axes()) {
+      power += reactions_[k + 1].force[axis] * time_.of(joint_[axis][held.link]);
+      if (end.turns()) power += turning(axis, links_ + 1);
+    }
+    if (end.twists()) power += twist_moment_ * time_.of(roll_);
+    add_energy(end.named("end"), EnergyItem::kSupplied, power);
   }
-  if (!twist_moment_.is_zero()) of_end += twist_moment_ * time_.of(roll_);
-  add_energy("end", EnergyItem::kSupplied, of_end);
 }
 
 }  // namespace catena

@@ -164,10 +164,13 @@ const ex kStatedClosingRate = 100;
 
 }  // namespace
 
-Proof prove_constraint(const Description& description, int links) {
-  Chain chain(description, links, description.holding()->id);
+Proof prove_constraint(const Description& description, int links, std::size_t place_held) {
+  const Effect& effect = *description.holding()[place_held];
+  const int last = effect.held_end.link == 0 ? links : effect.held_end.link;
+  Chain chain(description, links, effect.id);
   std::set<std::string> kept = kept_families({"", "_velocity", "_acceleration"});
-  for (const char* axis : kAxes) kept.insert("end_" + std::string(axis));
+  const std::string held = effect.held_end.named("end") + "_";
+  for (const char* axis : kAxes) kept.insert(held + axis);
   WrittenOut written_out(chain.definitions(), kept);
   EntryComparison comparison("constraint");
   for (const Axis axis : chain.axes()) {
@@ -175,12 +178,12 @@ Proof prove_constraint(const Description& description, int links) {
     const auto symbol = [&](const std::string& family, int i) {
       return chain.definitions().input(family, i);
     };
-    const ex support = chain.position(axis)[0], end = chain.definitions().input("end_" + name);
+    const ex support = chain.position(axis)[0], end = chain.definitions().input(held + name);
     const std::size_t of_constraint =
-        3 * static_cast<std::size_t>(links) + static_cast<std::size_t>(axis);
+        3 * (static_cast<std::size_t>(links) + place_held) + static_cast<std::size_t>(axis);
     ex gap = support - end, rate = chain.rate(gap), acceleration = chain.rate(rate);
     for (int i = 1; i <= links; ++i) {
-      const ex length = symbol("length", i);
+      const ex length = i > last ? ex(0) : symbol("length", i);
       gap += length * symbol("unit_" + name, i);
       rate += length * symbol("unit_" + name + "_velocity", i);
       acceleration += length * symbol("unit_" + name + "_acceleration", i);

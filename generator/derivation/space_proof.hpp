@@ -16,7 +16,7 @@ std::vector<Proof> prove_space_closed_form(int links);
 
 /// A far end that is held, of a description with one: each link has its length times the force that holds the
 /// end, and the constraint is g'' + 2 a g' + a^2 g with g the sum of the links less the place of the end.
-Proof prove_constraint(const Description& description, int links);
+Proof prove_constraint(const Description& description, int links, std::size_t place_held);
 
 /// Puts a motion in a vertical plane of any azimuth into the derivation in space. What is left of r
 /// along the plane, perpendicular to each link, has to be chapter 4; across the plane, zero. Angles

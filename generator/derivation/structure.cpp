@@ -111,6 +111,15 @@ class Linearisation {
     return form;
   }
 
+  /// The change of what belongs to no link, in u and in what is carried down to any link.
+  Form of_no_link(const ex& expression) {
+    Form form = change_of(expression);
+    for (const auto& [basis, coefficient] : form)
+      if (basis.kind == Basis::kCarriedUp)
+        throw NotOfThisForm("an equation of no link depends on cut forces");
+    return form;
+  }
+
   /// The change of a sum over links, in u of all of them.
   Form along_links(const ex& expression) {
     Form form = change_of(expression);
@@ -471,18 +480,17 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   const auto numbered = [](size_t k) { return "_" + std::to_string(k); };
   for (size_t k = 0; k < border; ++k) {
     Differential along = along_border(chain, weights, inner + k);
-    const Form row = linearisation.at_link(chain.residual()[inner + k], n + 1);
-    for (const auto& [basis, coefficient] : row)
-      if (basis.kind == Basis::kCarriedUp)
-        throw NotOfThisForm("an equation of no link depends on cut forces");
+    const Form row = linearisation.of_no_link(chain.residual()[inner + k]);
     for (int i = 1; i <= n; ++i) {
       for (size_t a = 0; a < block; ++a) {
         const ex& r = chain.residual()[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
         result.border_column[i][a][k] =
             definitions.named(along.of(r), joined({"border_column", ending(a), numbered(k)}), i);
-        ex by_link = i == n ? entry(row, perturbation(a, n)) : ex(0);
+        ex by_link = entry(row, perturbation(a, i));
         for (size_t f = 0; f < down.size(); ++f)
-          by_link += entry(row, {Basis::kCarriedDown, down[f], n}) * B[i][a][f];
+          for (auto carried = row.lower_bound({Basis::kCarriedDown, down[f], i});
+               carried != row.end() && carried->first.family == down[f]; ++carried)
+            by_link += carried->second * B[i][a][f];
         result.border_row[i][a][k] =
             definitions.named(by_link, joined({"border_row", ending(a), numbered(k)}), i);
       }

@@ -45,6 +45,8 @@ ModelFunctions functions_for_any_links(const Description& description) {
   if (any.summary.border > 0)
     throw std::logic_error(
         "the rows of coordinates of the load stand behind a fixed number of links");
+  if (any.mass.block > 1)
+    throw std::logic_error("a matrix in blocks has arrays of a fixed number of links");
   const ModelFunctions more = derive(description, kGivesProgram + 1);
   require_alike(any, more);
   for (std::size_t k = 0; k < any.functions.size(); ++k) {

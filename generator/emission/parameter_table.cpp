@@ -29,9 +29,13 @@ constexpr ChainFamily kShared[] = {
     {"gravity", "m/s^2", "acceleration of gravity", 9.81, -kInfinity},
 };
 
-// The coordinates of the constraint of a held end: twice integrated, the force that holds it, with the
+// The coordinates of the constraint of a held place: twice integrated, the force that holds it, with the
 // opposite sign.
-constexpr const char* kHold[] = {"hold_side", "hold_down", "hold_across"};
+std::vector<std::string> hold_names(const HeldEnd& held) {
+  if (!held.holds()) return {};
+  const std::string name = held.named("hold");
+  return {name + "_side", name + "_down", name + "_across"};
+}
 
 // Torques act on the angles of the plane.
 bool has_family(const Description& description, const ChainFamily& row) {
@@ -84,8 +88,8 @@ TableFamilies table_families(const Description& description) {
     for (const Coordinate& coordinate : effect.coordinates)
       if (coordinate.at == Place::kLink)
         table.coordinates.push_back({{id + coordinate.name, coordinate.unit}, true});
-    if (effect.held_end.holds())
-      for (const char* name : kHold) table.coordinates.push_back({{name, "N s^2"}});
+    for (const std::string& name : hold_names(effect.held_end))
+      table.coordinates.push_back({{name, "N s^2"}});
     for (const ExtraState& state : effect.states) {
       const std::string number = state.at == Place::kPivot ? "_1" : "";
       for (const std::string& component : components_of(state, description))
@@ -150,8 +154,7 @@ std::vector<InputPlace> input_places(const Description& description, int links) 
     }
     for (const Coordinate& row : effect.coordinates)
       if (row.at == Place::kLink) coordinate(name(row), true);
-    if (effect.held_end.holds())
-      for (const char* hold : kHold) coordinate(hold, false);
+    for (const std::string& name : hold_names(effect.held_end)) coordinate(name, false);
     for (const ExtraState& state : effect.states) {
       for (const std::string& component : components_of(state, description)) {
         places.push_back(

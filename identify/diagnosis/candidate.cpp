@@ -148,7 +148,7 @@ std::string why_impossible(const Effect& effect, Space space, const Case& the_ca
   const DiagnosisSpec& spec = the_case.diagnosis;
   if (const std::string why = why_not_in(space, effect); !why.empty()) return why;
   if (effect.held_end.holds())
-    return "it holds the far end at all values of its parameters; have it in the model";
+    return "it holds the cable at all values of its parameters; have it in the model";
   if (has(spec.impossible, effect.id)) return "the case says that it is impossible";
   if (effect.rare && !has(spec.possible, effect.id))
     return "rare; tried where the case has it in diagnosis.possible";

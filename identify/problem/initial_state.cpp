@@ -180,7 +180,7 @@ LinkDirections directions_at_start(const Model& model, const State& shape,
 void start_load(const Model& model, const InitialSpec& initial, State& state) {
   const catena_model& table = model.table();
   const Eigen::Index links = model.links(), first = (model.in_space() ? 3 : 1) * links,
-                     end = model.coordinates() - (model.held() ? 3 : 0);
+                     end = model.coordinates() - model.constraints();
   for (const LoadStart& start : initial.load) {
     std::vector<std::string> names;
     bool found = false;

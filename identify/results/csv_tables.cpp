@@ -69,8 +69,7 @@ std::string angles_csv(const Model& model, const Motion& motion) {
   const Trajectory& path = motion.simulation.trajectory;
   Csv csv;
   csv.name("time_s");
-  const int coordinates =
-      table.coordinates - (model.held() ? 3 : 0);  // without integrals of a force
+  const int coordinates = table.coordinates - model.constraints();  // without integrals of a force
   for (int i = 0; i < coordinates; ++i)
     csv.name(table.coordinate[i].name + unit_suffix(table.coordinate[i].unit));
   for (int i = 0; i < coordinates; ++i)
@@ -96,11 +95,15 @@ std::string forces_csv(const Motion& motion) {
       {"moment_", "_N_m", forces.moment},
       {"tension_", "_N", forces.tension},
       {"curvature_", "_rad_m", forces.curvature}};
-  const std::tuple<const char*, const char*, const Eigen::MatrixXd&> reactions[] = {
-      {"support_force", "_N", forces.support.force},
-      {"support_moment", "_N_m", forces.support.moment},
-      {"end_force", "_N", forces.end.force},
-      {"end_moment", "_N_m", forces.end.moment}};
+  std::vector<std::tuple<std::string, const char*, const Eigen::MatrixXd&>> reactions;
+  const auto add = [&](const std::string& what, const InternalForces::Reaction& reaction) {
+    reactions.emplace_back(what + "_force", "_N", reaction.force);
+    reactions.emplace_back(what + "_moment", "_N_m", reaction.moment);
+  };
+  add("support", forces.support);
+  for (const InternalForces::Held& held : forces.held)
+    add(held.link == forces.moment.rows() ? "end" : "joint_" + std::to_string(held.link),
+        held.reaction);
   Csv csv;
   csv.name("time_s");
   for (const auto& [name, unit, values] : kinds)

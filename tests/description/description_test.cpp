@@ -69,6 +69,11 @@ TEST_CASE("errors in a description name their line") {
   folder.write("holds.toml",
                "format = 1\nkind = \"effect\"\nid = \"holds\"\ntitle = \"Holds\"\n"
                "description = \"Holds the end\"\n[held_end]\nside = \"0.5\"\n");
+  for (const char* id : {"middle", "other"})
+    folder.write(std::string(id) + ".toml",
+                 "format = 1\nkind = \"effect\"\nid = \"" + std::string(id) +
+                     "\"\ntitle = \"Holds\"\n"
+                     "description = \"Holds a joint\"\n[held_joint]\nlink = 6\nside = \"0.5\"\n");
   folder.write("lift.toml",
                "format = 1\nkind = \"effect\"\nid = \"lift\"\ntitle = \"Lift\"\n"
                "description = \"Moves the load\"\n[kinematics]\nload_across = \"0.5\"\n");
@@ -98,7 +103,13 @@ TEST_CASE("errors in a description name their line") {
        ":5: effects: \"swinging_load\" needs space = \"plane\", as its file says, and space is "
        "\"3d\""},
       {"space = \"3d\"\neffects = [\"load_body\", \"holds.toml\"]\n",
-       ":5: effects: \"holds\": a far end that is held has no load with coordinates of its own"},
+       ":5: effects: \"holds\": a cable that is held besides at its support has no load with "
+       "coordinates of its own"},
+      {"space = \"3d\"\neffects = [\"middle.toml\", \"holds.toml\", \"other.toml\"]\n",
+       ":5: effects: \"other\" is the second effect that holds the far end of link 6, beside "
+       "\"middle\"; leave one away"},
+      {"effects = [\"middle.toml\"]\n",
+       ":4: effects: \"middle\" holds a point of the cable, which needs space = \"3d\""},
       {"effects = [\"lift.toml\"]\n",
        ":4: effects: \"lift\" moves the load across the plane, which needs space = \"3d\""},
       {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
@@ -127,13 +138,13 @@ TEST_CASE("an effect beside a held end has no id of what holds it") {
     const auto path = folder.write(
         "chain.toml", kHead + "space = \"3d\"\neffects = [\"push.toml\", \"holds.toml\"]\n");
     if (id == std::string("push")) {
-      CHECK(read_description(path).holding() != nullptr);
+      CHECK(read_description(path).holding().size() == 1);
       continue;
     }
     const std::string said = failure([&] { read_description(path); });
     CAPTURE(said);
     CHECK(said.find(path.string() + ":5: effects: \"" + id +
-                    "\" is a name of what holds the far end; give the effect another id") == 0);
+                    "\" is a name of what holds the cable; give the effect another id") == 0);
     // where nothing holds the end the names are free
     CHECK(read_description(
               folder.write("free.toml", kHead + "space = \"3d\"\neffects = [\"push.toml\"]\n"))

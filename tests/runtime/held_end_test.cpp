@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Chains whose two ends are held: against closed forms, balances of momentum, and their own derivatives.
+// Chains whose far end or joints are held: against closed forms, separate cables, balances of momentum, and their
+// own derivatives.
 #include "runtime/held_end.hpp"
 
 #include <doctest/doctest.h>
@@ -36,9 +37,20 @@ using testing::set;
 using testing::tight;
 using testing::vector_of;
 
-/// Between the support and (0.7, 0.2, 0.1), where the end swings; m.
+/// The link whose far end HELD_JOINT and HELD_TWICE hold.
+constexpr int kHeldJoint = 6;
+
+/// Between the support and (0.7, 0.2, 0.1), where the end swings; m. What holds a joint is at (0.4, 0.15, -0.1).
 VectorXd swung(const Model& model) {
   VectorXd p = cable(model, 0.02, 1e-3);
+  if (model.held_links().back() == kHeldJoint) {
+    set(model, p, "holds_joint.to_side", 0.4);
+    set(model, p, "holds_joint.to_down", 0.15);
+    set(model, p, "holds_joint.to_across", -0.1);
+    set(model, p, "holds_joint.amplitude", 0.07);
+    set(model, p, "holds_joint.frequency", 0.9);
+  }
+  if (model.held_links().front() != model.links()) return p;
   set(model, p, "holds_end.to_side", 0.7);
   set(model, p, "holds_end.to_down", 0.2);
   set(model, p, "holds_end.to_across", 0.1);
@@ -51,9 +63,9 @@ State closed(const Model& model, const VectorXd& p, const State& open) {
   return closed_end(model, p, open, 0, {});
 }
 
-Vector3d gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
+VectorXd gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
              double t) {
-  Vector3d apart, rate;
+  VectorXd apart(model.constraints()), rate(model.constraints());
   model.gap({t, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
             rate.data());
   return apart;
@@ -65,6 +77,13 @@ VectorXd accelerations(const Model& model, const VectorXd& p, const State& state
       model.acceleration({t, state.q.data(), state.v.data(), a.data(), nullptr, nullptr, p.data()},
                          a.data()) == 0);
   return a;
+}
+
+/// What all that holds the cable exerts on it, the support too, N.
+Eigen::Matrix3Xd holding(const catena::InternalForces& forces) {
+  Eigen::Matrix3Xd sum = forces.support.force;
+  for (const auto& held : forces.held) sum += held.reaction.force;
+  return sum;
 }
 
 /// Of all links and the load, kg m/s.
@@ -106,14 +125,11 @@ catena::InternalForces check_force_polygon(const Model& model, const VectorXd& p
     CHECK((middle.normalized() - vector_of(state.q, n, i)).norm() < 1e-9);
     force -= weight;
   }
-  CHECK((force - forces.end.force.col(0)).norm() < 1e-9);
+  CHECK((force - forces.held.back().reaction.force.col(0)).norm() < 1e-9);
   return forces;
 }
 
-}  // namespace
-
-TEST_CASE("accelerations and Newton's steps solve the equations with the constraint") {
-  const Model model = Model::load(HELD_END_5);
+void check_solutions(const Model& model) {
   const VectorXd p = swung(model);
   const State state = closed(model, p, askew(model));
   const int n = model.coordinates();
@@ -146,14 +162,14 @@ TEST_CASE("accelerations and Newton's steps solve the equations with the constra
   const VectorXd right = VectorXd::LinSpaced(n, -1, 2);
   VectorXd x = right;
   model.newton_solve(work.data(), x.data());
-  CHECK((newton * x - right).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK((newton * x - right).cwiseAbs().maxCoeff() <
+        1e-14 * newton.cwiseAbs().maxCoeff() * x.cwiseAbs().maxCoeff());
   VectorXd y = right;
   model.newton_solve_transposed(work.data(), y.data());
   CHECK((newton.transpose() * y - right).cwiseAbs().maxCoeff() < 1e-11);
 }
 
-TEST_CASE("the gap stays closed, the energy balances, and reactions change the momentum") {
-  const Model model = Model::load(HELD_END_12);
+void check_motion(const Model& model) {
   const VectorXd p = swung(model);
   const State start = closed(model, p, askew(model));
   CHECK(gap(model, p, start.q, start.v, 0).norm() < 1e-15);
@@ -171,16 +187,17 @@ TEST_CASE("the gap stays closed, the energy balances, and reactions change the m
 
   const catena::InternalForces forces = internal_forces(model, p, path);
   const Vector3d weight(0, whole_mass(model, p) * kGravity, 0);
+  const Eigen::Matrix3Xd reactions = holding(forces);
   // Simpson's rule over the times
   Vector3d impulse = Vector3d::Zero();
   for (Eigen::Index k = 0; k < path.q.cols(); ++k) {
     const double share = k == 0 || k + 1 == path.q.cols() ? 1 : k % 2 == 1 ? 4 : 2;
-    impulse += share * 1e-3 / 3 * (forces.support.force.col(k) + forces.end.force.col(k) + weight);
+    impulse += share * 1e-3 / 3 * (reactions.col(k) + weight);
   }
   const Vector3d change =
       momentum(model, p, path.v.col(path.v.cols() - 1)) - momentum(model, p, path.v.col(0));
   CHECK((impulse - change).norm() < 1e-5 * change.norm());
-  CHECK(forces.end.moment.cwiseAbs().maxCoeff() == 0.0);
+  CHECK(forces.held.back().reaction.moment.cwiseAbs().maxCoeff() == 0.0);
 
   // At usual tolerances the errors of steps do not add up either: without its closing the gap would be 8e-6 m.
   std::vector<double> long_times;
@@ -193,6 +210,62 @@ TEST_CASE("the gap stays closed, the energy balances, and reactions change the m
                                   long_times[static_cast<std::size_t>(k)])
                                   .norm());
   CHECK(widest < 1e-6);
+}
+
+/// Sensitivities against differences, and the adjoint against sensitivities.
+void check_derivatives(const Model& model, const VectorXd& p, const State& start,
+                       const std::vector<const char*>& names, double last) {
+  const std::vector<double> times{0, last / 2, last};
+  std::vector<catena::SensitivityDirection> directions;
+  for (const char* name : names)
+    directions.push_back(
+        catena::SensitivityDirection::parameter(model, model.parameter_index(name)));
+  catena::SimulationOptions options = tight();
+  options.sensitivities_in_error_test = true;
+  const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);
+  REQUIRE_MESSAGE(sensitive.status == catena::Status::kSuccess, sensitive.message);
+  const Eigen::Index links = Eigen::Index{3} * model.links();
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    CAPTURE(j);
+    Eigen::Index index = 0;
+    directions[j].parameters.maxCoeff(&index);
+    const double h = 1e-5 * std::max(1e-2, p[index]);
+    VectorXd more = p, less = p;
+    more[index] += h, less[index] -= h;
+    const VectorXd expected = (run(model, more, start, times).trajectory.q.col(2) -
+                               run(model, less, start, times).trajectory.q.col(2)) /
+                              (2 * h);
+    const VectorXd found = sensitive.sensitivity[j].q.col(2);
+    CHECK((found - expected).head(links).cwiseAbs().maxCoeff() <
+          1e-5 * expected.head(links).cwiseAbs().maxCoeff());
+  }
+  const auto objective = [&](const catena::Trajectory& at, catena::Trajectory& slope) {
+    slope.q(4, at.q.cols() - 1) = 1;
+  };
+  const auto adjoint = simulate_with_gradient(model, p, start, times, objective, options);
+  REQUIRE_MESSAGE(adjoint.status == catena::Status::kSuccess, adjoint.message);
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    Eigen::Index index = 0;
+    directions[j].parameters.maxCoeff(&index);
+    CHECK(adjoint.gradient.parameters[index] ==
+          doctest::Approx(sensitive.sensitivity[j].q(4, 2)).epsilon(1e-5));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("accelerations and Newton's steps solve the equations with the constraints") {
+  for (const char* file : {HELD_END_5, HELD_JOINT_9, HELD_TWICE_12}) {
+    CAPTURE(file);
+    check_solutions(Model::load(file));
+  }
+}
+
+TEST_CASE("gaps stay closed, the energy balances, and reactions change the momentum") {
+  for (const char* file : {HELD_END_12, HELD_JOINT_9, HELD_TWICE_12}) {
+    CAPTURE(file);
+    check_motion(Model::load(file));
+  }
 }
 
 // Two links between two points are a rigid body that swings about the line between them.
@@ -266,7 +339,7 @@ TEST_CASE("a rod that is pushed together bends as the elastica") {
   const State state = equilibrium(model, p);
   const catena::InternalForces forces = forces_at_rest(model, p, state);
   const double expected = std::pow(2 * K / length, 2) * bending;
-  CHECK(forces.end.force(0, 0) == doctest::Approx(-expected).epsilon(1e-3));
+  CHECK(forces.held.back().reaction.force(0, 0) == doctest::Approx(-expected).epsilon(1e-3));
   CHECK(forces.support.force(0, 0) == doctest::Approx(expected).epsilon(1e-3));
   CHECK(std::abs(forces.support.force(1, 0)) < 1e-9 * expected);
 }
@@ -282,20 +355,22 @@ TEST_CASE("reactions of clamped ends balance the weight and its moment") {
   const State state = equilibrium(model, p);
   const catena::InternalForces forces = forces_at_rest(model, p, state);
   const Eigen::Index n = model.links();
-  Vector3d moment = forces.support.moment.col(0) + forces.end.moment.col(0), joint(0, 0, 0);
+  Vector3d moment = forces.support.moment.col(0) + forces.held.back().reaction.moment.col(0),
+           joint(0, 0, 0);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vector3d span = p[i] * vector_of(state.q, n, i);
     moment += (joint + span / 2).cross(Vector3d(0, p[n + i] * kGravity, 0));
     joint += span;
   }
   const double load = p[model.parameter_index("load_mass")];
-  moment += joint.cross(Vector3d(0, load * kGravity, 0) + forces.end.force.col(0));
+  moment += joint.cross(Vector3d(0, load * kGravity, 0) + forces.held.back().reaction.force.col(0));
   CHECK((joint - Vector3d(0.5, 0.4, 0)).norm() < 1e-12);
   CHECK(moment.norm() < 1e-9);
   // The clamp bends with 1.7 times the stiffness of half a link.
   const double angle =
       std::acos(vector_of(state.q, n, n - 1).dot(Vector3d(std::sin(2.0), std::cos(2.0), 0)));
-  CHECK(forces.end.moment.col(0).norm() == doctest::Approx(1.7 * 2 * 0.3 * angle).epsilon(1e-9));
+  CHECK(forces.held.back().reaction.moment.col(0).norm() ==
+        doctest::Approx(1.7 * 2 * 0.3 * angle).epsilon(1e-9));
   CHECK(forces.support.moment.col(0).norm() == doctest::Approx(forces.moment(0, 0)).epsilon(1e-12));
 }
 
@@ -309,46 +384,16 @@ TEST_CASE("clamped ends that move: energy, sensitivities and the adjoint") {
   set(model, p, "grips.amplitude", 0.1);
   set(model, p, "grips.turn_across", 0.5);
   const State start = closed(model, p, askew(model));
-  const std::vector<double> times{0, 0.2, 0.5};
-  const catena::Simulation motion = run(model, p, start, times);
+  const catena::Simulation motion = run(model, p, start, {0, 0.2, 0.5});
   CHECK(motion.energy_imbalance < 1e-9 * motion.trajectory.energy.cwiseAbs().maxCoeff());
+  check_derivatives(model, p, start, {"damping_3", "grips.firmness", "grips.amplitude"}, 0.5);
+}
 
-  const auto damping = model.parameter_index("damping_3"),
-             firmness = model.parameter_index("grips.firmness"),
-             amplitude = model.parameter_index("grips.amplitude");
-  std::vector<catena::SensitivityDirection> directions;
-  for (const int index : {damping, firmness, amplitude})
-    directions.push_back(catena::SensitivityDirection::parameter(model, index));
-  catena::SimulationOptions options = tight();
-  options.sensitivities_in_error_test = true;
-  const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);
-  REQUIRE_MESSAGE(sensitive.status == catena::Status::kSuccess, sensitive.message);
-  const Eigen::Index links = Eigen::Index{3} * model.links();
-  for (std::size_t j = 0; j < directions.size(); ++j) {
-    CAPTURE(j);
-    Eigen::Index index = 0;
-    directions[j].parameters.maxCoeff(&index);
-    const double h = 1e-5 * std::max(1e-2, p[index]);
-    VectorXd more = p, less = p;
-    more[index] += h, less[index] -= h;
-    const VectorXd expected = (run(model, more, start, times).trajectory.q.col(2) -
-                               run(model, less, start, times).trajectory.q.col(2)) /
-                              (2 * h);
-    const VectorXd found = sensitive.sensitivity[j].q.col(2);
-    CHECK((found - expected).head(links).cwiseAbs().maxCoeff() <
-          1e-5 * expected.head(links).cwiseAbs().maxCoeff());
-  }
-  const auto objective = [&](const catena::Trajectory& at, catena::Trajectory& slope) {
-    slope.q(4, at.q.cols() - 1) = 1;
-  };
-  const auto adjoint = simulate_with_gradient(model, p, start, times, objective, options);
-  REQUIRE_MESSAGE(adjoint.status == catena::Status::kSuccess, adjoint.message);
-  for (std::size_t j = 0; j < directions.size(); ++j) {
-    Eigen::Index index = 0;
-    directions[j].parameters.maxCoeff(&index);
-    CHECK(adjoint.gradient.parameters[index] ==
-          doctest::Approx(sensitive.sensitivity[j].q(4, 2)).epsilon(1e-5));
-  }
+TEST_CASE("a held joint and a held end that move: sensitivities and the adjoint") {
+  const Model model = Model::load(HELD_TWICE_12);
+  const VectorXd p = swung(model);
+  check_derivatives(model, p, closed(model, p, askew(model)),
+                    {"damping_7", "holds_end.amplitude", "holds_joint.amplitude"}, 0.2);
 }
 
 namespace {
@@ -362,7 +407,7 @@ State check_closed(const Model& model, const VectorXd& p, const State& open, con
     return closed_end(model, p, state, 0.2, {});
   };
   State shut = moved(0);
-  Vector3d apart, rate;
+  VectorXd apart(model.constraints()), rate(model.constraints());
   model.gap({0.2, shut.q.data(), shut.v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
             rate.data());
   CHECK(apart.norm() < 1e-14);
@@ -379,10 +424,13 @@ State check_closed(const Model& model, const VectorXd& p, const State& open, con
 }  // namespace
 
 TEST_CASE("a start is closed, and its derivative is that of closing it") {
-  const Model model = Model::load(HELD_END_5);
-  const VectorXd dq = VectorXd::LinSpaced(model.coordinates(), -1, 2),
-                 dv = VectorXd::LinSpaced(model.coordinates(), 2, -3);
-  check_closed(model, swung(model), askew(model), dq, dv, 1e-6);
+  for (const char* file : {HELD_END_5, HELD_JOINT_9, HELD_TWICE_12}) {
+    CAPTURE(file);
+    const Model model = Model::load(file);
+    const VectorXd dq = VectorXd::LinSpaced(model.coordinates(), -1, 2),
+                   dv = VectorXd::LinSpaced(model.coordinates(), 2, -3);
+    check_closed(model, swung(model), askew(model), dq, dv, 1e-6);
+  }
 }
 
 TEST_CASE(
@@ -448,7 +496,8 @@ TEST_CASE("a cable with bending stiffness hangs in a loop between points of one 
     CHECK(gap(model, p, state.q, state.v, 0).norm() < 1e-12);
     const catena::InternalForces forces = forces_at_rest(model, p, state);
     const Vector3d weight(0, whole_mass(model, p) * kGravity, 0);
-    CHECK((forces.support.force.col(0) + forces.end.force.col(0) + weight).norm() < 1e-9);
+    CHECK((forces.support.force.col(0) + forces.held.back().reaction.force.col(0) + weight).norm() <
+          1e-9);
     CHECK(state.q[12] > 0.5);
     CHECK(state.q[23] < -0.5);
   }
@@ -478,4 +527,97 @@ TEST_CASE("an end nearer than the other links reach back from the longest one") 
   set(model, p, "holds_end.to_side", 0.95);
   State shut = closed(model, p, State::zero(model));
   CHECK(gap(model, p, shut.q, shut.v, 0).norm() < 1e-14);
+}
+
+// A joint without stiffness that is held parts the cable: on either side it moves as a cable of its own.
+TEST_CASE("a cable that is held at a joint moves as two cables") {
+  const Model whole = Model::load(HELD_TWICE_12), piece = Model::load(HELD_END_6);
+  VectorXd p = swung(whole);
+  set(whole, p, "holds_joint.amplitude", 0);
+  set(whole, p, "stiffness_7", 0);
+  set(whole, p, "damping_7", 0);
+  set(whole, p, "load_mass", 0.3);
+  const Vector3d joint(0.4, 0.15, -0.1), end(0.7, 0.2, 0.1);
+  // The parameters of six links that begin with the given one.
+  const auto part = [&](int first, const Vector3d& to, double amplitude) {
+    VectorXd own = piece.default_parameters();
+    for (const char* family : {"length", "mass", "inertia", "stiffness", "damping"})
+      for (int i = 1; i <= 6; ++i)
+        set(piece, own, (family + ("_" + std::to_string(i))).c_str(),
+            p[whole.parameter_index(family + ("_" + std::to_string(first + i)))]);
+    set(piece, own, "load_mass", first == 0 ? 0 : 0.3);
+    set(piece, own, "holds_end.to_side", to[0]);
+    set(piece, own, "holds_end.to_down", to[1]);
+    set(piece, own, "holds_end.to_across", to[2]);
+    set(piece, own, "holds_end.amplitude", amplitude);
+    set(piece, own, "holds_end.frequency", 1.3);
+    return own;
+  };
+  const VectorXd upper = part(0, joint, 0), lower = part(6, end - joint, 0.15);
+  const State start = closed(whole, p, askew(whole));
+  const auto of = [&](const VectorXd& all, Eigen::Index first) {
+    VectorXd own = VectorXd::Zero(piece.coordinates());
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      own.segment(6 * axis, 6) = all.segment(12 * axis + first, 6);
+    return own;
+  };
+  const auto start_of = [&](Eigen::Index first) {
+    State own = State::zero(piece);
+    own.q = of(start.q, first), own.v = of(start.v, first);
+    return own;
+  };
+  const std::vector<double> times{0, 0.3, 0.6, 1.0};
+  const catena::Trajectory together = run(whole, p, start, times).trajectory,
+                           above = run(piece, upper, start_of(0), times).trajectory,
+                           below = run(piece, lower, start_of(6), times).trajectory;
+  const catena::InternalForces forces = internal_forces(whole, p, together),
+                               forces_above = internal_forces(piece, upper, above),
+                               forces_below = internal_forces(piece, lower, below);
+  REQUIRE(forces.held.size() == 2);
+  CHECK(forces.held[0].link == 12);
+  CHECK(forces.held[1].link == kHeldJoint);
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    CHECK((of(together.q.col(k), 0) - above.q.col(k)).head(18).cwiseAbs().maxCoeff() < 1e-7);
+    CHECK((of(together.q.col(k), 6) - below.q.col(k)).head(18).cwiseAbs().maxCoeff() < 1e-7);
+    const Vector3d expected =
+        forces_above.held[0].reaction.force.col(k) + forces_below.support.force.col(k);
+    CHECK((forces.held[1].reaction.force.col(k) - expected).norm() < 1e-5 * expected.norm());
+    CHECK(
+        (forces.held[0].reaction.force.col(k) - forces_below.held[0].reaction.force.col(k)).norm() <
+        1e-5 * expected.norm());
+  }
+}
+
+TEST_CASE("below a held joint the cable hangs plumb, above it as one that ends there") {
+  const Model model = Model::load(HELD_JOINT_9);
+  VectorXd p = swung(model);
+  set(model, p, "holds_joint.amplitude", 0);
+  const State state = equilibrium(model, p);
+  CHECK(gap(model, p, state.q, state.v, 0).norm() < 1e-12);
+  const catena::InternalForces forces = forces_at_rest(model, p, state);
+  const Vector3d weight(0, whole_mass(model, p) * kGravity, 0);
+  CHECK((holding(forces).col(0) + weight).norm() < 1e-9);
+  // Without stiffness the rest of the cable hangs straight down.
+  for (int i = 1; i <= 9; ++i) set(model, p, ("stiffness_" + std::to_string(i)).c_str(), 0);
+  const State loose = equilibrium(model, p);
+  for (Eigen::Index i = kHeldJoint; i < 9; ++i)
+    CHECK((vector_of(loose.q, 9, i) - Vector3d::UnitY()).norm() < 1e-9);
+}
+
+TEST_CASE("two held places farther apart than the cable between them") {
+  const Model model = Model::load(HELD_TWICE_12);
+  VectorXd p = swung(model);
+  set(model, p, "holds_joint.to_side", -0.2);
+  set(model, p, "holds_joint.to_down", 0.2);
+  set(model, p, "holds_joint.to_across", 0.1);
+  CHECK_THROWS_WITH_AS(hanging_equilibrium(model, p),
+                       "the end is held 0.9 m from where link 6 is held, and the cable between "
+                       "them is 0.6 m long; it "
+                       "must be longer than its ends are apart",
+                       catena::ImpossibleValue);
+  set(model, p, "holds_joint.to_side", 0.7);
+  CHECK_THROWS_WITH_AS(hanging_equilibrium(model, p),
+                       doctest::Contains("from the support, and the cable between them is 0.6 m"),
+                       catena::ImpossibleValue);
 }

@@ -82,7 +82,8 @@ TEST_CASE("a chain that lies partly on the floor pulls at its ends as the catena
       REQUIRE_MESSAGE(found.status == catena::Status::kSuccess, found.message);
       const catena::InternalForces forces =
           internal_forces(model, p, {{0.0}, found.state.q, found.state.v, found.state.z, {}});
-      Vector3d ship = forces.support.force.col(0), anchor = forces.end.force.col(0);
+      Vector3d ship = forces.support.force.col(0),
+               anchor = forces.held.back().reaction.force.col(0);
       if (anchor_first) std::swap(ship, anchor);
       const double horizontal = horizontal_force(distance);
       CHECK(ship.norm() == doctest::Approx(horizontal + kWeight * kDepth).epsilon(0.01));

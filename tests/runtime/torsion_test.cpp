@@ -219,18 +219,20 @@ TEST_CASE("reactions of a twisted cable at rest balance the weight and its momen
   CHECK(state.q.segment(2 * n, n).norm() > 0.05);  // twist moves it out of the plane of its clamps
   const catena::InternalForces forces =
       internal_forces(model, p, {{0.0}, state.q, state.v, state.z, {}});
-  Vector3d moment = forces.support.moment.col(0) + forces.end.moment.col(0), joint(0, 0, 0);
+  Vector3d moment = forces.support.moment.col(0) + forces.held.back().reaction.moment.col(0),
+           joint(0, 0, 0);
   for (Index i = 0; i < n; ++i) {
     const Vector3d span = p[i] * vector_of(state.q, n, i);
     moment += (joint + span / 2).cross(Vector3d(0, p[n + i] * kGravity, 0));
     joint += span;
   }
   const double load = p[model.parameter_index("load_mass")];
-  moment += joint.cross(Vector3d(0, load * kGravity, 0) + forces.end.force.col(0));
+  moment += joint.cross(Vector3d(0, load * kGravity, 0) + forces.held.back().reaction.force.col(0));
   CHECK(moment.norm() < 1e-9);
   // About its axis the clamp of a straight end would exert GJ roll / L, and bending does not.
   const Vector3d axis = clamp(model, p, "twists.end_turn", 6, 0);
-  CHECK(forces.end.moment.col(0).dot(axis) == doctest::Approx(0.1 * 1.5 / 1.2).epsilon(1e-9));
+  CHECK(forces.held.back().reaction.moment.col(0).dot(axis) ==
+        doctest::Approx(0.1 * 1.5 / 1.2).epsilon(1e-9));
 }
 
 namespace {

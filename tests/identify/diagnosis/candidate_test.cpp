@@ -76,7 +76,7 @@ TEST_CASE("what holds the far end is not looked for") {
       std::find_if(library.begin(), library.end(), [](const auto& c) { return c.id == "holds"; });
   REQUIRE(holds != library.end());
   CHECK(holds->unavailable ==
-        "it holds the far end at all values of its parameters; have it in the model");
+        "it holds the cable at all values of its parameters; have it in the model");
 }
 
 TEST_CASE("what acts as a function of time drives the chain; a clock does not act") {
