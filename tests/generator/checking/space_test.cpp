@@ -4,10 +4,15 @@
 // and no angles, in 50 digits.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "description/description.hpp"
 #include "generator/certificate/exact_evaluation.hpp"
