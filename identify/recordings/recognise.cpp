@@ -110,8 +110,8 @@ std::vector<PointSpec> markers_in(const Table& table, std::vector<std::string>& 
   }
   for (const PointSpec& point : points)
     if (point.side_column.empty() || point.down_column.empty())
-      throw InputError(table.file + ": column \"" + point.side_column + point.down_column +
-                       "\" has no partner; every marker needs an x and a y, or a side and a down");
+      throw InputError(table.file + ": column " + in_quotes(point.side_column + point.down_column) +
+                       " has no partner; every marker needs an x and a y, or a side and a down");
   if (points.empty())
     throw InputError(
         table.file +
