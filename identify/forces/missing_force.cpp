@@ -514,9 +514,8 @@ struct SettledForce {
 
 /// The side and the down force at a place; the stronger alone where the other is not shown, as a force
 /// is. A cable hardly shows what pushes along it, so that a direction of small size that follows the
-/// noise takes from the other what is not its own. Nothing where the equations cannot be followed.
-std::optional<SettledForce> directions_shown(SettledForce both,
-                                             const std::vector<double>& variance) {
+/// noise takes from the other what is not its own. Both where the motion cannot be followed with one.
+SettledForce directions_shown(SettledForce both, const std::vector<double>& variance) {
   std::vector<double> squares = {0, 0};
   for (const Smoothed::Recording& recording : both.smoothed.recordings)
     for (const Index m : {0, 1})
@@ -528,8 +527,8 @@ std::optional<SettledForce> directions_shown(SettledForce both,
   alone.paths.act(std::move(patterns));
   std::vector<double> of_stronger = {variance[stronger]};
   std::optional<Smoothed> smoothed = alone.paths.settle(of_stronger, true);
-  if (!smoothed) return std::nullopt;
-  if (both.smoothed.log_evidence - smoothed->log_evidence > kForceThresholds.log_evidence)
+  if (!smoothed ||
+      both.smoothed.log_evidence - smoothed->log_evidence > kForceThresholds.log_evidence)
     return both;
   alone.smoothed = std::move(*smoothed);
   return alone;
@@ -599,13 +598,12 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   missing.best->log_evidence = there->log_evidence - search.none();
   missing.one_place = there->log_evidence >= everywhere->log_evidence;
   missing.log_probability = std::max(missing.log_probability, there->log_evidence);
-  const std::optional<SettledForce> shown =
+  const SettledForce shown =
       moment ? SettledForce{paths, *there} : directions_shown({paths, *there}, at_place);
-  if (!shown) return false;
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
-    missing.at_best.push_back(history_of(shown->paths, r, problem, shown->smoothed, chain, false));
+    missing.at_best.push_back(history_of(shown.paths, r, problem, shown.smoothed, chain, false));
   if (missing.one_place) {
-    add_parameters(problem, x, shown->paths, unknowns, shown->smoothed, missing);
+    add_parameters(problem, x, shown.paths, unknowns, shown.smoothed, missing);
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
   }
