@@ -60,6 +60,26 @@ struct Span {
   }
 };
 
+/// Throws ImpossibleValue where the links of `span`, of a chain of so many, cannot reach a place so far
+/// away (m) as theirs is.
+void check_reach(const Span& span, Index links, const VectorXd& lengths, double distance) {
+  const double whole = lengths.sum(), longest = lengths.maxCoeff();
+  const Index last = span.first + span.count;
+  const std::string held =
+      (last == links ? "the end" : "link " + std::to_string(last)) + " is held " +
+      number_text(distance) + " m from " +
+      (span.first == 0 ? "the support" : "where link " + std::to_string(span.first) + " is held") +
+      ", and ";
+  const std::string between = last == links && span.first == 0 ? "" : " between them";
+  if (!(distance < whole))
+    throw ImpossibleValue(held + "the cable" + between + " is " + number_text(whole) +
+                          " m long; it must be longer than its ends are apart");
+  if (!(distance > 2 * longest - whole))
+    throw ImpossibleValue(held + "the longest link" + between + " is " + number_text(longest) +
+                          " m long; the other links, " + number_text(whole - longest) +
+                          " m, must be long enough to reach back");
+}
+
 /// Along the cable.
 std::vector<Span> spans_of(const Model& model) {
   std::map<Index, Index> places;  // by link
@@ -195,25 +215,10 @@ State closed_end(const Model& model, const VectorXd& parameters, const State& op
   std::vector<Matrix3d> mobilities;
   for (const Span& span : spans) {
     const VectorXd lengths = parameters.segment(span.first, span.count);
-    const double whole = lengths.sum(), longest = lengths.maxCoeff();
     Vector3d target = -span.across_it(apart);
     for (Index i = 0; i < span.count; ++i)
       target += lengths[i] * vector_of(closed.q, n, span.first + i);
-    const Index last = span.first + span.count;
-    const std::string held =
-        (last == n ? "the end" : "link " + std::to_string(last)) + " is held " +
-        number_text(target.norm()) + " m from " +
-        (span.first == 0 ? "the support"
-                         : "where link " + std::to_string(span.first) + " is held") +
-        ", and ";
-    const std::string between = last == n && span.first == 0 ? "" : " between them";
-    if (!(target.norm() < whole))
-      throw ImpossibleValue(held + "the cable" + between + " is " + number_text(whole) +
-                            " m long; it must be longer than its ends are apart");
-    if (!(target.norm() > 2 * longest - whole))
-      throw ImpossibleValue(held + "the longest link" + between + " is " + number_text(longest) +
-                            " m long; the other links, " + number_text(whole - longest) +
-                            " m, must be long enough to reach back");
+    check_reach(span, n, lengths, target.norm());
     const OpenShape shape(span.of(open.q, n), lengths, target);
     const Vector3d nu = shift(shape.vectors, lengths, target);
     Matrix3d mobility = Matrix3d::Zero();

@@ -50,6 +50,7 @@ FlatDerivation::FlatDerivation(const ChainSymbols& symbols, EffectParts effects)
   ex joint_height = 0;
   const auto velocity = [&](const std::vector<ex>& position) {
     std::vector<ex> result;
+    result.reserve(position.size());
     for (const ex& component : position) result.push_back(symbols.time_derivative(component));
     return result;
   };

@@ -3,7 +3,10 @@
 // The ends of the chain in space: clamps whose direction turns, the constraints that hold the far end or a
 // joint, the moments and the power of what holds them.
 #include <algorithm>
+#include <map>
+#include <string>
 
+#include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "description/expression_syntax.hpp"
 #include "generator/derivation/chain.hpp"

@@ -62,6 +62,9 @@ double largest_difference(const std::string& text, std::uint64_t seed) {
     return evaluate_at(expression, state).value();
   };
 
+  const auto component = [](std::size_t axis, const std::string& dots, const std::string& index) {
+    return "direction_" + std::string(std::array{"side", "down", "across"}[axis]) + dots + index;
+  };
   std::map<std::string, ex> inputs{{"load_mass", value(symbols.load_mass)},
                                    {"gravity", value(symbols.gravity)}};
   for (int i = 1; i <= symbols.links; ++i) {
@@ -73,13 +76,11 @@ double largest_difference(const std::string& text, std::uint64_t seed) {
           std::pair{"damping", &symbols.damping}})
       inputs[name + index] = value((*family)[at]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string name =
-          "direction_" + std::string(std::array{"side", "down", "across"}[axis]);
       const ex& q = symbols.direction[at][axis];
       const ex rate = symbols.time_derivative(q);
-      inputs[name + index] = value(q);
-      inputs[name + "_dot" + index] = value(rate);
-      inputs[name + "_ddot" + index] = value(symbols.time_derivative(rate));
+      inputs[component(axis, "", index)] = value(q);
+      inputs[component(axis, "_dot", index)] = value(rate);
+      inputs[component(axis, "_ddot", index)] = value(symbols.time_derivative(rate));
     }
   }
   Description description = plain_chain();

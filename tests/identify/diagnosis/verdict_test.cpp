@@ -46,6 +46,7 @@ TEST_CASE("without its laws a model keeps errors of what is known, fitted again"
                           testing::empty_markers({0.25, 0.5, 0.75, 1.0}, 60, 1.0 / 60), 1e-3));
   const auto fitted = [&](const std::vector<std::string>& effects) {
     std::vector<Candidate> candidates;
+    candidates.reserve(effects.size());
     for (const std::string& id : effects) candidates.push_back(*context.find(id));
     const auto problem =
         std::make_shared<const Problem>(with_effects(asked, candidates, true), model);
