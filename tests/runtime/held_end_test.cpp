@@ -216,11 +216,7 @@ void check_motion(const Model& model) {
 void check_derivatives(const Model& model, const VectorXd& p, const State& start,
                        const std::vector<const char*>& names, double last) {
   const std::vector<double> times{0, last / 2, last};
-  std::vector<catena::SensitivityDirection> directions;
-  directions.reserve(names.size());
-  for (const char* name : names)
-    directions.push_back(
-        catena::SensitivityDirection::parameter(model, model.parameter_index(name)));
+  const auto directions = testing::directions_of(model, names);
   catena::SimulationOptions options = tight();
   options.sensitivities_in_error_test = true;
   const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/rest_states.hpp"
+#include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 
 namespace testing {
@@ -65,6 +66,16 @@ inline State askew(const Model& model) {
   const int n = model.links();
   return from_directions(model, {VectorXd::LinSpaced(n, 0.3, 1.1), VectorXd::LinSpaced(n, 0.2, 1.5),
                                  VectorXd::LinSpaced(n, 1.0, -1.0), VectorXd::Constant(n, 0.8)});
+}
+
+inline std::vector<catena::SensitivityDirection> directions_of(
+    const Model& model, const std::vector<const char*>& names) {
+  std::vector<catena::SensitivityDirection> directions;
+  directions.reserve(names.size());
+  for (const char* name : names)
+    directions.push_back(
+        catena::SensitivityDirection::parameter(model, model.parameter_index(name)));
+  return directions;
 }
 
 inline catena::Simulation run(const Model& model, const VectorXd& parameters, const State& initial,

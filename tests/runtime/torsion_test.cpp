@@ -114,10 +114,8 @@ TEST_CASE("the energy of a twisted cable balances, and derivatives are differenc
       CHECK(motion.trajectory.energy(i, 2) ==
             doctest::Approx(0.4 * twist * twist / 2 / 1.2).epsilon(1e-12));
 
-  std::vector<catena::SensitivityDirection> directions;
-  for (const char* name : {"twists.torsion", "twists.roll", "twists.turn_across", "damping_3"})
-    directions.push_back(
-        catena::SensitivityDirection::parameter(model, model.parameter_index(name)));
+  const auto directions = testing::directions_of(
+      model, {"twists.torsion", "twists.roll", "twists.turn_across", "damping_3"});
   catena::SimulationOptions options = tight();
   options.sensitivities_in_error_test = true;
   const auto sensitive = simulate_with_sensitivities(model, p, start, directions, times, options);
