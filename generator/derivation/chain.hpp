@@ -73,6 +73,7 @@
 #include "description/description.hpp"
 #include "generator/derivation/definitions.hpp"
 #include "generator/derivation/effect_expression.hpp"
+#include "generator/derivation/unit_vector_functions.hpp"
 
 namespace catena {
 
@@ -81,15 +82,6 @@ enum Axis { kSide, kDown, kAcross };
 
 /// A component, as names of families end: "joint" + "_side".
 std::string ending(Axis axis);
-
-/// The square of the angle between two unit vectors, as a function of its cosine c, and minus half of
-/// its derivative: the angle over its sine, and the first and second derivative of that. All are smooth at c = 1.
-DECLARE_FUNCTION_1P(squared_angle)
-DECLARE_FUNCTION_1P(angle_over_sine)
-DECLARE_FUNCTION_1P(angle_over_sine_slope)
-DECLARE_FUNCTION_1P(angle_over_sine_curvature)
-/// x^(-1/2).
-DECLARE_FUNCTION_1P(inverse_square_root)
 
 /// A stored energy (J) or a power (W), as the model table lists it.
 struct EnergyItem {

@@ -40,6 +40,7 @@
 #include <vector>
 
 #include "generator/derivation/chain.hpp"
+#include "generator/derivation/linearisation.hpp"
 
 namespace catena {
 
@@ -58,11 +59,6 @@ struct Quasiseparable {
   Entries border_column,
       border_row;  ///< [i][a][k]: of residual a of link i by s_k, and of equation k by link i
   std::vector<std::vector<GiNaC::ex>> corner;  ///< [k][l]: of equation k by s_l
-};
-
-/// Weights of accelerations, velocities and coordinates in N.
-struct Weights {
-  GiNaC::ex acceleration, velocity, position;
 };
 
 /// `prefix` starts the names of the families it defines.

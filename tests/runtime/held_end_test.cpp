@@ -21,6 +21,7 @@
 #include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
+#include "tests/runtime/held_cable.hpp"
 #include "tests/runtime/space_cable.hpp"
 
 namespace {
@@ -31,45 +32,15 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::askew;
 using testing::cable;
+using testing::closed;
+using testing::gap;
 using testing::kGravity;
+using testing::kHeldJoint;
 using testing::run;
 using testing::set;
+using testing::swung;
 using testing::tight;
 using testing::vector_of;
-
-/// The link whose far end HELD_JOINT and HELD_TWICE hold.
-constexpr int kHeldJoint = 6;
-
-/// Between the support and (0.7, 0.2, 0.1), where the end swings; m. What holds a joint is at (0.4, 0.15, -0.1).
-VectorXd swung(const Model& model) {
-  VectorXd p = cable(model, 0.02, 1e-3);
-  if (model.held_links().back() == kHeldJoint) {
-    set(model, p, "holds_joint.to_side", 0.4);
-    set(model, p, "holds_joint.to_down", 0.15);
-    set(model, p, "holds_joint.to_across", -0.1);
-    set(model, p, "holds_joint.amplitude", 0.07);
-    set(model, p, "holds_joint.frequency", 0.9);
-  }
-  if (model.held_links().front() != model.links()) return p;
-  set(model, p, "holds_end.to_side", 0.7);
-  set(model, p, "holds_end.to_down", 0.2);
-  set(model, p, "holds_end.to_across", 0.1);
-  set(model, p, "holds_end.amplitude", 0.15);
-  set(model, p, "holds_end.frequency", 1.3);
-  return p;
-}
-
-State closed(const Model& model, const VectorXd& p, const State& open) {
-  return closed_end(model, p, open, 0, {});
-}
-
-VectorXd gap(const Model& model, const VectorXd& p, const VectorXd& q, const VectorXd& v,
-             double t) {
-  VectorXd apart(model.constraints()), rate(model.constraints());
-  model.gap({t, q.data(), v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
-            rate.data());
-  return apart;
-}
 
 VectorXd accelerations(const Model& model, const VectorXd& p, const State& state, double t) {
   VectorXd a = VectorXd::Zero(model.coordinates());
@@ -393,95 +364,6 @@ TEST_CASE("a held joint and a held end that move: sensitivities and the adjoint"
                     {"damping_7", "holds_end.amplitude", "holds_joint.amplitude"}, 0.2);
 }
 
-namespace {
-
-/// A start that is closed at 0.2 s, and its derivative against differences of step h.
-State check_closed(const Model& model, const VectorXd& p, const State& open, const VectorXd& dq,
-                   const VectorXd& dv, double h) {
-  const auto moved = [&](double step) {
-    State state = open;
-    state.q += step * dq, state.v += step * dv;
-    return closed_end(model, p, state, 0.2, {});
-  };
-  State shut = moved(0);
-  VectorXd apart(model.constraints()), rate(model.constraints());
-  model.gap({0.2, shut.q.data(), shut.v.data(), nullptr, nullptr, nullptr, p.data()}, apart.data(),
-            rate.data());
-  CHECK(apart.norm() < 1e-14);
-  CHECK(rate.norm() < 1e-13);
-  catena::SensitivityDirection direction{{}, dq, dv, {}};
-  close_direction(model, p, open, shut, direction);
-  const State more = moved(h), less = moved(-h);
-  const Eigen::Index links = Eigen::Index{3} * model.links();
-  CHECK((direction.q - (more.q - less.q) / (2 * h)).head(links).cwiseAbs().maxCoeff() < 1e-8);
-  CHECK((direction.v - (more.v - less.v) / (2 * h)).head(links).cwiseAbs().maxCoeff() < 1e-8);
-  return shut;
-}
-
-}  // namespace
-
-TEST_CASE("a start is closed, and its derivative is that of closing it") {
-  for (const char* file : {HELD_END_5, HELD_JOINT_9, HELD_TWICE_12}) {
-    CAPTURE(file);
-    const Model model = Model::load(file);
-    const VectorXd dq = VectorXd::LinSpaced(model.coordinates(), -1, 2),
-                   dv = VectorXd::LinSpaced(model.coordinates(), 2, -3);
-    check_closed(model, swung(model), askew(model), dq, dv, 1e-6);
-  }
-}
-
-TEST_CASE(
-    "a straight start is closed to a cable that sags, and its derivative is that of closing it") {
-  for (const char* file : {HELD_END_2, HELD_END_5, HELD_END_60}) {
-    CAPTURE(file);
-    const Model model = Model::load(file);
-    const Eigen::Index n = model.links();
-    const VectorXd p = swung(model);
-    VectorXd dv = VectorXd::LinSpaced(model.coordinates(), 1, -2);
-    for (const double angle : {0.0, 0.3, 0.9}) {
-      CAPTURE(angle);
-      const VectorXd angles = VectorXd::Constant(n, angle);
-      const State open = from_angles(model, angles);
-      // all links turn alike, so that they stay parallel
-      VectorXd dq = VectorXd::Zero(model.coordinates());
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        dq.segment(axis * n, n).setConstant(Vector3d(1, -0.4, 0.7)[axis]);
-      State shut = check_closed(model, p, open, dq, dv, 1e-6);
-      // It goes down first, no joint folds, and a little more of what was given changes a little.
-      CHECK(shut.q[n] > shut.q[2 * n - 1]);
-      for (Eigen::Index i = 1; i < n; ++i)
-        CHECK(vector_of(shut.q, n, i).dot(vector_of(shut.q, n, i - 1)) > -0.9);
-      State near = open;
-      near.q[0] += 1e-3;
-      CHECK((closed_end(model, p, near, 0.2, {}).q - shut.q).cwiseAbs().maxCoeff() < 0.02);
-    }
-  }
-}
-
-TEST_CASE("a straight start is closed where the end is in line with it, or at the support") {
-  const Model model = Model::load(HELD_END_5);
-  VectorXd p = cable(model, 0.02, 0);
-  for (const double down : {0.0, 0.6, -0.6}) {
-    CAPTURE(down);
-    set(model, p, "holds_end.to_down", down);
-    State shut = closed(model, p, State::zero(model));
-    CHECK(gap(model, p, shut.q, shut.v, 0).norm() < 1e-14);
-    for (Eigen::Index i = 1; i < 5; ++i)
-      CHECK(vector_of(shut.q, 5, i).dot(vector_of(shut.q, 5, i - 1)) > -0.9);
-  }
-}
-
-TEST_CASE("a start that no vector closes is refused") {
-  const Model model = Model::load(HELD_END_2);
-  VectorXd p = cable(model, 0.02, 0);
-  set(model, p, "holds_end.to_down", 0.5);
-  State up_and_down = State::zero(model);
-  up_and_down.q[3] = -1;
-  CHECK_THROWS_WITH_AS(closed(model, p, up_and_down),
-                       doctest::Contains("this start cannot be closed: no vector"),
-                       catena::ImpossibleValue);
-}
-
 TEST_CASE("a cable with bending stiffness hangs in a loop between points of one vertical line") {
   const Model model = Model::load(HELD_END_12);
   VectorXd p = cable(model, 0.02, 0);
@@ -509,21 +391,6 @@ TEST_CASE("ends farther apart than the cable") {
       "the end is held 1.31909 m from the support, and the cable is 1.2 m long; it must be "
       "longer than its ends are apart",
       catena::ImpossibleValue);
-}
-
-TEST_CASE("an end nearer than the other links reach back from the longest one") {
-  const Model model = Model::load(HELD_END_2);
-  VectorXd p = cable(model, 0, 0);
-  p[0] = 1.0, p[1] = 0.1;
-  set(model, p, "holds_end.to_side", 0.5);
-  CHECK_THROWS_WITH_AS(
-      closed(model, p, askew(model)),
-      "the end is held 0.5 m from the support, and the longest link is 1 m long; the other links, "
-      "0.1 m, must be long enough to reach back",
-      catena::ImpossibleValue);
-  set(model, p, "holds_end.to_side", 0.95);
-  State shut = closed(model, p, State::zero(model));
-  CHECK(gap(model, p, shut.q, shut.v, 0).norm() < 1e-14);
 }
 
 // A joint without stiffness that is held parts the cable: on either side it moves as a cable of its own.
