@@ -37,7 +37,7 @@
 extern "C" {
 #endif
 
-#define CATENA_MODEL_ABI 2
+#define CATENA_MODEL_ABI 3
 #define CATENA_DIRECTIONS 4
 
 typedef struct catena_parameter {
@@ -87,7 +87,6 @@ typedef struct catena_model {
   int32_t parameters;  /* length of p */
   int32_t terms;       /* terms of r, each available alone; their sum is r */
   int32_t energies;    /* length of the energy output */
-  int32_t uses_time;   /* 1 if t or a signal enters the equations */
   int32_t observes;    /* 1 if a sensor effect changes what is observed */
   int32_t structured;  /* 1: the Newton matrix is factored in O(links); 0: newton_* are null */
   int32_t newton_work; /* doubles of work space for newton_factor and newton_solve */

@@ -228,7 +228,6 @@ const ::catena_model& table() {
       kParameters,
       6,  // terms
       5,  // energies
-      0,  // uses_time
       0,  // observes
       1,  // structured
       sizeof(NewtonMatrix<double>) / sizeof(double),

@@ -198,7 +198,6 @@ catena_model table(const Chain& chain) {
       chain.parameters(),
       6,  // terms
       5,  // energies
-      0,  // uses_time
       0,  // observes
       1,  // structured
       NewtonMatrix<double>::numbers(links),

@@ -30,8 +30,7 @@ void require_alike(const ModelFunctions& a, const ModelFunctions& b) {
     for (const Function& function : model.functions) words.push_back(function.name);
     return words;
   };
-  if (head(a) != head(b) || a.mass != b.mass || a.newton != b.newton ||
-      a.uses_time != b.uses_time || a.observes != b.observes)
+  if (head(a) != head(b) || a.mass != b.mass || a.newton != b.newton || a.observes != b.observes)
     throw std::logic_error("the functions or the matrices differ between numbers of links");
 }
 

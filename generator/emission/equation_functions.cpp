@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <set>
 
 #include "generator/derivation/tridiagonal.hpp"
 #include "generator/derivation/weighted_gradient.hpp"
@@ -102,25 +101,6 @@ void FunctionBuilder::adjoint() {
       {at(), numbers("weights"), maybe_unused(numbers("rate_weights")), result("dq"), result("dv"),
        maybe_unused(result("dz")), result("dp")},
       body(outputs, inputs));
-}
-
-// Symbols the equations depend on.
-std::vector<int> FunctionBuilder::all_symbols() {
-  std::set<int> seen;
-  std::vector<int> open;
-  const auto visit = [&](const ex& e) {
-    for (const int number : definitions_.symbols_of(e)) {
-      if (seen.insert(number).second) open.push_back(number);
-    }
-  };
-  for (const ex& e : chain_.residual()) visit(e);
-  for (const ex& e : chain_.state_rates()) visit(e);
-  while (!open.empty()) {
-    const int number = open.back();
-    open.pop_back();
-    visit(definitions_[number].value);
-  }
-  return {seen.begin(), seen.end()};
 }
 
 }  // namespace catena

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/function_builder.hpp"
 
-#include <algorithm>
-
 namespace catena {
 
 using GiNaC::ex;
@@ -69,10 +67,6 @@ ModelFunctions FunctionBuilder::build() {
   if (chain_.constraints() > 0) gap();
   if (chain_.sensor().given) sensor();
   if (has_all()) adjoint();
-  const std::vector<int> used = all_symbols();
-  result_.uses_time = s.signals > 0 || std::any_of(used.begin(), used.end(), [&](int number) {
-                        return definitions_[number].family == "time";
-                      });
   result_.space = description_.space;
   if (has_all()) result_.energies = chain_.energies();
   for (const Function& function : result_.functions) {

@@ -28,7 +28,6 @@ class FunctionBuilder {
   void terms();
   void state_rates();
   void adjoint();
-  std::vector<int> all_symbols();
 
   // matrix_functions.cpp
   void mass_and_acceleration();

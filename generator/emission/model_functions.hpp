@@ -81,7 +81,7 @@ struct ModelFunctions {
   MatrixForm mass, newton;  ///< newton.kind == kDense: there is no Newton matrix
   /// The function for a T of several numbers: "acceleration", or one in an order of its own.
   std::string accelerations;
-  bool uses_time = false, observes = false;
+  bool observes = false;
   Space space = Space::kPlane;
   FunctionSet set = FunctionSet::kAll;
 

@@ -119,7 +119,6 @@ std::string table_members(const Description& description, const ModelFunctions& 
   member(text.parameters);
   number(functions.terms.size(), "terms");
   number(functions.energies.size(), "energies");
-  number(functions.uses_time ? 1 : 0, "uses_time");
   number(functions.observes ? 1 : 0, "observes");
   number(s.structured ? 1 : 0, "structured");
   member(s.structured ? text.newton_work : "0");

@@ -61,7 +61,6 @@ struct DrivenModel {
     catena_model model = *base();
     model.states = 1;
     model.signals = 1;
-    model.uses_time = 1;
     model.state = state;
     model.signal = signal;
     model.residual = &residual;
