@@ -4,8 +4,10 @@
 #include "common/sha256.hpp"
 #include "description/description.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
+using testing::replaced;
 
 namespace {
 
@@ -20,12 +22,6 @@ std::string canonical(const std::string& effect_text, const std::string& name = 
   Description description = plain_chain();
   description.effects.push_back(read_effect(folder.write(name, effect_text)));
   return canonical_text(description);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 }  // namespace

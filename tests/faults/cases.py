@@ -1,32 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cases that take a moment, for the tests of faults."""
-SWING = """format = 1
-kind = "case"
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.1
-unit = "N m/rad"
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.005
-unit = "N m s/rad"
-[initial]
-shape = "straight"
-angle = 0.6
-"""
-ALONE = SWING + "[simulation]\nduration = 1.0\nstep = 0.02\n"
+from pathlib import Path
+
+SUPPORT = Path(__file__).resolve().parents[1] / "support"
+ALONE = (SUPPORT / "swing.toml").read_text()
+SWING = ALONE.split("[simulation]")[0]
 DATA = '[[experiment]]\nname = "swing"\ndata = "swing.csv"\nkind = "markers"\n'
-FIT = SWING.replace("value = 0.1\n", "value = 0.05\nfree = true\nlower = 0.001\nupper = 1.0\n").replace(
-    "value = 0.005\n", "value = 0.002\nfree = true\nlower = 0.0001\nupper = 1.0\n"
-) + DATA  # fmt: skip
+FIT = (SUPPORT / "fit.toml").read_text().split("[[experiment]]")[0] + DATA
 STARTS = '[optimiser]\nmethod = "nelder_mead"\nstarts = {}\n'
 AIR = 'format = 1\nkind = "model"\nid = "air"\neffects = ["pivot_damping"]\n'
 

@@ -20,9 +20,11 @@
 #include "generator/derivation/chain.hpp"
 #include "tests/generator/checking/text.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
 using namespace catena::tests;
+using catena::testing::replaced;
 using GiNaC::ex;
 
 namespace {
@@ -109,12 +111,6 @@ double largest_difference(const std::string& text, std::uint64_t seed) {
   }
   CHECK(equations == 2 * symbols.links);
   return largest;
-}
-
-std::string replaced(std::string text, const std::string& part, const std::string& by) {
-  const std::size_t at = text.find(part);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, part.size(), by);
 }
 
 }  // namespace

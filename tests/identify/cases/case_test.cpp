@@ -14,8 +14,10 @@
 #include "tests/support/data.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
+using testing::replaced;
 
 namespace {
 
@@ -127,12 +129,6 @@ good_enough = "0.002 m"
 possible = ["steady_wind"]
 impossible = ["scale", "camera_tilt"]
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE_MESSAGE(at != std::string::npos, from);
-  return text.replace(at, from.size(), to);
-}
 
 }  // namespace
 

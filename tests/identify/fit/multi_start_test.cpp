@@ -10,37 +10,15 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
 
 namespace {
 
 Problem swinging(FitMethod method, int starts) {
-  Case the_case = testing::sections(R"(
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.05
-free = true
-lower = 0.001
-upper = 1.0
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.002
-free = true
-lower = 0.0
-upper = 0.1
-[initial]
-shape = "straight"
-angle = 0.6
-)");
+  Case the_case = testing::sections(testing::replaced(
+      testing::kTwoLinks, "lower = 0.0001\nupper = 1.0", "lower = 0.0\nupper = 0.1"));
   the_case.optimiser.method = method;
   the_case.optimiser.starts = starts;
   the_case.optimiser.max_evaluations = 60;

@@ -9,21 +9,16 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "common/sha256.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
+using testing::text_of;
 
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 HistoryEntry entry(double value) {
   return {value * value, Eigen::VectorXd::Constant(2, value), "said"};

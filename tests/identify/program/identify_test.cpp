@@ -41,8 +41,8 @@ TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it"
   const Twin twin;
   for (const char* method : {"nelder_mead", "least_squares"}) {
     CAPTURE(std::string(method));
-    const auto the_case = twin.folder.write(
-        "fit.toml", std::string(testing::kFit) + "[optimiser]\nmethod = \"" + method + "\"\n");
+    const auto the_case =
+        twin.folder.write("fit.toml", testing::kFit + "[optimiser]\nmethod = \"" + method + "\"\n");
     const std::filesystem::path out = twin.folder.path() / "out" / method;
     const ProcessResult run = run_catena({"identify", the_case, "--output", out});
     CHECK_MESSAGE(run.exit_status == 0, run.output);
@@ -199,7 +199,7 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
 TEST_CASE("a cable in space is identified, and its report is drawn") {
   const testing::TemporaryFolder folder;
   folder.write("space.toml", "format = 1\nkind = \"model\"\nid = \"space\"\nspace = \"3d\"\n");
-  const auto in_space = [](const char* text) {
+  const auto in_space = [](const std::string& text) {
     return testing::replaced(text, "links = 2", "description = \"space.toml\"\nlinks = 2");
   };
   const std::string start =

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <random>
 #include <set>
-#include <sstream>
 
 #include "common/cpu_seconds.hpp"
 #include "common/input_error.hpp"
@@ -23,6 +22,7 @@
 #include "tests/identify/report/made_results.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 namespace catena::report {
 namespace {
@@ -37,13 +37,6 @@ std::filesystem::path write(const std::filesystem::path& file, const json& value
 Document read(const json& value) {
   const testing::TemporaryFolder folder;
   return read_document(write(folder.path() / "result.json", value));
-}
-
-std::string contents_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 std::set<std::string> families(const std::vector<ReportFigure>& figures) {
@@ -549,10 +542,10 @@ TEST_CASE("files: one CSV for each figure, and the parameters") {
   };
   CHECK(files("csv") == written.figures + 2);  // and manifest.sha256
   CHECK(std::filesystem::file_size(folder.path() / "deep/report.html") == written.html_bytes);
-  const std::string parameters = contents_of(folder.path() / "csv/parameters.csv");
+  const std::string parameters = testing::text_of(folder.path() / "csv/parameters.csv");
   CHECK(parameters.find("\nbeta,0.9544,1,true,,0.2,inf,1.8,,100,practically_not,stiffness\n") !=
         std::string::npos);
-  CHECK(contents_of(folder.path() / "csv/gap.csv") ==
+  CHECK(testing::text_of(folder.path() / "csv/gap.csv") ==
         "series,model,gap / mm\nfitted part,baseline,31\nfitted part,with air_drag_quadratic,1.2\n"
         "held out,baseline,44\nheld out,with air_drag_quadratic,1.3\n");
   // What an earlier report wrote is replaced, nothing else.
@@ -561,7 +554,7 @@ TEST_CASE("files: one CSV for each figure, and the parameters") {
     std::filesystem::create_directories(folder.path() / name);
     std::ofstream(folder.path() / name / mine) << "mine";
     const std::string said = failure([&] { write_report(document, {{}, folder.path() / name}); });
-    CHECK(contents_of(folder.path() / name / mine) == "mine");
+    CHECK(testing::text_of(folder.path() / name / mine) == "mine");
     CHECK(files(name) == 1);
     return said;
   };

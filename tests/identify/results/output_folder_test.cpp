@@ -4,24 +4,19 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "common/whole_file.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
+using testing::text_of;
 namespace fs = std::filesystem;
 
 namespace {
 
 const std::vector<std::string> kNames = {"result.json", "model/", "round_*/"};
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -12,37 +12,20 @@
 #include "runtime/rest_states.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
 
 namespace {
 
 Problem swing() {
-  Case the_case = testing::sections(R"(
-[model]
-links = 2
-[cable]
-length = 1.0
-density = 0.3
-load_mass = 0.2
-[[parameter]]
-name = "k"
-sets = "stiffness"
-value = 0.08
-free = true
-lower = 0.05
-upper = 0.2
-[[parameter]]
-name = "c"
-sets = "damping"
-value = 0.004
-free = true
-lower = 0.002
-upper = 0.01
-[initial]
-shape = "straight"
-angle = 0.6
-)");
+  std::string text = testing::kTwoLinks;
+  for (const auto& [from, to] : {std::pair{"0.05\nfree = true\nlower = 0.001\nupper = 1.0",
+                                           "0.08\nfree = true\nlower = 0.05\nupper = 0.2"},
+                                 {"0.002\nfree = true\nlower = 0.0001\nupper = 1.0",
+                                  "0.004\nfree = true\nlower = 0.002\nupper = 0.01"}})
+    text = testing::replaced(text, from, to);
+  Case the_case = testing::sections(text);
   the_case.optimiser.method = FitMethod::kLeastSquares;
   the_case.optimiser.starts = 3;
   testing::add_experiment(the_case, "run");
