@@ -9,6 +9,7 @@
 #include "common/parallel.hpp"
 #include "identify/diagnosis/residual_frequencies.hpp"
 #include "identify/diagnosis/same_model.hpp"
+#include "identify/diagnosis/stacking.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 
@@ -364,11 +365,7 @@ void CandidateScores::score_limit(const Candidate& candidate, Explanation& expla
 double CandidateScores::significance(const std::vector<int>& columns, const Score& score) const {
   const VectorXd rest = test_->residual_after(columns, score.estimate);
   // Back into channels x frames, for the correlations of what would be left.
-  std::vector<MatrixXd> left = white_residuals(search_.base, search_.noise);
-  Index next = 0;
-  for (MatrixXd& part : left)
-    for (double& value : part.reshaped())
-      if (!std::isnan(value)) value = rest[next++];
+  const std::vector<MatrixXd> left = unstacked(rest, white_residuals(search_.base, search_.noise));
   const double variance =
       std::max(1.0, rest.squaredNorm() / static_cast<double>(std::max<Index>(1, rest.size())));
   return log10_chi_square_tail(score.removed / (variance * autocorrelation_factor(left)),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/diagnosis/stacking.hpp"
 #include "identify/fit/estimated_noise.hpp"
 #include "identify/problem/evaluation.hpp"
 
@@ -153,17 +154,15 @@ std::vector<MatrixXd> white_residuals(const FittedModel& model,
 
 VectorXd stacked(const std::vector<MatrixXd>& matrices, const std::vector<MatrixXd>& measured_where,
                  const std::vector<NoiseModel>& noise) {
-  std::vector<double> values;
+  std::vector<MatrixXd> white;
   for (std::size_t e = 0; e < measured_where.size(); ++e) {
     const MatrixXd& where = measured_where[e];
     MatrixXd measured =
         matrices[e].size() ? matrices[e] : MatrixXd::Zero(where.rows(), where.cols());
     measured = where.array().isNaN().select(std::numeric_limits<double>::quiet_NaN(), measured);
-    const MatrixXd white = noise[e].whitened(measured);
-    for (const double value : white.reshaped())
-      if (!std::isnan(value)) values.push_back(value);
+    white.push_back(noise[e].whitened(measured));
   }
-  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return stacked_where_seen(white, white);
 }
 
 MatrixXd fitted_jacobian(const FittedModel& model, const std::vector<NoiseModel>& noise) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/parallel.hpp"
+#include "identify/diagnosis/stacking.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
 
 namespace catena {
@@ -16,28 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Random errors: a chance of 1 in 200 can be told.
-constexpr Index kRandomErrors = 199;
 constexpr std::uint64_t kSeed = 16;
-
-/// Stacked as the residuals of a ScoreTest.
-VectorXd stacked_where_seen(const std::vector<MatrixXd>& parts, const std::vector<MatrixXd>& seen) {
-  std::vector<double> values;
-  for (std::size_t r = 0; r < parts.size(); ++r)
-    for (Index i = 0; i < parts[r].size(); ++i)
-      if (!std::isnan(seen[r].reshaped()[i])) values.push_back(parts[r].reshaped()[i]);
-  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-}
-
-/// The inverse; NaN where nothing was seen.
-std::vector<MatrixXd> unstacked(const VectorXd& stacked, const std::vector<MatrixXd>& seen) {
-  std::vector<MatrixXd> parts = seen;
-  Index next = 0;
-  for (MatrixXd& part : parts)
-    for (Index i = 0; i < part.size(); ++i)
-      if (double& value = part.data()[i]; !std::isnan(value)) value = stacked[next++];
-  return parts;
-}
 
 /// Of every recording.
 using Spectra = std::vector<MatrixXd>;
@@ -115,8 +95,8 @@ MaximumStatistic::MaximumStatistic(const ScoreTest& test, const TriedColumns& tr
   }
 
   const Spectra spectra = spectra_of(left);
-  MatrixXd statistics(static_cast<Index>(candidates.size()), kRandomErrors);
-  in_parallel(kRandomErrors, threads, [&](std::size_t s) {
+  MatrixXd statistics(static_cast<Index>(candidates.size()), kRandomSeries);
+  in_parallel(kRandomSeries, threads, [&](std::size_t s) {
     check();
     std::mt19937_64 random(kSeed + s);
     std::vector<MatrixXd> drawn;
@@ -129,7 +109,7 @@ MaximumStatistic::MaximumStatistic(const ScoreTest& test, const TriedColumns& tr
           best_statistic(test, candidates[c], errors, of_errors);
   });
 
-  largest_ = VectorXd::Zero(kRandomErrors);
+  largest_ = VectorXd::Zero(kRandomSeries);
   Index row = 0;
   for (const auto& [name, shapes] : tried) {
     const VectorXd of_candidate = statistics.row(row++);
@@ -155,7 +135,7 @@ double MaximumStatistic::chance(const std::string& which, const std::vector<Matr
   const double observed =
       statistic(removed, spectra_of(explained), spectra_of(left)) / mean->second;
   return (1.0 + static_cast<double>((largest_.array() >= observed).count())) /
-         (1.0 + kRandomErrors);
+         (1.0 + kRandomSeries);
 }
 
 }  // namespace catena

@@ -17,7 +17,7 @@ using TriedColumns = std::map<std::string, std::vector<std::vector<int>>>;
 /// Could the best of all that was tried do as well by chance?
 ///
 /// A model that is right but for errors leaves residuals that go with no candidate. Such errors are
-/// drawn 199 times, with the spectrum and the correlations between channels of those that a good
+/// drawn kRandomSeries times, with the spectrum and the correlations between channels of those that a good
 /// explanation leaves, and every candidate at every shape is scored on each: linearised, with no
 /// simulation. What a candidate explains of residuals r is v; its statistic is
 ///

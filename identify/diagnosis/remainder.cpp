@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "identify/diagnosis/stacking.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
@@ -20,19 +21,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kRemainders = 199;
 constexpr std::uint64_t kSeedOfRemainders = 4;
 /// The relative error of a noise level from n residuals is sqrt(1.5 / n): it is three times less sure
 /// than a standard deviation of n independent values (GapTest).
 constexpr double kErrorOfLevel = 1.5;
-
-VectorXd seen(const std::vector<MatrixXd>& parts, const std::vector<MatrixXd>& where) {
-  std::vector<double> values;
-  for (std::size_t e = 0; e < where.size(); ++e)
-    for (Index i = 0; i < where[e].size(); ++i)
-      if (!std::isnan(where[e].data()[i])) values.push_back(parts[e].data()[i]);
-  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-}
 
 double excess(const VectorXd& residuals) {
   return residuals.size() > 0 ? residuals.squaredNorm() / static_cast<double>(residuals.size()) - 1
@@ -101,13 +93,13 @@ void add_white(VectorXd& values, double level, std::mt19937_64& random) {
 }  // namespace
 
 OfParts excess(const Remainder& remainder) {
-  return {excess(seen(remainder.fitted, remainder.fitted)),
-          excess(seen(remainder.held_out, remainder.held_out))};
+  return {excess(stacked_where_seen(remainder.fitted, remainder.fitted)),
+          excess(stacked_where_seen(remainder.held_out, remainder.held_out))};
 }
 
 OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated) {
   const OfParts observed = excess(remainder);
-  const Index residuals = seen(remainder.fitted, remainder.fitted).size();
+  const Index residuals = stacked_where_seen(remainder.fitted, remainder.fitted).size();
   const Index priors = remainder.fitted_along.rows() - residuals;
   if (priors < 0 || remainder.held_out_along.cols() != remainder.fitted_along.cols())
     throw std::invalid_argument("the derivatives have another size than the residuals");
@@ -131,7 +123,7 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
   const double error_of_level =
       std::sqrt(kErrorOfLevel / std::max(1.0, static_cast<double>(residuals)));
   OfParts as_large{1, 1};
-  for (int draw = 0; draw < kRemainders; ++draw) {
+  for (int draw = 0; draw < kRandomSeries; ++draw) {
     std::mt19937_64 random(kSeedOfRemainders + static_cast<std::uint64_t>(draw));
     std::vector<MatrixXd> fitted, held_out;
     for (std::size_t e = 0; e < errors.size(); ++e) {
@@ -141,9 +133,11 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
     }
     const double level = 1 + error_of_level * normal_number(random);
     VectorXd of_fitted = VectorXd::Zero(residuals + priors);
-    of_fitted.head(residuals) = std::sqrt(tolerated.fitted) * seen(fitted, remainder.fitted);
+    of_fitted.head(residuals) =
+        std::sqrt(tolerated.fitted) * stacked_where_seen(fitted, remainder.fitted);
     add_white(of_fitted, level, random);
-    VectorXd of_held_out = std::sqrt(tolerated.held_out) * seen(held_out, remainder.held_out);
+    VectorXd of_held_out =
+        std::sqrt(tolerated.held_out) * stacked_where_seen(held_out, remainder.held_out);
     add_white(of_held_out, level, random);
     const VectorXd along = range.transpose() * of_fitted;
     of_held_out -= propagated * along;
@@ -151,7 +145,7 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
     as_large.fitted += excess(VectorXd(of_fitted.head(residuals))) >= observed.fitted;
     as_large.held_out += excess(of_held_out) >= observed.held_out;
   }
-  return {as_large.fitted / (1 + kRemainders), as_large.held_out / (1 + kRemainders)};
+  return {as_large.fitted / (1 + kRandomSeries), as_large.held_out / (1 + kRandomSeries)};
 }
 
 Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise) {
@@ -177,10 +171,10 @@ Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& 
 
   const auto unknowns = static_cast<Index>(problem.unknowns().size());
   const SoftConstraints known = constraints_of(problem, evaluation);
-  const Index residuals = seen(remainder.fitted, remainder.fitted).size();
+  const Index residuals = stacked_where_seen(remainder.fitted, remainder.fitted).size();
   remainder.fitted_along = MatrixXd::Zero(residuals + known.priors, unknowns);
   remainder.held_out_along =
-      MatrixXd::Zero(seen(remainder.held_out, remainder.held_out).size(), unknowns);
+      MatrixXd::Zero(stacked_where_seen(remainder.held_out, remainder.held_out).size(), unknowns);
   for (Index j = 0; j < unknowns; ++j) {
     std::vector<MatrixXd> fitted(count), held_out(count);
     for (std::size_t e = 0; e < count; ++e) {
@@ -191,8 +185,8 @@ Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& 
       along = measured.array().isNaN().select(measured, along).eval();
       split(e, along, fitted[e], held_out[e]);
     }
-    remainder.fitted_along.col(j).head(residuals) = seen(fitted, remainder.fitted);
-    remainder.held_out_along.col(j) = seen(held_out, remainder.held_out);
+    remainder.fitted_along.col(j).head(residuals) = stacked_where_seen(fitted, remainder.fitted);
+    remainder.held_out_along.col(j) = stacked_where_seen(held_out, remainder.held_out);
   }
   if (known.priors > 0)
     remainder.fitted_along.bottomRows(known.priors) =

@@ -21,8 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Random forces for the null distribution: a chance of 1 in 200 can be told.
-constexpr Index kRandomForces = 199;
 constexpr LawThresholds kLawThresholds;
 /// Fits in which the force follows the state; more where there are numbers to be found, at most so many of
 /// their steps at a time, until they move by less than such a part of one.
@@ -60,13 +58,13 @@ NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>&
   for (Index m = 0; m < force.rows(); ++m) force.row(m) = path.force.row(2 * m);
   const MatrixXd spectrum = cosine_spectrum(force);
   std::vector<MatrixXd> drawn;
-  for (Index s = 0; s < kRandomForces; ++s)
+  for (Index s = 0; s < kRandomSeries; ++s)
     drawn.push_back(random_series(spectrum, force.cols(), random));
   NodeForces forces;
   for (Index k = 0; k < force.cols(); ++k) {
     const MatrixXd unit = unit_forces(patterns, lengths, path.state.col(k));
-    MatrixXd& at_node = forces.columns.emplace_back(lengths.size(), kRandomForces);
-    for (Index s = 0; s < kRandomForces; ++s)
+    MatrixXd& at_node = forces.columns.emplace_back(lengths.size(), kRandomSeries);
+    for (Index s = 0; s < kRandomSeries; ++s)
       at_node.col(s) = unit * drawn[static_cast<std::size_t>(s)].col(k);
   }
   return forces;
@@ -198,10 +196,10 @@ class LawSearch {
     take_names(candidates_[chosen[0].candidate], law);
     law.confirmed = explained_by_law(second, 0, chosen[0], left_by_force(FrameHalf::kSecond));
     Index as_well = 0;
-    for (Index t = 1; t <= kRandomForces; ++t)
+    for (Index t = 1; t <= kRandomSeries; ++t)
       as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
                                   static_cast<double>(second.seen)) >= law.confirmed;
-    law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomForces);
+    law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomSeries);
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
     if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
     return law;
@@ -222,9 +220,9 @@ class LawSearch {
       const MatrixXd along = basis.transpose() * columns;
       columns.noalias() -= basis * along;
     };
-    MatrixXd values(part.value.size(), 1 + kRandomForces);
+    MatrixXd values(part.value.size(), 1 + kRandomSeries);
     values << part.value, part.forces;
-    for (Index s = 1; s <= kRandomForces; ++s)
+    for (Index s = 1; s <= kRandomSeries; ++s)
       for (Index i = 0; i < part.seen; ++i) values(i, s) += normal_number(numbers_);
     project(values);
     trials.squares = values.colwise().squaredNorm().transpose();
@@ -475,7 +473,7 @@ class LawSearch {
 };
 
 std::string chance_words(double value) {
-  return value <= 1 / (1.0 + kRandomForces) ? fmt::format("chance below {:.2g}", value)
+  return value <= 1 / (1.0 + kRandomSeries) ? fmt::format("chance below {:.2g}", value)
                                             : fmt::format("chance {:.2g}", value);
 }
 

@@ -20,7 +20,7 @@ struct LawThresholds {
   /// that leaves more than a fifth is not the law of this force, or not the only one. Chosen.
   double confirmed = 0.8;
   /// Difference of the Bayesian information criterion below which two formulas are not told apart:
-  /// odds of 1 to 20. Chosen.
+  /// odds of 1 to 20, from which Kass and Raftery (1995) call evidence strong.
   double undecided = 6;
 };
 

@@ -22,7 +22,8 @@ struct MissingForceThresholds {
   /// significant where there is none: what the parameters' priors and the rule of the integration
   /// leave. A share is asked besides significance.
   double share = 0.01;
-  /// Log odds below which two places are not told apart: 1 to 20. Chosen.
+  /// Log odds below which two places are not told apart: 1 to 20, from which Kass and Raftery (1995) call
+  /// evidence strong.
   double told_apart = 3;
 };
 

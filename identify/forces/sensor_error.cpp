@@ -21,7 +21,7 @@ namespace {
 
 /// Knots of what changes in time; it is zero at the first frame and straight between them.
 constexpr Index kKnots = 6;
-/// Deviations of the priors; three sizes of each are tried. Chosen: what cameras do.
+/// Deviations of the priors; three sizes of each are tried. What cameras do:
 constexpr double kBending = 0.1;    // 1, of the scale at a cable's length from the middle
 constexpr double kReading = 0.01;   // s, from the support to a cable's length below it
 constexpr double kDrifting = 0.01;  // m

@@ -21,6 +21,10 @@ Eigen::MatrixXd cosine_spectrum(const Eigen::MatrixXd& series);
 Eigen::MatrixXd random_series(const Eigen::MatrixXd& spectrum, Eigen::Index frames,
                               std::mt19937_64& random);
 
+/// How many such series a test draws. The least probability of chance that it can tell is then 1 in 200,
+/// half of what a diagnosis asks for (thresholds.hpp, `chance`).
+inline constexpr int kRandomSeries = 199;
+
 /// Variance of the sum of products of such a random series with the series of spectrum `other` (of
 /// the same size).
 double variance_along(const Eigen::MatrixXd& spectrum, const Eigen::MatrixXd& other);

@@ -23,6 +23,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 void on_interruption(int) { g_interrupted = true; }
 
 constexpr std::array<const char*, 4> kMotionFiles = {"positions", "angles", "forces", "energy"};
+/// More than any machine has, and a thread costs memory.
+constexpr int kMostThreads = 1024;
 /// The name of a file has at most 255 bytes, of which write_whole_file needs some for a time.
 constexpr std::size_t kLongestSuffix = 220;
 
@@ -50,6 +52,13 @@ void add_common_options(CLI::App& command, CommonOptions& options,
   add_yes_option(command, options.yes);
 }
 
+void add_threads_option(CLI::App& command, int& threads, const std::string& unless_given) {
+  command
+      .add_option("--threads", threads,
+                  "threads; " + unless_given + ". Results do not depend on it")
+      ->check(CLI::Range(1, kMostThreads));
+}
+
 const std::atomic<bool>& interrupted() { return g_interrupted; }
 
 void watch_for_interruption() {
@@ -65,14 +74,21 @@ int report_interruption(const std::string& outcome) {
   return kExitInterrupted;
 }
 
-Model model_of(const Case& the_case, const CommonOptions& options) {
+ProviderOptions provider_options(const CommonOptions& options, const std::function<void()>& clear) {
   ProviderOptions provider;
   provider.stop = &interrupted();
   provider.large_work = options.yes;
   if (!options.quiet)
-    provider.notice = [](const std::string& line) { std::cerr << "catena: " << line << "\n"; };
+    provider.notice = [clear](const std::string& line) {
+      clear();
+      std::cerr << "catena: " + line + "\n";
+    };
+  return provider;
+}
+
+Model model_of(const Case& the_case, const CommonOptions& options) {
   const Waiting waiting(!options.quiet, [] { return std::string("preparing the model"); });
-  return provide_model(the_case.description, the_case.links, provider);
+  return provide_model(the_case.description, the_case.links, provider_options(options));
 }
 
 void show_warnings(const Problem& problem, const CommonOptions& options) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,9 +19,6 @@ namespace catena {
 /// Exit statuses of the programs.
 enum : int { kExitSuccess = 0, kExitFailed = 1, kExitUsage = 2, kExitInterrupted = 130 };
 
-/// The most `--threads`: more than any machine has, and a thread costs memory.
-inline constexpr int kMostThreads = 1024;
-
 /// What every command that works on a case takes.
 struct CommonOptions {
   std::filesystem::path case_file;
@@ -32,6 +30,8 @@ struct CommonOptions {
 };
 void add_common_options(CLI::App& command, CommonOptions& options,
                         const std::string& default_ending);
+/// `unless_given` says in words what `threads` is now.
+void add_threads_option(CLI::App& command, int& threads, const std::string& unless_given);
 
 /// True once the user pressed Ctrl-C. The second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();
@@ -39,6 +39,10 @@ void watch_for_interruption();
 /// Says on standard error that the user pressed Ctrl-C and what became of the work. Returns the exit
 /// status.
 int report_interruption(const std::string& outcome);
+
+/// How the models of a command are made. What is said of it goes to standard error, after `clear`.
+ProviderOptions provider_options(
+    const CommonOptions& options, const std::function<void()>& clear = [] {});
 
 /// The model of a case, with a line on standard error where it has to be made first.
 Model model_of(const Case& the_case, const CommonOptions& options);

@@ -34,15 +34,8 @@ int diagnose_case(const DiagnoseOptions& options) {
     const std::scoped_lock lock(mutex);
     return now;
   });
-  ProviderOptions provider;
-  provider.stop = &interrupted();
-  provider.large_work = options.yes;
-  if (!options.quiet)
-    provider.notice = [&progress](const std::string& line) {
-      progress.clear();
-      std::cerr << "catena: " + line + "\n";
-    };
-  DiagnosisContext context(the_case, options.effects, scratch.path(), fit_least_squares, provider);
+  DiagnosisContext context(the_case, options.effects, scratch.path(), fit_least_squares,
+                           provider_options(options, [&progress] { progress.clear(); }));
   context.stop = &interrupted();
   context.threads = options.threads;
   context.notice = [&](const DiagnosisProgress& news) {
@@ -98,8 +91,7 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
       ->check(CLI::Range(1, 500));
   command->add_option("--refits", options.diagnosis.refits, "candidates to refit in every look")
       ->check(CLI::Range(1, 30));
-  command->add_option("--threads", options.threads, "threads; 2. Results do not depend on it")
-      ->check(CLI::Range(1, kMostThreads));
+  add_threads_option(*command, options.threads, "2");
   command->callback([&exit_status] { exit_status = diagnose_case(options); });
 }
 

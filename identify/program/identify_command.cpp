@@ -361,9 +361,7 @@ void add_identify_command(CLI::App& program, int& exit_status) {
       ->add_option("--time-limit", options.time_limit,
                    "stop after so many seconds, with the best so far")
       ->check(positive_number());
-  command
-      ->add_option("--threads", options.threads, "threads; all cores. Results do not depend on it")
-      ->check(CLI::Range(1, kMostThreads));
+  add_threads_option(*command, options.threads, "all cores");
   CLI::Option* shard = command->add_option("--shard", options.shard,
                                            "3/8: a part of starts, profiles and bootstrap");
   for (const char* other : {"--check", "--links-study", "--time-limit", "--json"})
