@@ -79,7 +79,6 @@ class Rod {
   Index unknowns() const { return first_of(elements_ + 1); }
   int elements() const { return elements_; }
   double length_of_element() const { return h_; }
-  double axial() const { return axial_; }
 
   Vector support(double t, int derivative) const {
     const double w = 2 * std::numbers::pi * hidden_.support_frequency;
