@@ -28,7 +28,8 @@ struct CandidateParameter {
   double neutral = 0;  ///< kAmplitude only
   double value = 0;    ///< where the search for it starts: the default or the neutral value
   ParameterRole role = ParameterRole::kAmplitude;
-  int amplitude = -1;  ///< kPhase: the amplitude it belongs to
+  int amplitude = -1;            ///< kPhase: the amplitude it belongs to
+  double deviation = kNotGiven;  ///< kAmplitude: of a normal prior about `neutral`; NaN: none
 };
 
 /// One effect that may be missing.
@@ -36,6 +37,8 @@ struct Candidate {
   std::string id, title;
   Effect effect;        ///< effect.form_of: of two laws of one effect the name goes to that one
   bool sensor = false;  ///< changes what is reported, not the motion
+  /// Its parameters are the case's own: no description of a model has it.
+  bool of_case = false;
   /// Brings further coordinates or states: others should not pay for them, and at a limit they have
   /// no neutral value to rest at.
   bool own_model = false;

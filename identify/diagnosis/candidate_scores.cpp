@@ -63,7 +63,11 @@ ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, const MatrixX
   scored.shape = shape;
   for (std::size_t a = 0; a < amplitudes.size(); ++a) {
     const CandidateParameter& p = parameter(candidate, amplitudes[a]);
-    const double low = p.lower - p.neutral, high = p.upper - p.neutral;
+    // What has a prior needs no bounds, and there may be many of those.
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    const bool bounded = std::isnan(p.deviation);
+    const double low = bounded ? p.lower - p.neutral : -kInfinite;
+    const double high = bounded ? p.upper - p.neutral : kInfinite;
     scored.columns.push_back(test.add({at_zero.col(static_cast<Index>(a)), low, high}));
     if (at_quarter)
       scored.columns.push_back(test.add({at_quarter->col(static_cast<Index>(a)), low, high}));

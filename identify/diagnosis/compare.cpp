@@ -6,11 +6,15 @@
 
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/fit/error.hpp"
 
 namespace catena {
 
 double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& noise) {
-  return stacked(model.fit_residual, model.fit_residual, noise).squaredNorm();
+  double sum = stacked(model.fit_residual, model.fit_residual, noise).squaredNorm();
+  for (const Prior& prior : priors_of(*model.problem))
+    sum += std::pow((model.x[prior.unknown] - prior.measured) / prior.deviation, 2);
+  return sum;
 }
 
 namespace {

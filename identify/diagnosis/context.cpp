@@ -47,10 +47,17 @@ Candidate& DiagnosisContext::add_effect(const std::string& id, const std::string
   return library_.back();
 }
 
+std::vector<std::string> DiagnosisContext::in_model(const std::vector<std::string>& effects) const {
+  std::vector<std::string> left = effects;
+  std::erase_if(left, [&](const std::string& effect) { return find(effect)->of_case; });
+  return left;
+}
+
 Description DiagnosisContext::description_with(const std::vector<std::string>& effects, int links,
                                                const std::string& id) const {
   Description description = original_;
-  for (const std::string& effect : effects) description.effects.push_back(find(effect)->effect);
+  for (const std::string& effect : in_model(effects))
+    description.effects.push_back(find(effect)->effect);
   description.id = id;
   description.links = {links};
   return description;
@@ -94,7 +101,8 @@ Model DiagnosisContext::made_with(const std::vector<std::string>& effects, int l
   });
 }
 
-Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int links) {
+Model DiagnosisContext::model_with(const std::vector<std::string>& all, int links) {
+  const std::vector<std::string> effects = in_model(all);
   const bool shared = std::none_of(effects.begin(), effects.end(), [&](const std::string& effect) {
     return find(effect)->own_model;
   });
@@ -102,14 +110,14 @@ Model DiagnosisContext::model_with(const std::vector<std::string>& effects, int 
 }
 
 Model DiagnosisContext::complete_model_with(const std::vector<std::string>& effects, int links) {
-  return made_with(effects, links, false);
+  return made_with(in_model(effects), links, false);
 }
 
 Model DiagnosisContext::model_with_all(int links, const std::vector<std::string>& needed) {
   std::vector<std::string> effects;
   for (const Candidate& candidate : library_) {
     const bool wanted = std::find(needed.begin(), needed.end(), candidate.id) != needed.end();
-    if (wanted || (candidate.unavailable.empty() && !candidate.own_model))
+    if (wanted || (candidate.unavailable.empty() && !candidate.own_model && !candidate.of_case))
       effects.push_back(candidate.id);
   }
   return made_with(effects, links, true);

@@ -48,6 +48,8 @@ class DiagnosisContext {
   /// Writes an effect file into the folder, and adds the effect to the library, which moves: for
   /// this effect and no others it has models of its own. Throws InputError for a file that is none.
   Candidate& add_effect(const std::string& id, const std::string& text);
+  /// Adds a candidate to the library, which moves.
+  void add(Candidate candidate) { library_.push_back(std::move(candidate)); }
   /// Whether the library or the case has an effect of this name.
   bool knows(const std::string& id) const;
 
@@ -88,6 +90,8 @@ class DiagnosisContext {
   }
 
  private:
+  /// Those of these effects that a description of a model has.
+  std::vector<std::string> in_model(const std::vector<std::string>& effects) const;
   /// The case's model with these effects and no others.
   Model made_with(const std::vector<std::string>& effects, int links, bool for_fits);
   /// What `make` gives, made once for a key.

@@ -9,6 +9,7 @@
 #include "identify/diagnosis/discovery.hpp"
 #include "identify/diagnosis/look_back.hpp"
 #include "identify/diagnosis/pairs.hpp"
+#include "identify/diagnosis/places_of_markers.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -32,7 +33,10 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   seal_last_part(the_case, context);
   context.begin("fitting the baseline");
   state.enter(fit_baseline(for_the_search(the_case), context), {}, "");
-  for (const Experiment& experiment : state.last().model.problem->experiments())
+  const std::vector<Experiment>& experiments = state.last().model.problem->experiments();
+  std::optional<Candidate> places = places_of_markers(the_case, experiments);
+  if (places && !context.knows(places->id)) context.add(std::move(*places));
+  for (const Experiment& experiment : experiments)
     for (const std::string& warning : experiment.recording.warnings)
       state.found.notes.push_back(experiment.spec.name + ": " + warning);
   look_ahead_and_back(state);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/diagnosis_folder.hpp"
 
+#include <algorithm>
+
 #include "common/whole_file.hpp"
 #include "identify/cases/case_writer.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
@@ -12,11 +14,27 @@ namespace fs = std::filesystem;
 
 WorkFolder scratch_folder() { return WorkFolder(fs::temp_directory_path(), "catena-diagnose-"); }
 
+namespace {
+
+/// The case as it is written. Priors of what the diagnosis freed are weighed against a noise that it found; the
+/// case need not state one.
+Case written(Case the_case, const Case& asked) {
+  for (ParameterSpec& spec : the_case.parameters) {
+    const bool own = std::any_of(asked.parameters.begin(), asked.parameters.end(),
+                                 [&](const ParameterSpec& each) { return each.name == spec.name; });
+    if (!own) spec.measured = spec.standard_deviation = kNotGiven;
+  }
+  return the_case;
+}
+
+}  // namespace
+
 DiagnosisRecord record_of(const Diagnosis& found, const DiagnosisFindings& findings,
                           const DiagnosisContext& context) {
   DiagnosisRecord record{diagnosis_table(found, findings),
                          diagnosis_files(found, findings, context),
-                         with_opened_seals(*found.final.problem).with(found.final.x),
+                         written(with_opened_seals(*found.final.problem).with(found.final.x),
+                                 found.stages.front().model.problem->the_case()),
                          {},
                          found.law};
   if (!found.effects.empty())

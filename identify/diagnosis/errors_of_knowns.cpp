@@ -91,7 +91,8 @@ Case with_doubts(const DiagnosisState& state, const FittedModel& model,
   for (const Candidate& candidate : state.context.library()) {
     const auto& found = state.found.effects;
     const bool there = std::find(found.begin(), found.end(), candidate.id) != found.end();
-    if (there || !candidate.unavailable.empty() || candidate.own_model ||
+    // What markers get wrong, errors_of_markers() says.
+    if (there || !candidate.unavailable.empty() || candidate.own_model || candidate.of_case ||
         !is_error_of_known(candidate))
       continue;
     errors.push_back(candidate);

@@ -45,10 +45,7 @@ Problem with_opened_seals(const Problem& problem) {
   for (ExperimentSpec& spec : the_case.experiments)
     spec.sealed_from = std::numeric_limits<double>::infinity();
   std::vector<Experiment> experiments = problem.experiments();
-  for (Experiment& experiment : experiments) {
-    experiment.spec.sealed_from = std::numeric_limits<double>::infinity();
-    open_seal(experiment.recording);
-  }
+  for (Experiment& experiment : experiments) open_seal(experiment.recording);
   return Problem(the_case, problem.model(), std::move(experiments));
 }
 

@@ -19,7 +19,7 @@ void seal_last_part(Case& the_case, DiagnosisContext& context);
 /// Root mean square of what a model leaves in the sealed parts, m or rad; NaN without any.
 double sealed_rms(const FittedModel& model);
 
-/// The problem with nothing sealed, to be shown and written.
+/// The problem with nothing sealed, to be shown and written; its experiments still say what was.
 Problem with_opened_seals(const Problem& problem);
 
 }  // namespace catena

@@ -57,6 +57,7 @@ FittedModel trim(const FittedModel& model, const std::vector<NoiseModel>& noise,
           static_cast<int>(parameter_of(candidate, spec->sets) - candidate.parameters.data());
       spec->value = candidate.parameters[static_cast<std::size_t>(index)].neutral;
       spec->free = false;
+      spec->measured = spec->standard_deviation = kNotGiven;
       ++dropped;
       for (ParameterSpec& other : smaller.parameters) {
         const CandidateParameter* phase = parameter_of(candidate, other.sets);

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "identify/problem/marker_places.hpp"
+
 namespace catena {
 namespace {
 
@@ -34,6 +36,7 @@ std::optional<JointFamily> joint_family(const std::string& sets) {
 }
 
 bool names_one_link(const std::string& sets) {
+  if (sets.starts_with(marker_place_of(""))) return false;  // markers have names, too
   for (const char* family : {"length", "mass", "inertia", "torque"})
     if (sets == family || sets.starts_with(std::string(family) + "_")) return true;
   // an effect's parameter of one joint or link: "effect.name_3"
@@ -61,6 +64,18 @@ void free_start(InitialSpec& initial, int more_terms, int rate_terms) {
   initial.velocity_free = true;
 }
 
+/// What a problem takes the start's coefficient to be that is an unknown of another one with the same
+/// experiments; zero where its start has none.
+double known_start(const Problem& from, const Unknown& unknown, const Problem& to) {
+  const auto e = static_cast<std::size_t>(unknown.experiment);
+  InitialSpec freer = to.experiments()[e].initial, known = from.experiments()[e].initial;
+  auto k = static_cast<std::size_t>(unknown.coefficient);
+  const auto lists = freer.coefficient_lists(), values = known.coefficient_lists();
+  std::size_t list = 0;
+  for (; k >= lists[list]->size(); ++list) k -= lists[list]->size();
+  return k < values[list]->size() ? (*values[list])[k] : 0;
+}
+
 bool polynomial(const InitialSpec& initial) {
   return initial.shape == Shape::kSmooth || initial.shape == Shape::kStraight;
 }
@@ -80,6 +95,10 @@ Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates
       spec.free = parameter.role == ParameterRole::kAmplitude ||
                   parameter.role == ParameterRole::kLimit || shapes;
       spec.where = "effect " + candidate.id;
+      if (!std::isnan(parameter.deviation)) {
+        spec.measured = parameter.neutral;
+        spec.standard_deviation = parameter.deviation;
+      }
       if (parameter.role == ParameterRole::kLimit) spec.scale = Scale::kLogarithmic;
       result.parameters.push_back(spec);
     }
@@ -174,7 +193,7 @@ Eigen::VectorXd transfer(const Problem& from, const Eigen::VectorXd& x, const Pr
     if (known >= 0)
       result[static_cast<Eigen::Index>(j)] = x[known];
     else if (unknown.group == Unknown::Group::kInitial)
-      result[static_cast<Eigen::Index>(j)] = 0;
+      result[static_cast<Eigen::Index>(j)] = known_start(from, unknown, to);
   }
   return result;
 }

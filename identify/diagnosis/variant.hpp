@@ -15,7 +15,7 @@ namespace catena {
 /// Cases made from cases: with effects, with more links, with a freer start.
 
 /// The case with every parameter of the candidates added as a free quantity, at its neutral or
-/// default value; phases and shapes are free only if `shapes`. The description is left as it is:
+/// default value, with its prior; phases and shapes are free only if `shapes`. The description is left as it is:
 /// the model that has these effects is chosen where the problem is made (DiagnosisContext).
 Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates, bool shapes);
 

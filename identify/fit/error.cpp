@@ -170,20 +170,21 @@ SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& ev
   return defects;
 }
 
-SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation) {
-  SoftConstraints all = shooting_defects_of(problem, evaluation);
-  struct Prior {
-    Index unknown;
-    double measured, deviation;
-  };
+std::vector<Prior> priors_of(const Problem& problem) {
   std::vector<Prior> priors;
-  for (Index j = 0; j < evaluation.x.size(); ++j) {
-    const int parameter = problem.unknowns()[static_cast<std::size_t>(j)].parameter;
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+    const int parameter = problem.unknowns()[j].parameter;
     if (parameter < 0) continue;
     const ParameterSpec& spec = problem.the_case().parameters[static_cast<std::size_t>(parameter)];
     if (!std::isnan(spec.standard_deviation))
-      priors.push_back({j, spec.measured, spec.standard_deviation});
+      priors.push_back({static_cast<Index>(j), spec.measured, spec.standard_deviation});
   }
+  return priors;
+}
+
+SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation) {
+  SoftConstraints all = shooting_defects_of(problem, evaluation);
+  const std::vector<Prior> priors = priors_of(problem);
   all.priors = static_cast<Index>(priors.size());
   const Index defects = all.value.size(), count = defects + all.priors;
   all.value.conservativeResize(count);

@@ -50,6 +50,13 @@ struct SoftConstraints {
 /// angles (rad), then rates (rad/s), window by window. Empty where no windows are joined.
 SoftConstraints shooting_defects_of(const Problem& problem, const Evaluation& evaluation);
 
+/// What the case says of an unknown before the fit: a normal prior, in the unknown's unit.
+struct Prior {
+  Eigen::Index unknown = 0;
+  double measured = 0, deviation = 1;
+};
+std::vector<Prior> priors_of(const Problem& problem);
+
 /// The shooting defects; then, for each unknown with a standard deviation, the unknown minus what
 /// was measured, in its unit.
 SoftConstraints constraints_of(const Problem& problem, const Evaluation& evaluation);

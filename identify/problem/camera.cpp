@@ -7,12 +7,12 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <string>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "identify/problem/extended_model.hpp"
 
 namespace catena {
 namespace {
@@ -94,32 +94,21 @@ Model with_cameras(const Case& the_case, Model model) {
     refuse(the_case.cameras.front(),
            "the model moves in the plane, whose pictures need no camera; leave it out, or give a "
            "model with space = \"3d\"");
-  struct Extended {
-    Model model;
-    std::vector<std::string> names;
-    std::vector<catena_parameter> parameters;
-    catena_model table;
-  };
   const catena_model& table = model.table();
-  if (table.parameters > 0 &&
-      table.parameter[table.parameters - 1].description == kParameters[kCount - 1].description)
-    return model;  // it has them
-  const auto own = std::make_shared<Extended>(
-      Extended{model, {}, {table.parameter, table.parameter + table.parameters}, table});
+  for (int i = 0; i < table.parameters; ++i)
+    if (table.parameter[i].description == kParameters[0].description) return model;  // it has them
+  std::vector<SensorParameter> parameters;
   for (const CameraSpec& camera : the_case.cameras) {
-    for (const catena_parameter& parameter : own->parameters)
-      if (std::string(parameter.name).starts_with(camera.name + "."))
+    const auto taken = [&](const auto& name) {
+      return std::string(name).starts_with(camera.name + ".");
+    };
+    for (int i = 0; i < table.parameters; ++i)
+      if (taken(table.parameter[i].name))
         refuse(camera, "an effect of the model has this name; give the camera another one");
     for (const catena_parameter& parameter : kParameters)
-      own->names.push_back(camera.name + "." + parameter.name);
+      parameters.push_back({camera.name + "." + parameter.name, parameter});
   }
-  for (std::size_t i = 0; i < own->names.size(); ++i) {
-    own->parameters.push_back(kParameters[i % kCount]);
-    own->parameters.back().name = own->names[i].c_str();
-  }
-  own->table.parameter = own->parameters.data();
-  own->table.parameters = static_cast<int32_t>(own->parameters.size());
-  return Model(std::shared_ptr<const catena_model>(own, &own->table));
+  return extended_model(model, parameters);
 }
 
 Camera::Camera(const Model& model, const std::string& name)

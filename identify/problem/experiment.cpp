@@ -8,6 +8,7 @@
 #include "common/number_text.hpp"
 #include "identify/problem/camera.hpp"
 #include "identify/problem/initial_state.hpp"
+#include "identify/problem/marker_places.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/recordings/signal_reader.hpp"
 #include "runtime/positions.hpp"
@@ -135,15 +136,15 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
                                        const ParameterMap& map, std::vector<Recording> recordings) {
   if (!recordings.empty() && recordings.size() != the_case.experiments.size())
     throw std::invalid_argument("recordings: one per experiment of the case is wanted");
+  const bool from_files = recordings.empty();
   std::vector<Experiment> experiments;
   for (std::size_t e = 0; e < the_case.experiments.size(); ++e) {
     const ExperimentSpec& spec = the_case.experiments[e];
     const Eigen::VectorXd parameters = map(case_values(the_case, spec.name));
     const Signals signals =
         read_signals(spec.signals.empty() ? the_case.signals : spec.signals, model, spec.where);
-    Recording recording = recordings.empty()
-                              ? read_plausible(the_case, spec, model, parameters, signals)
-                              : std::move(recordings[e]);
+    Recording recording = from_files ? read_plausible(the_case, spec, model, parameters, signals)
+                                     : std::move(recordings[e]);
     std::vector<Experiment> parts(1);
     if (std::isnan(spec.window)) {
       parts[0].spec = spec;
@@ -165,6 +166,7 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
       experiments.push_back(std::move(part));
     }
   }
+  if (from_files) check_marker_places(the_case, experiments);
   return experiments;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "identify/problem/marker_places.hpp"
+
 namespace catena {
 
 using Eigen::Index;
@@ -51,10 +53,12 @@ Observer::Place Observer::place_of(const Model& model, const VectorXd& parameter
   if (!point.camera.empty()) place.camera.emplace(model, point.camera);
   place.load = point.load;
   place.at_arc_length = !point.load && !point.joint && !point.link;
+  if (place.at_arc_length) place.off = index_of_place(model, point.name);
   place.point = point.load    ? MaterialPoint{model.links() - 1, 1.0}
                 : point.joint ? MaterialPoint{point.joint - 1, 1.0}
                 : point.link  ? MaterialPoint{point.link - 1, 0.0}
-                              : point_at_arc_length(model, parameters, point.arc_length);
+                              : moved_point(model, parameters, point.arc_length,
+                                           place.off ? parameters[*place.off] : 0);
   return place;
 }
 
@@ -79,10 +83,14 @@ Observer::Observer(const Model& model, const Experiment& experiment, const Vecto
     places_.push_back(place_of(model, parameters, point));
   for (const SensitivityDirection& direction : directions_) {
     std::vector<double>& moved = moved_.emplace_back();
-    for (const Place& place : places_)
-      moved.push_back(place.at_arc_length
-                          ? fraction_tangent(model, parameters, direction.parameters, place.point)
-                          : 0);
+    for (const Place& place : places_) {
+      double& fraction = moved.emplace_back(0);
+      if (place.at_arc_length)
+        fraction = fraction_tangent(model, parameters, direction.parameters, place.point);
+      if (place.off)
+        fraction +=
+            direction.parameters[*place.off] / link_lengths(model, parameters)[place.point.link];
+    }
   }
   true_.resize(places_.size());
   seen_.resize(places_.size());

@@ -2,7 +2,9 @@
 #include "identify/problem/prediction.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "identify/problem/marker_places.hpp"
 #include "identify/problem/observer.hpp"
 #include "runtime/sensitivity.hpp"
 
@@ -14,6 +16,20 @@ using Eigen::VectorXd;
 
 VectorXd or_zero(const VectorXd& vector, Index size) {
   return vector.size() ? vector : VectorXd::Zero(size);
+}
+
+/// Whether the motion is the same along a direction, in which only places of markers change.
+bool motion_stays(const Model& model, const SensitivityDirection& direction) {
+  return direction.q.isZero(0) && direction.v.isZero(0) &&
+         direction.parameters.head(first_marker_place(model)).isZero(0);
+}
+
+/// A motion of which nothing changes, at the times of a path.
+Trajectory unchanged(const Trajectory& path) {
+  const auto zero = [](const Eigen::MatrixXd& values) {
+    return Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  };
+  return {path.time, zero(path.q), zero(path.v), zero(path.z), {}};
 }
 
 }  // namespace
@@ -61,18 +77,29 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
                           or_zero(direction.v, model.coordinates()),
                           VectorXd::Zero(model.states())});
   }
+  std::vector<SensitivityDirection> moving;
+  std::vector<std::optional<std::size_t>> moving_of(directions.size());  // of each direction
+  for (std::size_t s = 0; s < directions.size(); ++s) {
+    if (motion_stays(model, directions[s])) continue;
+    moving_of[s] = moving.size();
+    moving.push_back(directions[s]);
+  }
   SensitiveSimulation simulation;
-  if (directions.empty())
+  if (moving.empty())
     static_cast<Simulation&>(simulation) =
         simulate(model, parameters, initial, clock.times, options, experiment.signals);
   else
-    simulation = simulate_with_sensitivities(model, parameters, initial, directions, clock.times,
+    simulation = simulate_with_sensitivities(model, parameters, initial, moving, clock.times,
                                              options, experiment.signals);
   Prediction prediction;
   prediction.status = simulation.status;
   prediction.message = simulation.message;
   prediction.simulated = Eigen::MatrixXd::Constant(channels, frames, kNotGiven);
   if (simulation.status != Status::kSuccess) return prediction;
+  const Trajectory still = unchanged(simulation.trajectory);
+  const auto sensitivity = [&](std::size_t s) -> const Trajectory& {
+    return moving_of[s] ? simulation.sensitivity[*moving_of[s]] : still;
+  };
 
   prediction.sensitivity.resize(along.size());
   for (const std::size_t j : index_of) prediction.sensitivity[j].resize(channels, frames);
@@ -83,7 +110,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
     for (Index c = 0; c < channels; ++c)
       prediction.simulated(c, k) = observer(recording.channels[static_cast<std::size_t>(c)]);
     for (std::size_t s = 0; s < directions.size(); ++s) {
-      observer.look_along(simulation.sensitivity[s], s, clock.held[frame]);
+      observer.look_along(sensitivity(s), s, clock.held[frame]);
       for (Index c = 0; c < channels; ++c)
         prediction.sensitivity[index_of[s]](c, k) =
             observer(recording.channels[static_cast<std::size_t>(c)]);
@@ -104,12 +131,12 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
     prediction.last_along = prediction.first_along;
     for (std::size_t s = 0; s < directions.size(); ++s) {
       const auto j = static_cast<Index>(index_of[s]);
-      prediction.first_along.col(j) = state(simulation.sensitivity[s], 0);
-      prediction.last_along.col(j) = state(simulation.sensitivity[s], end);
+      prediction.first_along.col(j) = state(sensitivity(s), 0);
+      prediction.last_along.col(j) = state(sensitivity(s), end);
     }
   }
   bool finite = prediction.simulated.allFinite();
-  for (const auto& sensitivity : prediction.sensitivity) finite &= sensitivity.allFinite();
+  for (const auto& changes : prediction.sensitivity) finite &= changes.allFinite();
   if (!finite) {
     prediction.status = Status::kNotFinite;
     prediction.message = "what the sensors would see is not finite";

@@ -10,6 +10,7 @@
 #include "common/number_text.hpp"
 #include "identify/problem/camera.hpp"
 #include "identify/problem/initial_state.hpp"
+#include "identify/problem/marker_places.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "runtime/clamp_direction.hpp"
 
@@ -68,7 +69,8 @@ void check_clamps(const Model& model, const Eigen::VectorXd& parameters, const S
 
 Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
     : case_(std::move(the_case)),
-      model_(fitting_model(case_, with_cameras(case_, std::move(model)))),
+      model_(
+          fitting_model(case_, with_marker_places(case_, with_cameras(case_, std::move(model))))),
       map_(checked_map(case_, model_)),
       experiments_(experiments_of(case_, model_, map_, std::move(recordings))),
       unknowns_(case_, experiments_) {
@@ -90,7 +92,7 @@ Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
 
 Problem::Problem(Case the_case, Model model, std::vector<Experiment> experiments)
     : case_(std::move(the_case)),
-      model_(std::move(model)),
+      model_(with_marker_places(case_, std::move(model))),
       map_(case_, model_),
       experiments_(std::move(experiments)),
       unknowns_(case_, experiments_) {}

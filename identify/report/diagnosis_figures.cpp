@@ -202,9 +202,7 @@ class BeforeAfter {
                              mean_over_points(before_.size, before_.time.size()), Mark::kLine, 2});
     figure.series.push_back(
         {"after", after_.time, mean_over_points(after_.size, after_.time.size()), Mark::kLine, 1});
-    if (!std::isnan(experiment_.fit_until)) {
-      figure.rules.push_back({true, experiment_.fit_until, "held out"});
-    }
+    mark_parts(experiment_, figure);
     put("before_after_error", std::move(figure));
   }
 
@@ -236,6 +234,7 @@ class BeforeAfter {
         {"before", predicted_before_.time, rows(predicted_before_), Mark::kLine, 2});
     figure.series.push_back(
         {"after", measured.predicted.time, rows(measured.predicted), Mark::kLine, 1});
+    mark_parts(experiment_, figure);
     put("before_after_position", std::move(figure));
   }
 

@@ -17,12 +17,6 @@ namespace {
 
 constexpr int kMostFramesInRow = 7;
 
-void mark_held_out(const Experiment& experiment, const Row& time, Figure& figure) {
-  if (!std::isnan(experiment.fit_until) && !time.empty() && experiment.fit_until < time.back()) {
-    figure.rules.push_back({true, experiment.fit_until, "held out"});
-  }
-}
-
 void add_motion_figure(std::vector<ReportFigure>& figures, const Experiment& experiment,
                        const std::string& family, const std::string& point, Figure figure) {
   figures.push_back({std::move(figure), "motion", family, experiment.name, "Point", point});
@@ -52,7 +46,7 @@ void add_measured(const Experiment& experiment, const Coordinate& coordinate,
     if (!predicted.empty()) {
       figure.series.push_back({"simulated", time, predicted[p], Mark::kLine, 1});
     }
-    mark_held_out(experiment, time, figure);
+    mark_parts(experiment, figure);
     add_motion_figure(figures, experiment, std::string("position_") + coordinate.name, name,
                       std::move(figure));
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -39,6 +40,13 @@ void name_files(std::vector<ReportFigure>& figures, bool several_experiments) {
 }
 
 }  // namespace
+
+void mark_parts(const Experiment& experiment, Figure& figure) {
+  if (!std::isnan(experiment.fit_until))
+    figure.rules.push_back({true, experiment.fit_until, "held out"});
+  if (!std::isnan(experiment.sealed_from))
+    figure.rules.push_back({true, experiment.sealed_from, "sealed"});
+}
 
 std::vector<ReportFigure> report_figures(const Document& document) {
   std::vector<ReportFigure> figures;

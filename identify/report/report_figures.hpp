@@ -37,6 +37,9 @@ struct ReportFigure {
 /// All figures that the document has data for. Ids are distinct.
 std::vector<ReportFigure> report_figures(const Document& document);
 
+/// Marks in a figure over time where what was held out begins, and what was sealed.
+void mark_parts(const Experiment& experiment, Figure& figure);
+
 /// The parts, each appending to `figures`; ids are given by report_figures.
 void add_motion_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);
 void add_force_figures(const Experiment& experiment, std::vector<ReportFigure>& figures);

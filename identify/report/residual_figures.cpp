@@ -16,9 +16,7 @@ namespace {
 
 void add_residual_figure(std::vector<ReportFigure>& figures, const Experiment& experiment,
                          const std::string& family, const std::string& point, Figure figure) {
-  if (!std::isnan(experiment.fit_until) && figure.x.label == "time") {
-    figure.rules.push_back({true, experiment.fit_until, "held out"});
-  }
+  if (figure.x.label == "time") mark_parts(experiment, figure);
   const std::string kind = point.empty() ? "" : "Point";
   figures.push_back({std::move(figure), "residuals", family, experiment.name, kind, point});
 }

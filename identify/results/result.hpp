@@ -75,8 +75,9 @@ struct Forces {
 
 struct Experiment {
   std::string name, use;
-  double fit_until = kAbsent;  ///< s; later samples were held out
-  Channels trajectory;         ///< points: support, far end of each link, load
+  double fit_until = kAbsent;    ///< s; later samples were held out
+  double sealed_from = kAbsent;  ///< s; of a diagnosis: later samples took part in no choice either
+  Channels trajectory;           ///< points: support, far end of each link, load
   std::optional<Forces> forces;
   std::optional<Energy> energy;
   std::vector<std::pair<std::string, long>> statistics;  ///< of the integration

@@ -89,6 +89,7 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
   archive("name", experiment.name);
   archive.optional("use", experiment.use);
   archive.optional("fit_until", experiment.fit_until);
+  archive.optional("sealed_from", experiment.sealed_from);
   archive.optional("trajectory", experiment.trajectory);
   archive.optional("forces", experiment.forces);
   if (experiment.forces) {

@@ -147,6 +147,7 @@ std::vector<results::Experiment> experiments_of(const Problem& problem, const Ei
     entry.use = experiment.fitted() ? "fit" : "validate";
     const auto fitted = static_cast<std::size_t>(recording.fit_frames);
     if (fitted > 0 && fitted < recording.time.size()) entry.fit_until = recording.time[fitted - 1];
+    if (std::isfinite(experiment.spec.sealed_from)) entry.sealed_from = experiment.spec.sealed_from;
     put_motion(entry, problem, motions[e]);
     if (problem.model().table().observes) {
       const SeenChain seen = seen_chain(problem, x, index);

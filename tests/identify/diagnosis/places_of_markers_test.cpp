@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/places_of_markers.hpp"
+
+#include <doctest/doctest.h>
+
+#include "identify/diagnosis/diagnose.hpp"
+#include "identify/diagnosis/diagnosis_folder.hpp"
+#include "identify/diagnosis/diagnosis_text.hpp"
+#include "identify/diagnosis/variant.hpp"
+#include "identify/least_squares/least_squares.hpp"
+#include "tests/identify/diagnosis/two_links.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace catena;
+
+namespace {
+
+const std::vector<std::string> kPossible = {"load_drag", "marker_places"};
+
+/// What is said of a film with marks at these places and so much drag, kg/m. The case takes the marks to be
+/// evenly spread.
+Diagnosis diagnosed(const testing::TemporaryFolder& folder, const std::vector<double>& places,
+                    double drag) {
+  Case the_case = testing::two_links_with(kPossible);
+  DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares,
+                           testing::provider_of_build());
+  Candidate hidden = *context.find("load_drag");
+  hidden.parameters.front().value = drag;
+  const Recording film = testing::with_truth(
+      with_effects(the_case, {hidden}, true), context.model_with({"load_drag"}, 2),
+      testing::empty_markers(places, 240, 1.0 / 60), 1e-3);
+  the_case = testing::measured(the_case, folder, film);
+  Diagnosis found = diagnose(the_case, context, {.max_links = 2});
+  write_diagnosis(record_of(found, find_out(found), context), folder.path(), folder.path());
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a mark that sits elsewhere is found, and the case says so when it is read again") {
+  const testing::TemporaryFolder folder;
+  const Diagnosis found = diagnosed(folder, {0.25, 0.5, 0.758, 1.0}, 0);
+  CAPTURE(found.sentence);
+  CHECK(found.verdict == DiagnosisVerdict::kNamed);
+  CHECK(found.effects == std::vector<std::string>{"marker_places"});
+  CHECK(found.sentence.find("Marker 3 sits ") != std::string::npos);
+  CHECK(found.sentence.find(" farther from the support than the case says") != std::string::npos);
+  // The others are where they should be: of them nothing is said.
+  CHECK(found.sentence.find("arker 1 ") == std::string::npos);
+  CHECK(found.sentence.find("arker 2 ") == std::string::npos);
+
+  const Case again = read_case(folder.path() / "diagnosed.toml");
+  const auto place = std::find_if(again.parameters.begin(), again.parameters.end(),
+                                  [](const ParameterSpec& spec) {
+                                    return spec.sets == "marker_places.marker 3";
+                                  });
+  REQUIRE(place != again.parameters.end());
+  CHECK(place->value == doctest::Approx(8e-3).epsilon(0.05));
+  CHECK(place->free);
+}
+
+TEST_CASE("drag is no wrong mark, and marks where they should be are not blamed") {
+  const testing::TemporaryFolder folder;
+  const std::vector<double> evenly = {0.25, 0.5, 0.75, 1.0};
+  const Diagnosis found = diagnosed(folder, evenly, 0.005);
+  CAPTURE(found.sentence);
+  CHECK(found.effects == std::vector<std::string>{"load_drag"});
+  CHECK(diagnosed(folder, evenly, 0).verdict == DiagnosisVerdict::kNone);
+}
+
+TEST_CASE("marks that the case frees itself, and what it calls impossible, are no candidates") {
+  Case the_case = testing::two_links_with(kPossible);
+  const Problem problem(the_case, Model::built_in(2),
+                        std::vector<Recording>{testing::empty_markers({0.5, 1.0}, 60, 0.1)});
+  REQUIRE(places_of_markers(the_case, problem.experiments())->parameters.size() == 2);
+  ParameterSpec tip;
+  tip.sets = "marker_places.marker 2";
+  the_case.parameters.push_back(tip);
+  REQUIRE(places_of_markers(the_case, problem.experiments())->parameters.size() == 1);
+  the_case.diagnosis.impossible.emplace_back("marker_places");
+  CHECK_FALSE(places_of_markers(the_case, problem.experiments()));
+}
