@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kFar = 1e3;  // m: no cable of a case is that long
 constexpr catena_parameter kPlace = {
-    "", "m", "How much farther from the support a marker sits than the case says", 0, -kFar, kFar, 0};
+    "",   "m", "How much farther from the support a marker sits than the case says", 0, -kFar,
+    kFar, 0};
 
 /// What a parameter of the case names, if it is the place of a marker.
 std::optional<std::string> marker_of(const std::string& sets) {
@@ -39,9 +40,9 @@ Model with_marker_places(const Case& the_case, Model model) {
   std::vector<SensorParameter> places;
   for (const ParameterSpec& parameter : the_case.parameters) {
     const std::optional<std::string> marker = marker_of(parameter.sets);
-    const bool twice =
-        std::any_of(places.begin(), places.end(),
-                    [&](const SensorParameter& each) { return each.name == parameter.sets; });
+    const bool twice = std::any_of(places.begin(), places.end(), [&](const SensorParameter& each) {
+      return each.name == parameter.sets;
+    });
     if (marker && !twice && !index_of_place(model, *marker))
       places.push_back({parameter.sets, kPlace});
   }
@@ -72,10 +73,9 @@ std::vector<std::string> markers_at_arc_lengths(const std::vector<Experiment>& e
 
 Index first_marker_place(const Model& model) {
   const catena_parameter* const begin = model.table().parameter;
-  return std::find_if(begin, begin + model.parameters(),
-                      [](const catena_parameter& each) {
-                        return each.description == kPlace.description;
-                      }) -
+  return std::find_if(
+             begin, begin + model.parameters(),
+             [](const catena_parameter& each) { return each.description == kPlace.description; }) -
          begin;
 }
 

@@ -26,9 +26,9 @@ Diagnosis diagnosed(const testing::TemporaryFolder& folder, const std::vector<do
                            testing::provider_of_build());
   Candidate hidden = *context.find("load_drag");
   hidden.parameters.front().value = drag;
-  const Recording film = testing::with_truth(
-      with_effects(the_case, {hidden}, true), context.model_with({"load_drag"}, 2),
-      testing::empty_markers(places, 240, 1.0 / 60), 1e-3);
+  const Recording film = testing::with_truth(with_effects(the_case, {hidden}, true),
+                                             context.model_with({"load_drag"}, 2),
+                                             testing::empty_markers(places, 240, 1.0 / 60), 1e-3);
   the_case = testing::measured(the_case, folder, film);
   Diagnosis found = diagnose(the_case, context, {.max_links = 2});
   write_diagnosis(record_of(found, find_out(found), context), folder.path(), folder.path());
@@ -50,10 +50,9 @@ TEST_CASE("a mark that sits elsewhere is found, and the case says so when it is 
   CHECK(found.sentence.find("arker 2 ") == std::string::npos);
 
   const Case again = read_case(folder.path() / "diagnosed.toml");
-  const auto place = std::find_if(again.parameters.begin(), again.parameters.end(),
-                                  [](const ParameterSpec& spec) {
-                                    return spec.sets == "marker_places.marker 3";
-                                  });
+  const auto place =
+      std::find_if(again.parameters.begin(), again.parameters.end(),
+                   [](const ParameterSpec& spec) { return spec.sets == "marker_places.marker 3"; });
   REQUIRE(place != again.parameters.end());
   CHECK(place->value == doctest::Approx(8e-3).epsilon(0.05));
   CHECK(place->free);

@@ -42,14 +42,17 @@ Eigen::MatrixXd prediction(const Problem& problem) {
 }  // namespace
 
 TEST_CASE("a marker that sits farther is seen there, on another link if need be") {
-  const Problem moved = seen_at({0.25, 0.49}, with_doubted_marks({{"marker 1", -0.05}, {"marker 2", 0.03}}));
+  const Problem moved =
+      seen_at({0.25, 0.49}, with_doubted_marks({{"marker 1", -0.05}, {"marker 2", 0.03}}));
   const Problem there = seen_at({0.20, 0.52}, with_doubted_marks({}));
   CHECK((prediction(moved) - prediction(there)).norm() < 1e-12);
-  CHECK((prediction(moved) - prediction(seen_at({0.25, 0.49}, with_doubted_marks({})))).norm() > 0.1);
+  CHECK((prediction(moved) - prediction(seen_at({0.25, 0.49}, with_doubted_marks({})))).norm() >
+        0.1);
 }
 
 TEST_CASE("beyond the ends of the cable the last links are drawn out") {
-  const Problem problem = seen_at({0.01, 1.0}, with_doubted_marks({{"marker 1", -0.02}, {"marker 2", 0.02}}));
+  const Problem problem =
+      seen_at({0.01, 1.0}, with_doubted_marks({{"marker 1", -0.02}, {"marker 2", 0.02}}));
   const Eigen::MatrixXd seen = prediction(problem);
   const Eigen::MatrixXd inside = prediction(seen_at({0.01, 0.98}, with_doubted_marks({})));
   const Eigen::MatrixXd end = prediction(seen_at({0.01, 1.0}, with_doubted_marks({})));
@@ -58,7 +61,8 @@ TEST_CASE("beyond the ends of the cable the last links are drawn out") {
 }
 
 TEST_CASE("derivatives by places are those of differences, beside those of what moves the cable") {
-  const Problem problem = seen_at({0.25, 0.7, 1.0}, with_doubted_marks({{"marker 2", 0.01}, {"marker 3", 0.004}}));
+  const Problem problem =
+      seen_at({0.25, 0.7, 1.0}, with_doubted_marks({{"marker 2", 0.01}, {"marker 3", 0.004}}));
   const Eigen::VectorXd x = problem.start();
   const Prediction at = problem.predict(x, 0, true, problem.directions(x, 0));
   REQUIRE(at.ok());
@@ -78,6 +82,7 @@ TEST_CASE("a place of a marker that no recording has is refused") {
   const Case the_case = testing::measured(with_doubted_marks({{"marker 3", 0}}), folder, film);
   const std::string said = failure([&] { Problem(the_case, Model::built_in(2)); });
   CAPTURE(said);
-  CHECK(said.find("case.toml:40: parameter \"place of marker 3\": sets = \"marker_places.marker 3\": no "
-                  "experiment has a marker of this name at an arc length") == 0);
+  CHECK(said.find(
+            "case.toml:40: parameter \"place of marker 3\": sets = \"marker_places.marker 3\": no "
+            "experiment has a marker of this name at an arc length") == 0);
 }
