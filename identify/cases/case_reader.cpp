@@ -17,19 +17,27 @@
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
 #include "identify/cases/case_words.hpp"
+#include "identify/cases/time_limits.hpp"
 
 namespace catena {
 namespace {
 
-double positive(const TomlTable& table, std::string_view key, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    table.fail(key, shortest_number(value) + "; must be positive and finite");
+/// Squares of what is beyond are no numbers of a computer, and products of several are none soon. A model has the same
+/// limit for its parameters.
+constexpr double kLeastPositive = 1e-50, kGreatestPositive = 1e50;
+
+double optional_positive(const TomlTable& table, std::string_view key, double absent,
+                         double least = kLeastPositive, double greatest = kGreatestPositive) {
+  const double value = table.optional_number(key).value_or(absent);
+  if (table.has(key) && !(value >= least && value <= greatest))
+    table.fail(key, shortest_number(value) +
+                        (value > 0 ? "; must lie between " : "; must be positive, between ") +
+                        shortest_number(least) + " and " + shortest_number(greatest));
   return value;
 }
 
-double optional_positive(const TomlTable& table, std::string_view key, double absent) {
-  const auto value = table.optional_number(key);
-  return value ? positive(table, key, *value) : absent;
+double optional_duration(const TomlTable& table, std::string_view key, double absent) {
+  return optional_positive(table, key, absent, kShortestTime, kLongestTime);
 }
 
 double not_negative(const TomlTable& table, std::string_view key, double absent) {
@@ -360,7 +368,9 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
   experiment.to = table.optional_number("to").value_or(experiment.to);
   experiment.fit_until = table.optional_number("fit_until").value_or(experiment.fit_until);
   experiment.start = table.optional_number("start").value_or(kNotGiven);
-  experiment.window = optional_positive(table, "window", kNotGiven);
+  if (std::abs(experiment.start) > kLongestTime)
+    table.fail("start", shortest_number(experiment.start) + " s; must lie within -1e9 and 1e9");
+  experiment.window = optional_duration(table, "window", kNotGiven);
   experiment.joined = table.optional_flag("joined").value_or(false);
   if (experiment.joined && std::isnan(experiment.window))
     table.fail("joined", "true; say in window how long the pieces are, in s");
@@ -418,8 +428,8 @@ OptimiserSpec read_optimiser(const TomlTable& table) {
 
 SimulationSpec read_simulation(const TomlTable& table) {
   SimulationSpec simulation;
-  simulation.duration = optional_positive(table, "duration", kNotGiven);
-  simulation.step = optional_positive(table, "step", simulation.step);
+  simulation.duration = optional_duration(table, "duration", kNotGiven);
+  simulation.step = optional_duration(table, "step", simulation.step);
   simulation.relative_tolerance =
       optional_positive(table, "relative_tolerance", simulation.relative_tolerance);
   simulation.absolute_tolerance_position = optional_positive(

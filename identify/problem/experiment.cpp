@@ -163,6 +163,11 @@ std::vector<Experiment> experiments_of(const Case& the_case, const Model& model,
                          seen_from_support(part.recording, part.spec, model, own, signals),
                          link_lengths(model, own));
       if (std::isnan(part.spec.start)) part.spec.start = part.recording.time.front();
+      if (!(part.spec.start < part.recording.time.back()))
+        throw InputError(part.spec.where + ": start: " + shortest_number(part.spec.start) +
+                         " s is not before the last frame, at " +
+                         number_text(part.recording.time.back()) +
+                         " s: no motion is compared; give an earlier one");
       experiments.push_back(std::move(part));
     }
   }

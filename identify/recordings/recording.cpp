@@ -11,6 +11,7 @@
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
+#include "identify/cases/time_limits.hpp"
 #include "identify/recordings/outliers.hpp"
 #include "identify/recordings/recognise.hpp"
 #include "identify/recordings/table.hpp"
@@ -20,6 +21,7 @@ namespace catena {
 namespace {
 
 constexpr double kTimeSlack = 1e-9;  // s: times are written with finitely many digits
+constexpr const char* kLookAtUnit = "; look at time_unit and frame_rate";
 
 const std::string& time_column(const ExperimentSpec& experiment, const Table& table) {
   return experiment.time_column.empty() ? table.names.front() : experiment.time_column;
@@ -44,13 +46,19 @@ std::vector<double> read_times(const ExperimentSpec& experiment, const Table& ta
                       : experiment.time_unit == "frames" ? 1 / experiment.frame_rate
                                                          : 1;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    const std::string where =
-        table.file + ":" + std::to_string(table.lines[i]) + ": column " + in_quotes(name);
-    if (std::isnan(time[i])) throw InputError(where + ": empty; every row needs its time");
+    const auto fail = [&](const std::string& what) {
+      throw InputError(table.file + ":" + std::to_string(table.lines[i]) + ": column " +
+                       in_quotes(name) + ": " + what);
+    };
+    if (std::isnan(time[i])) fail("empty; every row needs its time");
     time[i] *= unit;
-    if (i && !(time[i] > time[i - 1]))
-      throw InputError(where + ": " + shortest_number(time[i]) + " s after " +
-                       shortest_number(time[i - 1]) + " s; times must increase");
+    if (!(std::abs(time[i]) <= kLongestTime))
+      fail(shortest_number(time[i]) + " s; times must lie within -1e9 and 1e9 s" + kLookAtUnit);
+    if (i == 0 || time[i] - time[i - 1] >= kShortestTime) continue;
+    fail(shortest_number(time[i]) + " s after " + shortest_number(time[i - 1]) +
+         (time[i] > time[i - 1]
+              ? std::string(" s; frames must be 1e-9 s apart at least") + kLookAtUnit
+              : " s; times must increase"));
   }
   return time;
 }

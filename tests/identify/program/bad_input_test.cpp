@@ -155,6 +155,18 @@ TEST_CASE("mistakes in a case to be identified, and in its data") {
        "kind = \"markers\"",
        "kind = \"markers\"\nfit_until = -1.0",
        {"case.toml:34", "fit_until", "-1 s is before the first frame"}},
+      {"a start after all frames",
+       "kind = \"markers\"",
+       "kind = \"markers\"\nstart = 0.2",
+       {"case.toml:34", "start: 0.2 s is not before the last frame, at 0.2 s"}},
+      {"frames too near each other",
+       "kind = \"markers\"",
+       "kind = \"markers\"\ntime_unit = \"frames\"\nframe_rate = 1e20",
+       {"data.csv:3", "1e-21 s after 0 s; frames must be 1e-9 s apart", "frame_rate"}},
+      {"times of ages",
+       "kind = \"markers\"",
+       "kind = \"markers\"\ntime_unit = \"frames\"\nframe_rate = 1e-20",
+       {"data.csv:3", "times must lie within -1e9 and 1e9 s", "frame_rate"}},
       {"angles asked of markers", "kind = \"markers\"", "kind = \"angles\"", {"theta_1_rad"}},
   };
   const Row data[] = {
