@@ -385,6 +385,7 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
     }
   }
   if (!std::isfinite(failure.t)) failure.t = reached;  // CVODES chose no finite step
+  const bool in_plane = dynamics_.table().positions_across == nullptr;
   const double* angle = elements(y_.get());
   const auto great = std::find_if(angle, angle + n_, [](double value) {
     return std::isfinite(value) && std::abs(value) > kGreatestAngle;
@@ -392,11 +393,13 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
   switch (great != angle + n_ ? Status::kNotRun : failure.status) {
     case Status::kNotRun:
       failure = {Status::kNotFinite, static_cast<int>(great - angle), failure.t};
-      what = "an angle is beyond 2^30 rad";
+      what = in_plane ? "an angle is beyond 2^30 rad"
+                      : "a link moves without bound (is a held cable pulled farther than it is "
+                        "long, or something too stiff, heavy or strongly damped beside the rest?)";
       break;
     case Status::kNotFinite:
       what =
-          dynamics_.table().positions_across == nullptr
+          in_plane
               ? "the equations give no finite number"
               : "the equations give no finite number (a joint folded by half a turn, straight up "
                 "at the support, bends in no direction of space; start beside that; a clamp whose "

@@ -251,7 +251,9 @@ Equilibrium plane_equilibrium(const Model& model, const Eigen::VectorXd& paramet
     const Eigen::VectorXd step = -solve_square(stiffness, residual);
     if (!step.allFinite()) {
       result.status = Status::kSingular;
-      result.message = "the stiffness of the chain at rest is singular: no isolated equilibrium";
+      result.message =
+          "the stiffness of the chain at rest is singular: no isolated equilibrium; give the chain "
+          "gravity or stiffness, or begin with angles instead";
       return result;
     }
     // Newton's step, shortened to half a radian: farther away the linearisation says little.
@@ -263,7 +265,8 @@ Equilibrium plane_equilibrium(const Model& model, const Eigen::VectorXd& paramet
     }
   }
   result.status = Status::kNoConvergence;
-  result.message = "no equilibrium was found in 100 steps of Newton's method";
+  result.message =
+      std::string("no equilibrium was found in 100 steps of Newton's method") + kWithoutEquilibrium;
   return result;
 }
 

@@ -172,7 +172,7 @@ class Search {
       size = next;
     }
     message = "no equilibrium was found in " + std::to_string(kMostSteps) + " steps; moments of " +
-              number_text(size) + " N m are left";
+              number_text(size) + " N m are left" + kWithoutEquilibrium;
     return Status::kNoConvergence;
   }
 

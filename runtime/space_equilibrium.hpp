@@ -5,6 +5,11 @@
 
 namespace catena {
 
+/// The end of messages where the search was given up: what to do.
+inline constexpr const char* kWithoutEquilibrium =
+    "; begin with angles instead and let a damped motion come to rest, make the cable less stiff, "
+    "or look at units";
+
 /// hanging_equilibrium of a model in space (rest_states.hpp), whose far end is free or held, in time
 /// proportional to the number of links. It begins plumb, or with a catenary between the ends, and goes on by
 /// implicit steps of the motion, the velocity taken away after each (pseudo-transient continuation): the
