@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/nesting.hpp"
+#include "common/number_text.hpp"
 
 namespace catena::checking {
 namespace {
@@ -50,9 +51,12 @@ class Extent {
 thread_local Budget* Budget::current_ = nullptr;
 
 void Budget::spend(double operations) {
-  if (current_ == nullptr) return;
-  current_->left_ -= operations;
-  if (!(current_->left_ >= 0)) throw Overlong("it needs more than 10 million operations");
+  for (Budget* account = current_; account != nullptr; account = account->outer_) {
+    account->left_ -= operations;
+    if (!(account->left_ >= 0))
+      throw Overlong("it needs more than " + number_text(account->most_ / 1e6) +
+                     " million operations");
+  }
 }
 
 void require_short_number(double bits) {

@@ -27,21 +27,22 @@ class Overlong : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The account of one statement while it lives; one inside another counts for itself.
+/// The account of one statement while it lives. What is spent is taken from the accounts around it, too.
 class Budget {
  public:
-  explicit Budget(double operations = kMostOperations) : left_(operations), outer_(current_) {
+  explicit Budget(double operations = kMostOperations)
+      : most_(operations), left_(operations), outer_(current_) {
     current_ = this;
   }
   ~Budget() { current_ = outer_; }
   Budget(const Budget&) = delete;
   Budget& operator=(const Budget&) = delete;
 
-  /// Throws Overlong if the current account has not so many operations left.
+  /// Throws Overlong if the current account, or one around it, has not so many operations left.
   static void spend(double operations);
 
  private:
-  double left_;
+  double most_, left_;
   Budget* outer_;
   static thread_local Budget* current_;
 };

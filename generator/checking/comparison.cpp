@@ -96,7 +96,6 @@ class Comparison {
       return finding;
     }
     try {
-      const Budget budget;
       return by_evaluation(entry);
     } catch (const std::exception&) {  // too long for evaluation too, or beyond GiNaC's numbers
       finding.remark = "not decided: " + finding.remark;
@@ -120,6 +119,7 @@ class Comparison {
   /// For what is too long for algebra.
   Finding by_evaluation(const Entry& entry) {
     if (entry.quantity == Quantity::kEquation) {
+      const Budget budget;
       const ex hand = given(entry.value - entry.right);
       return by_motion(hand, solved_for(hand), cleared(hand).denominator).value();
     }
@@ -135,6 +135,7 @@ class Comparison {
       finding.verdict = Verdict::kEqual;
       finding.by_evaluation = true;
     } else {
+      const Budget budget;
       numeric_evidence(sides, equal.has_value(), finding);
       finding.remark = finding.verdict == Verdict::kDifferent
                            ? kTooLongToWrite

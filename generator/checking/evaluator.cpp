@@ -107,6 +107,8 @@ class Evaluator {
     if (number < 1 || number > kMostLinks)
       fail(statement.at, "links = " + std::to_string(number) + "; must be from 1 to " +
                              std::to_string(kMostLinks));
+    Budget::spend(4.0 * number *
+                  number);  // the energies of link k have terms of k links, in two or three axes
     const bool in_space = !statement.names.empty();
     if (in_space && !result_.effects.empty())
       fail(statement.at, "derivations with effects are compared in the plane only");

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "generator/checking/budget.hpp"
+
 namespace catena::checking {
 namespace {
 
@@ -15,8 +17,10 @@ Contributions joined(Contributions first, const Contributions& second) {
   return first;
 }
 
-/// Applies an operation to every part and drops parts that become zero.
+/// Applies an operation to every part and drops parts that become zero. The part of the k-th link has terms of k links.
 Contributions each(const Contributions& parts, const std::function<ex(const ex&)>& operation) {
+  const auto count = static_cast<double>(parts.size());
+  Budget::spend(count * (count + 1) / 2);
   Contributions result;
   for (const Contribution& part : parts) {
     ex value = operation(part.value);
