@@ -184,7 +184,7 @@ void add_manual_command(CLI::App& program) {
   command->group("");
   command->add_option("--output", *folder, "folder to write to")->required();
   command->callback([&program, folder] {
-    std::filesystem::create_directories(*folder);
+    make_folder(*folder);
     const std::string& name = program.get_name();
     write_whole_file(*folder / (name + ".1"), manual_page(program));
     write_whole_file(*folder / name, bash_completion(program));

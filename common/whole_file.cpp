@@ -191,6 +191,12 @@ class TemporaryFile {
 
 }  // namespace
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be made as a folder: " + error.message());
+}
+
 void write_whole_file(const std::filesystem::path& path, std::string_view text) {
   TemporaryFile temporary(path);
   if (!temporary.write(text) || !temporary.rename_to(path)) {

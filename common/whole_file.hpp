@@ -40,6 +40,10 @@ bool is_utf8(std::string_view text);
 /// JSON, which holds nothing else.
 void require_utf8(std::string_view text, const std::string& what);
 
+/// Makes a folder and those above it, where they are not there. Throws InputError naming the path if it
+/// cannot be made.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes a file whole or not at all: to a temporary name in the same folder, then renamed.
 /// Throws InputError naming the path if it cannot be written.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);

@@ -55,8 +55,8 @@ void require_own(const std::filesystem::path& folder, const EmittedFiles& files)
 }
 
 void write_files(const std::filesystem::path& folder, const EmittedFiles& files) {
+  make_folder(folder);
   require_own(folder, files);
-  std::filesystem::create_directories(folder);
   for (const auto& [name, text] : files) write_whole_file(folder / name, text);
 }
 

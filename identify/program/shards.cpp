@@ -60,7 +60,8 @@ WorkPart named_shard(const std::string& shard, const std::filesystem::path& outp
 
 WorkPart merge_in(const std::filesystem::path& output) {
   std::map<std::size_t, std::size_t> count;  // of shards, by how many there are to be
-  if (std::filesystem::is_directory(output))
+  std::error_code error;                     // there are no shards either
+  if (std::filesystem::is_directory(output, error))
     for (const auto& entry : std::filesystem::directory_iterator(output))
       if (const auto shard = shard_in(entry.path().filename().string(),
                                       "shard_([1-9][0-9]{0,5})_of_([1-9][0-9]{0,5})"))

@@ -14,15 +14,6 @@
 namespace catena::report {
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot be made as a folder: {}", folder.string(), error.message()));
-  }
-}
-
 std::string parameters_csv(const Result& result) {
   std::string text =
       "name,value,unit,free,standard_error,low_95,high_95,start,lower,upper,verdict,sets\n";
@@ -43,8 +34,9 @@ constexpr const char* kParameters = "parameters.csv";
 
 /// Refuses the folder of a result: both have an energy.csv.
 void require_no_result(const std::filesystem::path& folder) {
+  std::error_code error;  // said where the folder is made
   for (const char* name : {"result.json", "diagnosis.json", "links_study.json"})
-    if (std::filesystem::exists(folder / name))
+    if (std::filesystem::exists(folder / name, error))
       throw InputError(fmt::format(
           "--csv: {} holds {}, beside which files of the same names are; give another folder",
           folder.string(), name));

@@ -92,9 +92,13 @@ void OutputFolder::make() {
   for (fs::path above = path_; !fs::exists(above, error); above = above.parent_path())
     missing.push_back(above);
   for (; !missing.empty(); missing.pop_back()) {
-    if (!fs::create_directory(missing.back(), error) && error)
-      refuse(path_, missing.back().string() + " cannot be made: " + error.message());
-    made_.paths.push_back(missing.back());
+    const fs::path& folder = missing.back();
+    if (fs::is_symlink(fs::symlink_status(folder, error)))
+      refuse(path_,
+             folder.string() + " is a link that leads nowhere; remove it, or give another folder");
+    if (!fs::create_directory(folder, error) && error)
+      refuse(path_, folder.string() + " cannot be made: " + error.message());
+    made_.paths.push_back(folder);
   }
   if (!fs::is_directory(path_)) refuse(path_, "is a file; give a folder");
 }

@@ -325,10 +325,11 @@ Derived read_derived(const std::string& json) {
 
 Document read_document(const std::filesystem::path& path) {
   std::filesystem::path file = path;
-  if (std::filesystem::is_directory(path)) {
+  std::error_code error;  // said where the file cannot be read
+  if (std::filesystem::is_directory(path, error)) {
     file = path / "result.json";
     for (const char* name : {"links_study.json", "result.json", "diagnosis.json"}) {
-      if (std::filesystem::exists(path / name)) file = path / name;
+      if (std::filesystem::exists(path / name, error)) file = path / name;
     }
   }
   const Json json = parsed(file);
