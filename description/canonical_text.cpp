@@ -156,6 +156,7 @@ class CanonicalText {
     line("gravity_tilt", effect.kinematics.gravity_tilt);
     line("sensor.side", effect.sensor.side);
     line("sensor.down", effect.sensor.down);
+    line("sensor.across", effect.sensor.across);
     line("sensor.angle", effect.sensor.angle);
     line("sensor.clock", effect.sensor.clock);
   }

@@ -74,18 +74,17 @@ Description description_in(const TomlTable& file) {
 
 // What of an effect has a meaning in the plane only; empty: nothing.
 std::string plane_alone(const Effect& effect) {
-  const Kinematics& kinematics = effect.kinematics;
-  const std::pair<const Expression*, const char*> of_the_plane[] = {
-      {&kinematics.extension, "links in space do not stretch yet"},
-      {&effect.sensor.side, "sensors report of the plane"},
-      {&effect.sensor.down, "sensors report of the plane"},
-      {&effect.sensor.angle, "sensors report of the plane"},
-      {&effect.sensor.clock, "sensors report of the plane"}};
+  const Sensor& sensor = effect.sensor;
   const auto at = [](const Expression& where, const std::string& why) {
     return where.file + ":" + std::to_string(where.line) + ": " + where.key + ": " + why;
   };
-  for (const auto& [expression, why] : of_the_plane)
-    if (expression->given()) return at(*expression, why);
+  if (effect.kinematics.extension.given())
+    return at(effect.kinematics.extension, "links in space do not stretch yet");
+  if (sensor.moves() && !sensor.across.given())
+    return at(sensor.side.given() ? sensor.side : sensor.down,
+              "it says nothing of what is across; in space a sensor gives `across`, too");
+  if (sensor.angle.given() && !sensor.moves())
+    return at(sensor.angle, "links have no angle in space");
   for (const Coordinate& coordinate : effect.coordinates)
     if (coordinate.at == Place::kLink)
       return "it adds coordinates to links, which links in space do not have yet";
@@ -110,6 +109,8 @@ std::string plane_alone(const Effect& effect) {
                                    &force.tangential, &force.along, &force.value})
       expressions.push_back(part);
   for (const Definition& definition : effect.definitions) expressions.push_back(&definition.value);
+  for (const Expression* part : {&sensor.side, &sensor.down, &sensor.across})
+    expressions.push_back(part);
   for (const Expression* expression : expressions)
     if (names_in(*expression).contains("angle"))
       return at(*expression,

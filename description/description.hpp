@@ -59,7 +59,8 @@ std::string conflict_between(const std::vector<Effect>& effects);
 
 /// Why an effect has no meaning in this space; empty: it has one. In the plane no effect moves the
 /// support across or turns its clamp, or holds the far end. In space none has what only the plane gives
-/// a meaning: torques, states, coordinates, sensors, rest angles, the angle of a link.
+/// a meaning: torques, coordinates of links, stretch, the angle of a link, sensors of positions that
+/// say nothing of what is across.
 std::string why_not_in(Space space, const Effect& effect);
 
 /// The same for the effects of a description: each has a meaning in its space, and no two give the

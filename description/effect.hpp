@@ -209,13 +209,15 @@ struct SignalChannel {
   std::string description;
 };
 
-/// What the sensor reports of a point: side, down (m) and angle (rad) as functions of the true
-/// ones; and `clock`, the model time (s) of what was recorded at `time`. What is not given is
-/// reported without change.
+/// What the sensor reports of a point: side, down, across (m) and angle (rad) as functions of the
+/// true ones; and `clock`, the model time (s) of what was recorded at `time`. What is not given is
+/// reported without change. Across has a meaning in space only, the angle in the plane only.
 struct Sensor {
-  Expression side, down, angle, clock;
+  Expression side, down, across, angle, clock;
 
-  bool given() const { return side.given() || down.given() || angle.given() || clock.given(); }
+  /// Whether it changes where a point is reported.
+  bool moves() const { return side.given() || down.given() || across.given(); }
+  bool given() const { return moves() || angle.given() || clock.given(); }
 };
 
 /// One piece of physics that may be added to the chain. The file is TOML of kind "effect".

@@ -141,7 +141,8 @@ class Checks {
     for (const ExtraState& state : effect_.states) use(state.rate);
     for (const Expression* expression :
          {&effect_.flow.side, &effect_.flow.down, &effect_.flow.across, &effect_.sensor.side,
-          &effect_.sensor.down, &effect_.sensor.angle, &effect_.sensor.clock}) {
+          &effect_.sensor.down, &effect_.sensor.across, &effect_.sensor.angle,
+          &effect_.sensor.clock}) {
       use(*expression);
     }
     for (const Expression* expression : effect_.support.all()) use(*expression);

@@ -495,7 +495,8 @@ class EffectReader {
     }
     if (const auto table = file_.optional_table("sensor")) {
       effect_.sensor = {expression(*table, "side"), expression(*table, "down"),
-                        expression(*table, "angle"), expression(*table, "clock")};
+                        expression(*table, "across"), expression(*table, "angle"),
+                        expression(*table, "clock")};
     }
   }
 

@@ -401,6 +401,7 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add("Gravity turned towards side", "gravity_tilt", kinematics.gravity_tilt);
   all.add("Reported", "side", effect.sensor.side);
   all.add("Reported", "down", effect.sensor.down);
+  all.add("Reported", "across", effect.sensor.across);
   all.add("Reported", "angle", effect.sensor.angle);
   all.add("Model time of what was recorded", "clock", effect.sensor.clock);
   return all.take();

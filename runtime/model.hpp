@@ -127,6 +127,9 @@ class Model {
                    double* drate) const {
     table_->gap_tangent(table_->context, &at, &along, dapart, drate);
   }
+  void velocities_across(const catena_point& at, double* across_rate) const {
+    table_->velocities_across(table_->context, &at, across_rate);
+  }
   void observe(double t, const double* p, const double in[3], double out[3]) const {
     table_->observe(table_->context, t, p, in, out);
   }

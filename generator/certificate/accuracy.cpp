@@ -452,16 +452,16 @@ class Measurement {
 
   void sensor() {
     const catena_point here = point_.at(), along = direction_.at();
+    const Chain::Sensor& sensor = chain_.sensor();
     const double in[3] = {0.3, 0.7, 0.4}, din[3] = {0.5, -0.6, 0.8};
     double out[3], dout[3];
     table_.observe(table_.context, here.t, here.p, in, out);
     table_.observe_tangent(table_.context, here.t, here.p, along.p, in, din, dout);
     const auto inputs = [&](const numeric& step) {
       auto others = exact_inputs(table_, point_, without_time(direction_), step);
-      return [=](const std::string& name) -> ex {
-        const char* names[] = {"side", "down", "angle"};
-        for (int k = 0; k < 3; ++k) {
-          if (name == names[k]) return numeric(in[k]) + step * numeric(din[k]);
+      return [=, &sensor](const std::string& name) -> ex {
+        for (std::size_t k = 0; k < sensor.seen.size(); ++k) {
+          if (name == sensor.seen[k]) return numeric(in[k]) + step * numeric(din[k]);
         }
         return others(name);
       };
@@ -469,11 +469,10 @@ class Measurement {
     ExactEvaluation now(chain_.definitions(), inputs(0));
     ExactEvaluation ahead(chain_.definitions(), inputs(step_));
     ExactEvaluation behind(chain_.definitions(), inputs(-step_));
-    const Chain::Sensor& sensor = chain_.sensor();
-    const ex reported[] = {sensor.side, sensor.down, sensor.angle};
-    for (int k = 0; k < 3; ++k) {
-      note("observe", difference(out[k], now.of(reported[k])), 1);
-      const numeric change = (ahead.of(reported[k]) - behind.of(reported[k])) / (2 * step_);
+    for (std::size_t k = 0; k < sensor.reported.size(); ++k) {
+      const ex& reported = sensor.reported[k];
+      note("observe", difference(out[k], now.of(reported)), 1);
+      const numeric change = (ahead.of(reported) - behind.of(reported)) / (2 * step_);
       note("observe_tangent", difference(dout[k], change), 1);
     }
     const double clock = table_.clock(table_.context, here.t, here.p);

@@ -155,9 +155,11 @@ class Chain {
   const std::vector<GiNaC::ex>& tensions() const { return tensions_; }
   const std::vector<GiNaC::ex>& curvatures() const { return curvatures_; }
 
-  /// Sensor effects: the reported side, down and angle of a point, and the clock.
+  /// Sensor effects: what they report of a point whose side, down and angle, in space across, are `seen`.
   struct Sensor {
-    GiNaC::ex side, down, angle, clock;
+    std::vector<std::string> seen;
+    std::vector<GiNaC::ex> reported;
+    GiNaC::ex clock;
     bool given = false;
   };
   const Sensor& sensor() const { return sensor_; }

@@ -556,38 +556,42 @@ void Chain::add_torque_of_joint(const Effect& effect, const ScalarTerm& term, Li
 
 // Sensor effects act one after the other, in the order of the description. Clock offsets are added.
 void Chain::add_sensors() {
-  sensor_.side = definitions_.input("side");
-  sensor_.down = definitions_.input("down");
-  sensor_.angle = definitions_.input("angle");
+  sensor_.seen = {"side", "down", in_plane() ? "angle" : "across"};
+  std::vector<ex> seen;
+  for (const std::string& name : sensor_.seen) seen.push_back(definitions_.input(name));
   sensor_.clock = time_symbol_;
   for (const Effect& effect : description_.effects) {
     if (!effect.sensor.given()) continue;
     sensor_.given = true;
     ExpressionContext symbols = surroundings(effect, kShape, Place::kAnywhere, 0).known;
     ExpressionContext clock_symbols = symbols;
-    symbols.add("side", sensor_.side, Unit::parse("m"));
-    symbols.add("down", sensor_.down, Unit::parse("m"));
-    symbols.add("angle", sensor_.angle, Unit::parse("rad"));
+    const auto add = [&](const std::string& name, const ex& value, const char* unit) {
+      // An effect may have a name `across` of its own.
+      if (name != "across" || !symbols.symbols.contains(name))
+        symbols.add(name, value, Unit::parse(unit));
+    };
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      add(sensor_.seen[k], seen[k], sensor_.seen[k] == "angle" ? "rad" : "m");
+    if (in_plane()) add("across", 0, "m");
     for (const Definition& definition : effect.definitions) {
       if (definition.at != Place::kAnywhere) continue;
       for (ExpressionContext* known : {&symbols, &clock_symbols})
         if (has_meaning(definition.value, *known)) add_definition(definition, *known);
     }
-    const auto replace = [&](ex& what, const Expression& by, const ExpressionContext& known,
-                             const char* unit) {
-      return by.given() ? parse_expression(by, known, Unit::parse(unit)) : what;
+    const auto reported = [&](const Expression& by, const ex& before, const char* unit) {
+      return by.given() ? parse_expression(by, symbols, Unit::parse(unit)) : before;
     };
-    const ex side = replace(sensor_.side, effect.sensor.side, symbols, "m");
-    const ex down = replace(sensor_.down, effect.sensor.down, symbols, "m");
-    const ex angle = replace(sensor_.angle, effect.sensor.angle, symbols, "rad");
-    sensor_.clock += replace(time_symbol_, effect.sensor.clock, clock_symbols, "s") - time_symbol_;
-    sensor_.side = side;
-    sensor_.down = down;
-    sensor_.angle = angle;
+    const catena::Sensor& by = effect.sensor;
+    const ex side = reported(by.side, seen[0], "m"), down = reported(by.down, seen[1], "m");
+    seen[2] = in_plane() ? reported(by.angle, seen[2], "rad") : reported(by.across, seen[2], "m");
+    seen[0] = side;
+    seen[1] = down;
+    if (by.clock.given())
+      sensor_.clock += parse_expression(by.clock, clock_symbols, Unit::parse("s")) - time_symbol_;
   }
-  sensor_.side = definitions_.named(sensor_.side, "observed_side", kNoIndex);
-  sensor_.down = definitions_.named(sensor_.down, "observed_down", kNoIndex);
-  sensor_.angle = definitions_.named(sensor_.angle, "observed_angle", kNoIndex);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    sensor_.reported.push_back(
+        definitions_.named(seen[k], "observed_" + sensor_.seen[k], kNoIndex));
   sensor_.clock = definitions_.named(sensor_.clock, "model_time", kNoIndex);
 }
 

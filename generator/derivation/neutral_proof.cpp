@@ -163,9 +163,8 @@ NeutralProofs prove_neutral(const Description& description, int links) {
     const Chain::Sensor& ours = model.sensor();
     const Chain::Sensor& none = plain.sensor();
     EntryComparison sensor("what sensors report");
-    sensor.entry(" of side", difference(ours.side, none.side));
-    sensor.entry(" of down", difference(ours.down, none.down));
-    sensor.entry(" of angles", difference(ours.angle, none.angle));
+    for (std::size_t k = 0; k < ours.reported.size(); ++k)
+      sensor.entry(" of " + ours.seen[k], difference(ours.reported[k], none.reported[k]));
     sensor.entry(" of time", difference(ours.clock, none.clock));
     result.proofs.push_back(sensor.proof());
   }

@@ -110,21 +110,24 @@ void FunctionBuilder::sensor() {
   Inputs inputs = inputs_of(description_, links_, "", false, Type::kScalar);
   inputs.merge(inputs_of(description_, links_, "", true, Type::kScalar));
   inputs["d_time"] = Input{InputKind::kZero, Type::kScalar, "d_time", {}, {}};
-  const std::string names[] = {"side", "down", "angle"};
-  for (int k = 0; k < 3; ++k) {
-    const std::string name = names[k], differential = "d_" + name;
+  int k = 0;
+  for (const std::string& name : sensor.seen) {
+    const std::string differential = "d_" + name;
     inputs[name] = Input{InputKind::kEntry, Type::kScalar, name, {"", "in", {}}, k};
     inputs[differential] =
         Input{InputKind::kEntry, Type::kScalar, differential, {"", "din", {}}, k};
+    ++k;
   }
-  const std::vector<ex> reported{sensor.side, sensor.down, sensor.angle};
   const Parameter t = maybe_unused(number("t")), p = maybe_unused(numbers("p")),
                   dp = maybe_unused(numbers("dp")), in = numbers("in");
-  add("observe", "What the sensor reports of side, down (m) and angle (rad).",
-      {t, p, in, result("out")}, body(from_one("out", reported), inputs));
+  add("observe",
+      in_space() ? "What the sensor reports of side, down and across (m)."
+                 : "What the sensor reports of side, down (m) and angle (rad).",
+      {t, p, in, result("out")}, body(from_one("out", sensor.reported), inputs));
   add("observe_tangent", "Its derivative along dp and din.",
       {t, p, dp, maybe_unused(in), numbers("din"), result("dout")},
-      body(from_one("dout", each(reported, [&](const ex& e) { return tangent_.of(e); })), inputs));
+      body(from_one("dout", each(sensor.reported, [&](const ex& e) { return tangent_.of(e); })),
+           inputs));
   const auto value = [&](const ex& e) {
     return body({{{"", "out", {}}, kNoIndex, {}, e}}, inputs);
   };

@@ -156,7 +156,7 @@ std::string why_impossible(const Effect& effect, Space space, const Case& the_ca
   if (acts_on_nothing(effect, weightless(the_case)))
     return "acts on a body to which the case gives no mass";
   const Sensor& sensor = effect.sensor;
-  const bool of_camera = sensor.side.given() || sensor.down.given();
+  const bool of_camera = sensor.moves();
   if (of_camera && !has_data_of_kind(the_case, DataKind::kMarkers))
     return "a camera would report it; the data are angles";
   if (sensor.angle.given() && !of_camera && !has_data_of_kind(the_case, DataKind::kAngles))

@@ -55,10 +55,6 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
 Diagnosis diagnose(Case the_case, DiagnosisContext& context, const DiagnosisOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   if (the_case.experiments.empty()) throw InputError("the case has no experiment to diagnose");
-  if (!the_case.cameras.empty())
-    throw InputError(the_case.cameras.front().where +
-                     ": camera: pictures of cameras in space are fitted, but not diagnosed; give "
-                     "positions in space instead");
   try {
     Diagnosis found = examine(std::move(the_case), context, options);
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -82,6 +82,33 @@ ParameterSpec freed(const std::string& sets, double value, const std::string& un
   return spec;
 }
 
+/// Frees where cameras stand and look, and what their lenses are, as far as the case has them fixed.
+void doubt_cameras(Case& the_case, const Model& model, std::map<std::string, double>& deviation) {
+  for (const CameraSpec& camera : the_case.cameras)
+    for (int k = 0; k < model.table().parameters; ++k) {
+      const catena_parameter& parameter = model.table().parameter[k];
+      const std::string sets = parameter.name;
+      if (!sets.starts_with(camera.name + ".")) continue;
+      auto spec = std::find_if(the_case.parameters.begin(), the_case.parameters.end(),
+                               [&](const ParameterSpec& each) { return each.sets == sets; });
+      if (spec != the_case.parameters.end() && (spec->free || spec->per_experiment)) continue;
+      if (spec == the_case.parameters.end()) {
+        the_case.parameters.emplace_back();
+        spec = the_case.parameters.end() - 1;
+        spec->name = spec->sets = sets;
+        spec->unit = parameter.unit;
+        spec->value = parameter.default_value;
+      }
+      spec->free = true;
+      spec->scale = Scale::kLinear;
+      spec->lower = parameter.lower / spec->factor;
+      spec->upper = parameter.upper / spec->factor;
+      const bool relative = sets.ends_with(".focal_length");
+      deviation[spec->name] =
+          plausible(parameter.unit, the_case) * (relative ? spec->value : 1 / spec->factor);
+    }
+}
+
 /// The case with everything free that may be wrong and changes the motion or has an effect of its
 /// own, and the standard deviations of these parameters by their names.
 Case with_doubts(const DiagnosisState& state, const FittedModel& model,
@@ -114,6 +141,7 @@ Case with_doubts(const DiagnosisState& state, const FittedModel& model,
   if (cable.link_lengths.empty()) free("cable.length", cable.length, "m", plausibly.length);
   if (cable.link_masses.empty() && cable.density > 0)
     free("cable.density", cable.density, "kg/m", plausibly.mass);
+  doubt_cameras(doubtful, model.problem->model(), deviation);
   return doubtful;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/problem/camera.hpp"
 
 namespace catena {
 namespace {
@@ -62,15 +63,6 @@ MatrixXd moved_until_read(const Seen& seen, double length) {
   return moved;
 }
 
-/// Each mark's change as a function of its position.
-MatrixXd changed(const Seen& seen, const std::function<Vector3d(const Vector3d&)>& change) {
-  MatrixXd result = seen.nothing();
-  for (Index k = 0; k < result.cols(); ++k)
-    for (Index mark = 0; mark < seen.marks(); ++mark)
-      result.col(k).segment(3 * mark, 3) = change(seen.mark(mark, k));
-  return result;
-}
-
 /// A mark off along the cable and across it.
 std::vector<MatrixXd> misplaced(Index mark, const Seen& seen) {
   std::vector<MatrixXd> errors = {direction_at(mark, seen)};
@@ -93,6 +85,51 @@ std::vector<MatrixXd> misplaced(Index mark, const Seen& seen) {
   return errors;
 }
 
+/// The marks of one experiment, and what is reported where they are off. Those of pictures are put where
+/// the predicted pictures show them.
+class Marks {
+ public:
+  Marks(const FittedModel& model, std::size_t e)
+      : experiment_(model.problem->experiments()[e]), positions_(model.predicted[e]) {
+    const Recording& recording = experiment_.recording;
+    components_ = recording.components();
+    if (recording.points.front().camera.empty()) return;
+    components_ = 3;
+    parameters_ = model.problem->model_parameters(model.x, static_cast<int>(e));
+    Recording pictures = recording;
+    pictures.measured = model.predicted[e];
+    positions_ = positions_from_pictures(pictures, model.problem->model(), parameters_,
+                                         experiment_.spec.metres_per_pixel)
+                     .measured;
+    for (const PointSpec& point : recording.points)
+      cameras_.emplace_back(model.problem->model(), point.camera);
+  }
+
+  Seen seen() const { return {positions_, experiment_.recording.time, components_}; }
+
+  /// What is reported, less what would be without the error of the positions.
+  MatrixXd reported(const MatrixXd& error) const {
+    if (cameras_.empty()) return error;
+    const std::vector<int> markers = markers_of(experiment_.recording.points);
+    const VectorXd no_change = VectorXd::Zero(parameters_.size());
+    MatrixXd pictures(2 * static_cast<Index>(cameras_.size()), error.cols());
+    for (std::size_t i = 0; i < cameras_.size(); ++i)
+      for (Index k = 0; k < error.cols(); ++k)
+        pictures.col(k).segment<2>(2 * static_cast<Index>(i)) =
+            experiment_.spec.metres_per_pixel *
+            cameras_[i].picture_tangent(parameters_, no_change, seen().mark(markers[i], k),
+                                        error.col(k).segment<3>(3 * markers[i]));
+    return pictures;
+  }
+
+ private:
+  const Experiment& experiment_;
+  MatrixXd positions_;  // m, channels x frames
+  Index components_;
+  VectorXd parameters_;          // of the model
+  std::vector<Camera> cameras_;  // of each point; none: not in pictures
+};
+
 }  // namespace
 
 std::vector<Frames> errors_of_markers(const FittedModel& model) {
@@ -105,38 +142,25 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
 
   std::vector<Frames> errors;
   for (const auto& [source, members] : windows) {
+    std::vector<Marks> marks;  // of each window
+    for (const std::size_t e : members) marks.emplace_back(model, e);
     // The errors that `of` gives for each window, times their standard deviation.
     const auto add = [&](double deviation,
                          const std::function<std::vector<MatrixXd>(const Seen&)>& of) {
       std::vector<Frames> added;
-      for (const std::size_t e : members) {
-        const std::vector<MatrixXd> here = of({model.predicted[e], experiments[e].recording.time,
-                                               experiments[e].recording.components()});
+      for (std::size_t w = 0; w < members.size(); ++w) {
+        const std::vector<MatrixXd> here = of(marks[w].seen());
         added.resize(here.size(), Frames(experiments.size()));
-        for (std::size_t i = 0; i < here.size(); ++i) added[i][e] = deviation * here[i];
+        for (std::size_t i = 0; i < here.size(); ++i)
+          added[i][members[w]] = deviation * marks[w].reported(here[i]);
       }
       errors.insert(errors.end(), added.begin(), added.end());
     };
-    const Index components = experiments[members.front()].recording.components();
-    const Index marks = model.predicted[members.front()].rows() / components;
-    for (Index mark = 0; mark < marks; ++mark)
+    for (Index mark = 0; mark < marks.front().seen().marks(); ++mark)
       add(plausibly.place, [&](const Seen& seen) { return misplaced(mark, seen); });
-    if (components == 2) {
+    if (marks.front().seen().components == 2)
       add(plausibly.shutter,
           [&](const Seen& seen) { return std::vector<MatrixXd>{moved_until_read(seen, length)}; });
-      continue;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Vector3d axis = Vector3d::Unit(i);
-      add(plausibly.place, [&](const Seen& seen) {
-        return std::vector{changed(seen, [&](const Vector3d&) { return axis; })};
-      });
-      add(plausibly.angle, [&](const Seen& seen) {
-        return std::vector{changed(seen, [&](const Vector3d& at) { return axis.cross(at); })};
-      });
-    }
-    add(plausibly.ratio, [](const Seen& seen) { return std::vector<MatrixXd>{seen.positions}; });
-    add(plausibly.time, [](const Seen& seen) { return std::vector{rates(seen)}; });
   }
   return errors;
 }

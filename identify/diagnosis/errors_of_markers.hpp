@@ -13,9 +13,8 @@ using Frames = std::vector<Eigen::MatrixXd>;
 
 /// What plausible errors of markers change in the predictions, each by one standard deviation
 /// (PlausibleErrors) and the same in all windows of a recording: every mark off along the cable and
-/// across it. In the plane also a shutter that rolls down the picture; what else a camera gets wrong
-/// are effects there. In space, where no effect is a sensor, also the origin, the directions of the axes,
-/// the scale and the clock.
+/// across it, in all pictures that show it. In the plane also a shutter that rolls down the picture. What
+/// else a camera gets wrong are effects, or its own parameters.
 std::vector<Frames> errors_of_markers(const FittedModel& model);
 
 }  // namespace catena

@@ -145,6 +145,17 @@ Vector3d Camera::ray(const VectorXd& parameters, const Vector2d& picture) const 
   return (axes.transpose() * Vector3d(scale * picture[0], scale * picture[1], p[6])).normalized();
 }
 
+std::vector<int> markers_of(const std::vector<PointSpec>& points) {
+  std::vector<int> markers;
+  int count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::size_t first = 0;
+    while (!same_place(points[first], points[i])) ++first;
+    markers.push_back(first < i ? markers[first] : count++);
+  }
+  return markers;
+}
+
 Recording positions_from_pictures(const Recording& pictures, const Model& model,
                                   const VectorXd& parameters, double metres_per_pixel) {
   constexpr double kWeak = 1e-9;  // of a ray: decides only what one ray leaves open
@@ -152,12 +163,12 @@ Recording positions_from_pictures(const Recording& pictures, const Model& model,
   found.time = pictures.time;
   found.fit_frames = pictures.fit_frames;
   std::vector<std::vector<Index>> of_marker;  // points of the pictures
+  const std::vector<int> markers = markers_of(pictures.points);
   for (std::size_t i = 0; i < pictures.points.size(); ++i) {
     const PointSpec& point = pictures.points[i];
-    std::size_t marker = 0;
-    while (marker < found.points.size() && !same_place(found.points[marker], point)) ++marker;
+    const int index = markers[i];
+    const auto marker = static_cast<std::size_t>(index);
     if (marker == found.points.size()) {
-      const int index = static_cast<int>(marker);
       found.points.push_back(point);
       for (const auto& [component, word] : {std::pair{Component::kSide, " side"},
                                             {Component::kDown, " down"},

@@ -44,6 +44,10 @@ class Camera {
   Eigen::Index first_;  // of its parameters
 };
 
+/// Of every point of pictures, the index of its marker: points at one place of the cable are one marker,
+/// seen by several cameras. Markers count from 0 in the order of the points.
+std::vector<int> markers_of(const std::vector<PointSpec>& points);
+
 /// A recording of pictures as one of positions in space. A marker is put where the squares of its distances
 /// to the rays of all cameras that see it have the least sum; that of one camera, where its ray meets the plane of
 /// side and down. What no camera sees is NaN. Starts are found from it, and recordings are held against the

@@ -87,6 +87,7 @@ SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int exper
     } else {
       watched.recording.channels.push_back({index, Component::kSide, ""});
       watched.recording.channels.push_back({index, Component::kDown, ""});
+      if (model.in_space()) watched.recording.channels.push_back({index, Component::kAcross, ""});
     }
   };
   for (int link = 1; link <= model.links(); ++link) {
@@ -103,10 +104,15 @@ SeenChain seen_chain(const Problem& problem, const Eigen::VectorXd& x, int exper
       predict_experiment(model, problem.the_case().simulation, watched, parameters,
                          problem.initial_state(x, experiment), true, {}, {})
           .simulated;
-  SeenChain seen{watched.recording.time, {}, {}};
+  SeenChain seen{watched.recording.time, {}, {}, {}};
   if (!angles) {
-    seen.side = reported(Eigen::seq(0, Eigen::last, 2), Eigen::all);
-    seen.down = reported(Eigen::seq(1, Eigen::last, 2), Eigen::all);
+    const Eigen::Index components = watched.recording.components();
+    const auto every = [&](Eigen::Index first) {
+      return reported(Eigen::seq(first, Eigen::last, components), Eigen::all);
+    };
+    seen.side = every(0);
+    seen.down = every(1);
+    if (model.in_space()) seen.across = every(2);
     return seen;
   }
   const Eigen::VectorXd lengths =

@@ -23,6 +23,7 @@ struct Motion {
 struct SeenChain {
   std::vector<double> time;    ///< s, of the frames
   Eigen::MatrixXd side, down;  ///< m, points x frames
+  Eigen::MatrixXd across;      ///< in space; empty in the plane
 };
 
 /// The motion of a case without a recording, as its file says, energies included; x: its unknowns.

@@ -62,6 +62,15 @@ Observer::Place Observer::place_of(const Model& model, const VectorXd& parameter
   return place;
 }
 
+Observer::Report Observer::truth(const CablePoint& point, double angle) const {
+  return {point.side, point.down, model_.in_space() ? point.across : angle};
+}
+
+Observer::Sight Observer::sight(const Report& reported) const {
+  if (!model_.in_space()) return {reported[0], reported[1], reported[2], 0};
+  return {reported[0], reported[1], 0, reported[2]};
+}
+
 Observer::Sight Observer::in_picture(const Eigen::Vector2d& picture) const {
   const double scale = experiment_.spec.metres_per_pixel;
   return {scale * picture[0], scale * picture[1], 0, 0};
@@ -93,6 +102,7 @@ Observer::Observer(const Model& model, const Experiment& experiment, const Vecto
     }
   }
   true_.resize(places_.size());
+  reported_.resize(places_.size());
   seen_.resize(places_.size());
 }
 
@@ -107,14 +117,11 @@ void Observer::move_to(const Trajectory& path, Index column, double t) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
     const CablePoint there = place.load ? load_of(here_) : position_of(here_, place.point);
-    true_[i] = {there.side, there.down, path.q(place.point.link, column), there.across};
-    if (place.camera)
-      seen_[i] =
-          in_picture(place.camera->picture(parameters_, {there.side, there.down, there.across}));
-    else if (model_.table().observes)
-      model_.observe(t_, parameters_.data(), true_[i].data(), seen_[i].data());
-    else
-      seen_[i] = true_[i];
+    true_[i] = reported_[i] = truth(there, path.q(place.point.link, column));
+    if (model_.table().observes)
+      model_.observe(t_, parameters_.data(), true_[i].data(), reported_[i].data());
+    seen_[i] = place.camera ? in_picture(place.camera->picture(parameters_, reported_[i]))
+                            : sight(reported_[i]);
   }
 }
 
@@ -131,6 +138,10 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
     model_.velocities(at, rates_.side.data(), rates_.down.data());
     change_.side += clock_shift * rates_.side;
     change_.down += clock_shift * rates_.down;
+    if (model_.in_space()) {
+      model_.velocities_across(at, rates_.across.data());
+      change_.across += clock_shift * rates_.across;
+    }
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
@@ -138,18 +149,15 @@ void Observer::look_along(const Trajectory& sensitivity, std::size_t direction, 
         place.load ? load_of(change_)
                    : position_tangent_of(here_, change_, place.point, moved_[direction][i]);
     const Index link = place.point.link;
-    const Sight din{change.side, change.down,
-                    sensitivity.q(link, column_) + clock_shift * path_->v(link, column_),
-                    change.across};
-    if (place.camera)
-      seen_[i] = in_picture(place.camera->picture_tangent(
-          parameters_, by_parameter, {true_[i][0], true_[i][1], true_[i][3]},
-          {change.side, change.down, change.across}));
-    else if (model_.table().observes)
+    const Report din =
+        truth(change, sensitivity.q(link, column_) + clock_shift * path_->v(link, column_));
+    Report dreported = din;
+    if (model_.table().observes)
       model_.observe_tangent(t_, parameters_.data(), by_parameter.data(), true_[i].data(),
-                             din.data(), seen_[i].data());
-    else
-      seen_[i] = din;
+                             din.data(), dreported.data());
+    seen_[i] = place.camera ? in_picture(place.camera->picture_tangent(parameters_, by_parameter,
+                                                                       reported_[i], dreported))
+                            : sight(dreported);
   }
 }
 

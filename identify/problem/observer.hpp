@@ -66,6 +66,11 @@ class Observer {
 
   static Place place_of(const Model& model, const Eigen::VectorXd& parameters,
                         const PointSpec& point);
+  /// What the sensors of the model get to see of a point and what they report of it, or the derivatives
+  /// (catena_model.h, observe). Cameras take pictures of what is reported.
+  using Report = Eigen::Vector3d;
+  Report truth(const CablePoint& point, double angle) const;
+  Sight sight(const Report& reported) const;
   Sight in_picture(const Eigen::Vector2d& picture) const;
   catena_point point(const Trajectory& path, const Eigen::VectorXd& signals,
                      const Eigen::VectorXd& p) const;
@@ -78,7 +83,8 @@ class Observer {
   std::vector<std::vector<double>> moved_;  // per direction and place: of points at an arc length
   Eigen::VectorXd accelerations_, signals_, no_signals_;  // positions do not ask for a
   Positions here_, rates_, change_;
-  std::vector<Sight> true_, seen_;  // per place
+  std::vector<Report> true_, reported_;  // per place
+  std::vector<Sight> seen_;
   const Trajectory* path_ = nullptr;
   Eigen::Index column_ = 0;
   double t_ = 0;

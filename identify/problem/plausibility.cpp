@@ -55,11 +55,12 @@ class Check {
         limits_(limits),
         lengths_(lengths),
         length_(lengths.sum()),
-        period_(2 * std::numbers::pi * std::sqrt(length_ / cable.gravity)) {
+        period_(2 * std::numbers::pi * std::sqrt(length_ / cable.gravity)),
+        held_(model.held()) {
     const catena_model& table = model.table();
     for (int i = 0; i < table.energies; ++i)
       movable_ = movable_ || std::string_view(table.energy_item[i].name) == "support";
-    for (const char* effect : {"support_", "origin_offset", "scale", "marker_offset"})
+    for (const char* effect : {"support_", "origin_offset", "scale", "marker_", "frame_"})
       for (int i = 0; i < model.parameters(); ++i)
         movable_ = movable_ || std::string(model.table().parameter[i].name).starts_with(effect);
     for (const PointSpec& point : recording.points) {
@@ -182,7 +183,8 @@ class Check {
   bool check_scale() {
     const double ratio = chord_over_arc();
     if (std::isnan(ratio)) return true;
-    if (ratio < limits_.hardly_longer && ratio > limits_.hardly_shorter) return true;
+    const double shorter = held_ ? limits_.not_shorter : limits_.hardly_shorter;  // it sags
+    if (ratio < limits_.hardly_longer && ratio > shorter) return true;
     const std::string what = points() > 1
                                  ? "neighbouring markers are " + rounded(ratio) +
                                        " times as far apart as the cable between them is long"
@@ -278,7 +280,7 @@ class Check {
   }
 
   void check_direction() {
-    if (time(frames() - 1) - time(0) < 0.5 * period_) return;  // one side of a swing
+    if (held_ || time(frames() - 1) - time(0) < 0.5 * period_) return;  // one side of a swing
     const Index last = points() - 1;
     Position sum = Position::Zero(recording_.components());
     for (Index k = 0; k < frames(); ++k) {
@@ -477,6 +479,7 @@ class Check {
   const Eigen::VectorXd& lengths_;
   double length_, period_;  // m, s
   std::vector<double> arcs_;
+  bool held_;                 // at its end or on its way, so that it need not hang down
   bool in_pictures_ = false;  // positions follow from the pictures of cameras
   bool movable_ = false;      // an effect moves the support, or what the camera shows
   std::vector<std::string> warnings_;

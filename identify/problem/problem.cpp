@@ -92,7 +92,7 @@ Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
 
 Problem::Problem(Case the_case, Model model, std::vector<Experiment> experiments)
     : case_(std::move(the_case)),
-      model_(with_marker_places(case_, std::move(model))),
+      model_(with_marker_places(case_, with_cameras(case_, std::move(model)))),
       map_(case_, model_),
       experiments_(std::move(experiments)),
       unknowns_(case_, experiments_) {}

@@ -151,7 +151,7 @@ std::vector<results::Experiment> experiments_of(const Problem& problem, const Ei
     put_motion(entry, problem, motions[e]);
     if (problem.model().table().observes) {
       const SeenChain seen = seen_chain(problem, x, index);
-      entry.seen = {seen.time, rows_of(seen.side), rows_of(seen.down), {}};
+      entry.seen = {seen.time, rows_of(seen.side), rows_of(seen.down), {}, rows_of(seen.across)};
     }
     entry.measured = measured_of(problem, recording, after.predictions[e].simulated);
     entry.gap = gap_of(gaps, index, unit);

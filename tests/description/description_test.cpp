@@ -90,8 +90,14 @@ TEST_CASE("errors in a description name their line") {
       {"effects = [\"load_drag\", \"load_drag\"]\n",
        ":4: effects: \"load_drag\" stands there twice; name each effect once"},
       {"space = \"2d\"\n", ":4: space: \"2d\""},
-      {"space = \"3d\"\neffects = [\"scale\"]\n",
-       ":5: effects: \"scale\" acts in the plane only: built in: scale:20: sensor.side: sensors"},
+      {"space = \"3d\"\neffects = [\"camera_tilt\"]\n",
+       ":5: effects: \"camera_tilt\" acts in the plane only: built in: camera_tilt:21: "
+       "sensor.side: it says "
+       "nothing of what is across; in space a sensor gives `across`, too"},
+      {"space = \"3d\"\neffects = [\"encoder_error\"]\n",
+       ":5: effects: \"encoder_error\" acts in the plane only: built in: encoder_error:47: "
+       "sensor.angle: links "
+       "have no angle"},
       {"space = \"3d\"\neffects = [\"axial_stretch\"]\n",
        ":5: effects: \"axial_stretch\" acts in the plane only: built in: axial_stretch:34: "
        "kinematics.extension: links in space do not stretch yet. Space is \"3d\"; leave one of "

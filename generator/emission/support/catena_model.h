@@ -163,8 +163,8 @@ typedef struct catena_model {
      the clamp, over half of link 1. In space moments and curvatures are sizes, not negative. */
   void (*internal_forces)(const void* context, const catena_point* at, double* moment,
                           double* tension, double* curvature);
-  /* What a sensor reports. in, out: side and down of one marker (m), or the angle of one link (rad)
-     with in[0] = side, in[1] = down, in[2] = angle. Null unless observes: then nothing changes. */
+  /* What a sensor reports of a point. in, out: its side and down (m), then in the plane the angle of its
+     link (rad), in space its across (m). Null unless observes: then nothing changes. */
   void (*observe)(const void* context, double t, const double* p, const double in[3],
                   double out[3]);
   void (*observe_tangent)(const void* context, double t, const double* p, const double* dp,

@@ -233,7 +233,7 @@ TEST_CASE("sensor effects report what they say, and the truth at their neutral v
   };
   for (const std::string& id : built_in_effect_ids()) {
     const Effect effect = built_in_effect(id);
-    if (!is_sensor_alone(effect)) continue;
+    if (!is_sensor_alone(effect) || effect.space == "3d") continue;
     CAPTURE(id);
     REQUIRE(expected.contains(id));
     Chain chain(with({id}), kLinks);
@@ -251,9 +251,10 @@ TEST_CASE("sensor effects report what they say, and the truth at their neutral v
         return 0;
       });
       const Reported truth = at_neutral ? Reported{side, down, angle, time} : expected.at(id);
-      CHECK(difference(truth.side.evalf(), derived.of(chain.sensor().side)) < kTolerance);
-      CHECK(difference(truth.down.evalf(), derived.of(chain.sensor().down)) < kTolerance);
-      CHECK(difference(truth.angle.evalf(), derived.of(chain.sensor().angle)) < kTolerance);
+      const std::vector<ex>& reported = chain.sensor().reported;
+      CHECK(difference(truth.side.evalf(), derived.of(reported[0])) < kTolerance);
+      CHECK(difference(truth.down.evalf(), derived.of(reported[1])) < kTolerance);
+      CHECK(difference(truth.angle.evalf(), derived.of(reported[2])) < kTolerance);
       CHECK(difference(truth.time.evalf(), derived.of(chain.sensor().clock)) < kTolerance);
     }
   }

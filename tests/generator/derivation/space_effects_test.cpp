@@ -238,10 +238,62 @@ TEST_CASE("in a vertical plane an effect in space is the effect of the plane") {
 TEST_CASE("every built-in effect that space does not refuse is compared with the plane") {
   for (const std::string& id : built_in_effect_ids()) {
     CAPTURE(id);
-    if (built_in_effect(id).space == "3d") continue;  // of no plane
+    const Effect effect = built_in_effect(id);
+    if (effect.space == "3d" || effect.sensor.given()) continue;  // of no plane; below
     const bool taken = conflict_in(with({id}, Space::kThreeDimensional)).empty();
     CHECK(taken == (std::find(kEffects.begin(), kEffects.end(), id) != kEffects.end()));
   }
+}
+
+TEST_CASE("sensors in space report what they say, and the truth at their neutral values") {
+  GiNaC::Digits = kDigits;
+  const Vector at = {numeric(3, 10), numeric(7, 10), numeric(-4, 10)};
+  const auto p = [](const std::string& id, const std::string& parameter) {
+    return value_of(id + "_" + parameter, 4);
+  };
+  // Turned in the plane of two axes, from the first towards the second.
+  const auto turned = [](Vector v, std::size_t from, std::size_t to, const ex& angle) {
+    const ex first = v[from], second = v[to];
+    v[from] = first * GiNaC::cos(angle) - second * GiNaC::sin(angle);
+    v[to] = second * GiNaC::cos(angle) + first * GiNaC::sin(angle);
+    return v;
+  };
+  const ex factor = p("scale", "factor");
+  const std::map<std::string, Vector> expected = {
+      {"clock_offset", at},
+      {"frame_offset",
+       {at[0] + p("frame_offset", "side_shift"), at[1] + p("frame_offset", "down_shift"),
+        at[2] + p("frame_offset", "across_shift")}},
+      {"frame_tilt", turned(turned(at, 1, 0, p("frame_tilt", "side_tilt")), 1, 2,
+                            p("frame_tilt", "across_tilt"))},
+      {"frame_turn", turned(at, 0, 2, p("frame_turn", "turn"))},
+      {"scale", {factor * at[0], factor * at[1], factor * at[2]}}};
+  for (const std::string& id : built_in_effect_ids()) {
+    const Effect effect = built_in_effect(id);
+    if (!effect.sensor.given()) continue;
+    CAPTURE(id);
+    const bool taken = conflict_in(with({id}, Space::kThreeDimensional)).empty();
+    REQUIRE(taken == expected.contains(id));
+    if (!taken) continue;
+    Chain chain(with({id}, Space::kThreeDimensional), kLinks);
+    REQUIRE(chain.sensor().given);
+    for (const bool at_neutral : {false, true}) {
+      Inputs inputs{4};
+      for (std::size_t k = 0; k < 3; ++k) inputs.set[kAxes[k]] = at[k];
+      if (at_neutral)
+        for (const EffectParameter& parameter : effect.parameters)
+          inputs.set[id + "_" + parameter.name] = numeric(parameter.neutral);
+      ExactEvaluation derived(chain.definitions(), inputs);
+      for (std::size_t k = 0; k < 3; ++k)
+        CHECK(difference(at_neutral ? at[k] : expected.at(id)[k],
+                         derived.of(chain.sensor().reported[k])) < kTolerance);
+      const ex delay = at_neutral || id != "clock_offset" ? ex(0) : p(id, "offset");
+      CHECK(difference(inputs("time") + delay, derived.of(chain.sensor().clock)) < kTolerance);
+    }
+  }
+  const std::string why = why_not_in(Space::kThreeDimensional, built_in_effect("camera_tilt"));
+  CAPTURE(why);
+  CHECK(why.find("sensor.side: it says nothing of what is across") != std::string::npos);
 }
 
 TEST_CASE("effects in space do not see a turn about the vertical, and their powers balance") {

@@ -14,6 +14,7 @@
 #include "identify/fit/error.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/least_squares/least_squares.hpp"
+#include "identify/problem/motion.hpp"
 #include "identify/problem/plausibility.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/problem/prediction_difference.hpp"
@@ -293,6 +294,97 @@ TEST_CASE("derivatives of what cameras see are differences") {
     const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
     CHECK(difference.norm() > 1e-4);
     CHECK((found - difference).norm() < 1e-5 * (1e-3 + difference.norm()));
+  }
+}
+
+namespace {
+
+/// What sensors get wrong, beside unknown stiffness, damping and start.
+Case sensed(const std::vector<std::string>& cameras) {
+  Case the_case = filmed_by(cameras);
+  for (const auto& [sets, value] : {std::pair("clock_offset.offset", 0.03),
+                                    {"frame_offset.side_shift", 0.02},
+                                    {"frame_offset.across_shift", -0.03},
+                                    {"frame_tilt.side_tilt", 0.05},
+                                    {"frame_tilt.across_tilt", -0.04},
+                                    {"frame_turn.turn", 0.2},
+                                    {"marker_shift.along", 0.01},
+                                    {"scale.factor", 1.03}}) {
+    ParameterSpec spec;
+    spec.name = spec.sets = sets;
+    spec.value = value;
+    the_case.parameters.push_back(spec);
+  }
+  for (ParameterSpec& each : the_case.parameters) each.free = true;
+  the_case.initial.free = the_case.initial.velocity_free = true;
+  the_case.simulation.relative_tolerance = 1e-11;
+  the_case.simulation.absolute_tolerance_position = 1e-12;
+  the_case.simulation.absolute_tolerance_velocity = 1e-11;
+  return the_case;
+}
+
+/// The rotation that the values of sensed() stand for: plumb axes to those of the recording.
+Eigen::Matrix3d turn_of_sensed() {
+  using Eigen::AngleAxisd;
+  return (AngleAxisd(-0.2, Vector3d::UnitY()) * AngleAxisd(-0.04, Vector3d::UnitX()) *
+          AngleAxisd(-0.05, Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
+}  // namespace
+
+TEST_CASE("sensors report positions, cameras take pictures of what they report") {
+  const Model sensing = Model::load(SENSING_3);
+  Recording markers = testing::empty_markers({0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0}, 4, 0.1, true);
+  const Problem positions(sensed({}), sensing, {markers});
+  const Problem pictures(sensed({"left", "right"}), sensing, {film({"left", "right"}, 4, 0.1)});
+
+  // The same by hand: the plain chain at the other clock, and the sensors in their order.
+  Case plain = filmed_by({});
+  plain.simulation = positions.the_case().simulation;
+  for (double& t : markers.time) t += 0.03;
+  Case from_zero = plain;
+  from_zero.experiments[0].start = 0;
+  const Problem truth(from_zero, model(), {markers});
+  const Prediction moved = truth.predict(truth.start(), 0, true);
+  REQUIRE_MESSAGE(moved.ok(), moved.message);
+  const Prediction reported = positions.predict(positions.start(), 0, true);
+  REQUIRE_MESSAGE(reported.ok(), reported.message);
+  for (Index k = 1; k < 4; ++k)
+    for (Index m = 0; m < 7; ++m) {
+      const Vector3d at = moved.simulated.col(k).segment<3>(3 * m);
+      const Vector3d expected = 1.03 * (turn_of_sensed() * (at + Vector3d(0.02, 0, -0.03)));
+      CAPTURE(k);
+      CAPTURE(m);
+      CHECK((reported.simulated.col(k).segment<3>(3 * m) - expected).norm() < 1e-8);
+    }
+
+  const SeenChain chain =
+      seen_chain(positions, positions.start(), 0);  // its load is the last marker
+  const Eigen::MatrixXd load = reported.simulated.bottomRows(3);
+  CHECK((chain.side.bottomRows(1) - load.row(0)).norm() < 1e-9);
+  CHECK((chain.down.bottomRows(1) - load.row(1)).norm() < 1e-9);
+  CHECK((chain.across.bottomRows(1) - load.row(2)).norm() < 1e-9);
+
+  const Prediction seen = pictures.predict(pictures.start(), 0, true);
+  REQUIRE_MESSAGE(seen.ok(), seen.message);
+  const Camera left(pictures.model(), "left");
+  const Vector2d picture =
+      kMetresPerPixel * left.picture(pictures.model_parameters(pictures.start(), 0),
+                                     reported.simulated.col(3).segment<3>(9));
+  CHECK((seen.simulated.col(3).segment<2>(6) - picture).norm() < 1e-12);
+
+  for (const Problem* problem : {&positions, &pictures}) {
+    const VectorXd x = problem->start();
+    const Prediction here = problem->predict(x, 0, true, problem->directions(x, 0));
+    REQUIRE_MESSAGE(here.ok(), here.message);
+    for (Index j = 0; j < x.size(); ++j) {
+      CAPTURE(problem->unknowns()[static_cast<std::size_t>(j)].name);
+      const Eigen::MatrixXd difference = testing::difference_along(*problem, x, j);
+      const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
+      CHECK(difference.norm() > 1e-4);
+      CHECK((found - difference).norm() < 1e-5 * (1e-3 + difference.norm()));
+    }
   }
 }
 

@@ -342,6 +342,23 @@ TEST_CASE("a recording in space is held against the cable as one in the plane") 
   CHECK_MESSAGE(message.find(", 2.") != std::string::npos, message);  // across, of the remedy
 }
 
+TEST_CASE("a cable that is held may sag and need not point down") {
+  Case truth = held_at_both_ends();
+  for (ParameterSpec& spec : truth.parameters)
+    if (spec.name.starts_with("to_")) spec.value = spec.name == "to_side" ? 0.15 : -0.05;
+  truth.initial.shape = Shape::kHanging;
+  truth.initial.coefficients.clear();
+  const Model held = Model::load(HELD_END_5);
+  const Recording film = testing::with_truth(
+      truth, held, testing::empty_markers({0.2, 0.8, 1.0}, 100, 0.03, true), 1e-3);
+  const VectorXd lengths = VectorXd::Constant(5, 0.2);
+  const auto warnings = [&](const Model& of) {
+    return check_plausible(film, truth.experiments[0], truth.initial, truth.cable, lengths, of);
+  };
+  CHECK(warnings(held).empty());
+  CHECK(warnings(model()).size() == 2);  // one that hangs freely can hardly look so
+}
+
 TEST_CASE("another number of links takes the azimuth of all links, not those of each") {
   Case the_case = three_links();
   the_case.initial.azimuths.assign(kLinks, 0.4);
