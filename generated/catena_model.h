@@ -163,12 +163,12 @@ typedef struct catena_model {
      the clamp, over half of link 1. In space moments and curvatures are sizes, not negative. */
   void (*internal_forces)(const void* context, const catena_point* at, double* moment,
                           double* tension, double* curvature);
-  /* What a sensor reports of a point. In the plane in and out are its side and down (m) and the angle
-     of its link (rad). In space out is its side, down and across (m); in is these and the direction of
-     its link, six numbers. Null unless observes: then nothing changes. */
-  void (*observe)(const void* context, double t, const double* p, const double* in, double out[3]);
+  /* What a sensor reports of a point. in, out: its side and down (m), then in the plane the angle of its
+     link (rad), in space its across (m). Null unless observes: then nothing changes. */
+  void (*observe)(const void* context, double t, const double* p, const double in[3],
+                  double out[3]);
   void (*observe_tangent)(const void* context, double t, const double* p, const double* dp,
-                          const double* in, const double* din, double dout[3]);
+                          const double in[3], const double din[3], double dout[3]);
   /* model time at which what was recorded at time t happened, and its derivative along dp; null
      unless observes */
   double (*clock)(const void* context, double t, const double* p);
