@@ -308,7 +308,6 @@ Case sensed(const std::vector<std::string>& cameras) {
                                     {"frame_tilt.side_tilt", 0.05},
                                     {"frame_tilt.across_tilt", -0.04},
                                     {"frame_turn.turn", 0.2},
-                                    {"marker_shift.along", 0.01},
                                     {"scale.factor", 1.03}}) {
     ParameterSpec spec;
     spec.name = spec.sets = sets;
@@ -343,9 +342,8 @@ TEST_CASE("sensors report positions, cameras take pictures of what they report")
   Case plain = filmed_by({});
   plain.simulation = positions.the_case().simulation;
   for (double& t : markers.time) t += 0.03;
-  Case from_zero = plain;
-  from_zero.experiments[0].start = 0;
-  const Problem truth(from_zero, model(), {markers});
+  plain.experiments[0].start = 0;
+  const Problem truth(plain, model(), {markers});
   const Prediction moved = truth.predict(truth.start(), 0, true);
   REQUIRE_MESSAGE(moved.ok(), moved.message);
   const Prediction reported = positions.predict(positions.start(), 0, true);
