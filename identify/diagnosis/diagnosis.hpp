@@ -79,6 +79,8 @@ struct DiagnosisOptions {
   int max_effects = 4;  ///< fits with all their subsets give the shares
   int max_links = 60;
   int refits = 6;  ///< candidates refitted in every look
+  /// A law in no library is sought also where effects of the library close the gap.
+  bool discover = false;
 };
 
 }  // namespace catena

@@ -257,9 +257,13 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
         fmt::format("at the neutral values the new model equals the old one to {:.1g} (relative)\n",
                     d.equality);
   const auto rival = [&](const char* what, const Alternative& alternative) {
-    text += fmt::format("  {} {}: {:.4g} {} fitted, predictions {:.2g} times the noise apart\n",
-                        what, alternative.explanation.id, 1e3 * alternative.explanation.fit.rms,
-                        unit, alternative.decision.difference);
+    text +=
+        fmt::format("  {} {}{}: {:.4g} {} fitted, predictions {:.2g} times the noise apart\n", what,
+                    alternative.explanation.id,
+                    !d.law.empty() && alternative.instead_of == d.law
+                        ? fmt::format(" ({})", alternative.explanation.title)
+                        : "",
+                    1e3 * alternative.explanation.fit.rms, unit, alternative.decision.difference);
   };
   if (!d.alternatives.empty() || !d.forms.empty() || !d.runners_up.empty()) text += "\n";
   for (std::size_t i = 0; i < d.alternatives.size(); ++i) {
@@ -354,7 +358,7 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
     for (const Alternative& other : list)
       entries.push_back({other.explanation.id, other.instead_of, other.explanation.fit.rms,
                          other.explanation.held_out.rms, other.decision.difference,
-                         other.decision.lead, std::nullopt});
+                         other.decision.lead, std::nullopt, other.explanation.title});
     return entries;
   };
   result.members = d.effects;
@@ -370,8 +374,12 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   result.equality_at_neutral = d.equality;
   result.candidates_tried = d.tried;
   result.seconds = d.seconds;
-  if (!d.law.empty())
-    files.emplace_back(d.law + ".toml", read_whole_file(context.find(d.law)->effect.source_file));
+  const auto add_law = [&](const std::string& id) {
+    files.emplace_back(id + ".toml", read_whole_file(context.find(id)->effect.source_file));
+  };
+  if (!d.law.empty()) add_law(d.law);
+  for (const Alternative& alternative : d.alternatives)
+    if (!d.law.empty() && alternative.instead_of == d.law) add_law(alternative.explanation.id);
   files.emplace_back("diagnosis.json", results::text_of(result));
   return files;
 }

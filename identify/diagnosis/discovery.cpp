@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/choice.hpp"
@@ -32,15 +34,15 @@ std::string new_id(const DiagnosisContext& context) {
 
 /// The law as an effect of the library, whose parameters begin at the values found.
 const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& base,
-                                const MissingForce& force) {
+                                const ForceLaw& law) {
   const double length =
       link_lengths(base.problem->model(), base.problem->model_parameters(base.x, 0)).sum();
   const std::string id = new_id(context);
-  Candidate& candidate = context.add_effect(id, effect_of(*force.law, id, length));
+  Candidate& candidate = context.add_effect(id, effect_of(law, id, length));
   const auto value_of = [&](const std::string& name) {
-    for (const CandidateLaw::Constant& constant : force.law->formula.constants)
+    for (const CandidateLaw::Constant& constant : law.formula.constants)
       if (name == constant.name) return constant.value;
-    return force.law->place;
+    return law.place;
   };
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     candidate.parameters[i].value = value_of(candidate.effect.parameters[i].name);
@@ -75,15 +77,50 @@ MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& mo
   return force;
 }
 
+/// Fits the formulas that the linear equations did not tell from the law in its place, and sorts them:
+/// those that the data do not decide against are alternatives, with an experiment that would.
+void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<ForceLaw>& rivals) {
+  Diagnosis& found = state.found;
+  std::vector<std::string> all = base.effects, undecided;
+  std::vector<std::pair<std::string, std::string>> added;  // ids and words
+  for (const ForceLaw& rival : rivals) {
+    if (added.size() == static_cast<std::size_t>(kThresholds.law.rivals)) break;
+    added.emplace_back(add_to_library(state.context, base.model, rival).id,
+                       rival.formula.text + site_in_words(rival.site));
+    all.push_back(added.back().first);
+  }
+  for (const auto& [id, words] : added) {
+    state.context.begin("fitting a rival of the law");
+    const Candidate candidate = *state.context.find(id);
+    // One model has all rivals: those that the case does not have stay at zero.
+    Explanation explanation = refitted_with(state, base.model, all, candidate);
+    state.context.stop_if_asked();
+    if (!explanation.refitted) continue;
+    explanation.title = words;
+    const FittedModel &law = state.last().model, &rival = explanation.model;
+    const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival, found.noise);
+    const Decision decision =
+        ahead ? decide(law, rival, found.noise) : decide(rival, law, found.noise);
+    const bool against = ahead && decision.decided;
+    if (!against) undecided.push_back(fmt::format("{} ({})", words, id));
+    (against ? found.runners_up : found.alternatives)
+        .push_back({found.law, std::move(explanation), decision});
+  }
+  found.sentence += undecided.empty() ? " No other formula that was tried does as well."
+                                      : fmt::format(" These data do not decide against {} instead.",
+                                                    listed(undecided));
+}
+
 /// Takes the law of a force that the stage `base` lacks, in place of the effects that `base` has
 /// not. False, and nothing changed but the library and the notes, where it does not stand.
 bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, const Case& asked) {
   Diagnosis& found = state.found;
-  if (!force.law || !force.law->found ||
-      static_cast<int>(base.effects.size()) >= state.options.max_effects)
+  const int most = std::max(state.options.max_effects, state.options.discover ? 1 : 0);
+  if (!force.law || !force.law->found || static_cast<int>(base.effects.size()) >= most)
     return false;
   state.context.begin("fitting the law of the missing force");
-  const Candidate& candidate = add_to_library(state.context, base.model, force);
+  const Candidate& candidate = add_to_library(state.context, base.model, *force.law);
+  const std::string title = candidate.title;
   const std::vector<std::string> effects = with(base.effects, candidate.id);
   Explanation explanation = refitted_with(state, base.model, effects, candidate);
   state.context.stop_if_asked();
@@ -101,11 +138,15 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
       found.forms.clear();
     }
     conclude(state, asked);
-    if (found.verdict == DiagnosisVerdict::kDiscovered) return true;
+    if (found.verdict == DiagnosisVerdict::kDiscovered) {
+      weigh_rivals(state, base, found.force->law->rivals);
+      return true;
+    }
   }
   found = std::move(before);
-  found.notes.push_back(fmt::format("the law of \"{}\" was fitted as an effect, but does not stand",
-                                    candidate.title));
+  found.notes.push_back(
+      fmt::format("the law of \"{}\" was fitted as an effect, but does not stand{}", title,
+                  replaces ? " against " + listed(found.effects) : ""));
   return false;
 }
 
@@ -130,14 +171,15 @@ void discover(DiagnosisState& state, const Case& asked) {
   const bool gap =
       found.verdict == DiagnosisVerdict::kUnexplained || found.verdict == DiagnosisVerdict::kPartly;
   // Where effects close the gap, one cause may have been taken for several of them only.
-  if (!gap && found.effects.size() < 2) return;
+  if (!gap && found.effects.size() < 2 && !state.options.discover) return;
   if (found.final.problem->model().in_space()) {
     if (gap) found.notes.emplace_back("the missing force is estimated in the plane only");
     return;
   }
   const Stage last = state.last();
   const MissingForce beside = force_missing_in(state, found.final);
-  if (gap) found.force = beside;
+  const bool nothing_taken = !gap && last.effects.empty();
+  if (gap || nothing_taken) found.force = beside;
   if (!last.effects.empty()) {
     Stage bare = last_without_effects(found.stages);
     if (bare.links != last.links) {
@@ -145,11 +187,14 @@ void discover(DiagnosisState& state, const Case& asked) {
       bare.links = last.links;
     }
     const MissingForce alone = bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
-    if (gap && take_law(state, bare, alone, asked)) return;
+    if (state.options.discover && !gap)
+      for (const std::string& words : alone.words)
+        found.notes.push_back(fmt::format("without {}: {}", listed(last.effects), words));
+    if ((gap || state.options.discover) && take_law(state, bare, alone, asked)) return;
     const double log_odds = log_odds_against_force_alone(found, beside, bare.model, alone);
     const double decided = std::log(kThresholds.odds);
     if (alone.found && log_odds < (gap ? decided : -decided)) {
-      if (!gap && take_law(state, bare, alone, asked)) return;
+      if (!gap && !state.options.discover && take_law(state, bare, alone, asked)) return;
       found.force = beside;
       doubt_effects(state, alone.words.front());
       return;
@@ -162,7 +207,7 @@ void discover(DiagnosisState& state, const Case& asked) {
                       listed(found.effects), log_odds));
     }
   }
-  if (gap) take_law(state, last, beside, asked);
+  if (gap || nothing_taken) take_law(state, last, beside, asked);
 }
 
 }  // namespace catena

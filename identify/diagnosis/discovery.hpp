@@ -11,7 +11,9 @@ namespace catena {
 /// effect of the library and either closes the gap or is certain beside what is left; the verdict is
 /// then `discovered`. Where effects were found, the same is tried without them first: a law that
 /// predicts the held-out part better than they do, beyond chance, takes their place. Else all stays
-/// as concluded, and a note says why. `asked`: as for conclude(). Throws as conclude(), and
+/// as concluded, and a note says why. With `DiagnosisOptions::discover` all this is done where no gap
+/// is left, too. Formulas that the search did not tell from the law are fitted in its place: those that
+/// the data do not decide against become alternatives. `asked`: as for conclude(). Throws as conclude(), and
 /// Interrupted.
 void discover(DiagnosisState& state, const Case& asked);
 

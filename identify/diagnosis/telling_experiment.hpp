@@ -14,9 +14,9 @@ struct TellingExperiment {
   double difference = 0;  ///< rms difference of the predictions there, in units of the noise
 };
 
-/// Tries other starts (half and one and a half times the angles, mirrored), longer recordings and
-/// every joint as a marker, with both models as they are fitted now; returns the one that differs
-/// most.
+/// Tries other starts (half and one and a half times the angles, mirrored), other loads (twice, half),
+/// a film of twice the length and every joint as a marker, with both models as they are fitted now;
+/// returns the one that differs most.
 TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
                                      const std::vector<double>& sigmas);
 

@@ -139,9 +139,6 @@ std::string sentence_of_law(const Diagnosis& found, bool is_closed) {
   std::string sentence =
       fmt::format("Missing, and in no library: {}{} ({}).", force.law->formula.text,
                   site_in_words(force.law->site), found.law);
-  if (!force.law->rivals.empty())
-    sentence += fmt::format(" These data do not tell it from {} other formula{}.",
-                            force.law->rivals.size(), force.law->rivals.size() > 1 ? "s" : "");
   if (!found.shares.empty()) sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
   return is_closed ? sentence
                    : sentence + fmt::format(" {} stays: {}.", in_percent(found.shares.left_fitted),

@@ -22,6 +22,9 @@ struct LawThresholds {
   /// Difference of the Bayesian information criterion below which two formulas are not told apart:
   /// odds of 1 to 20, from which Kass and Raftery (1995) call evidence strong.
   double undecided = 6;
+  /// Formulas that are not told apart from the law and are fitted exactly, most probable first. Each
+  /// costs a fit. Chosen.
+  int rivals = 3;
 };
 
 /// What the missing force goes with: a formula of few constants, or nothing.

@@ -23,6 +23,12 @@ constexpr double kStep = 1.0 / 960;
 /// Deviation of the logarithm of a parameter, where the case gives no prior: half as much again. A
 /// fit without the force is wrong by about as much as the force can imitate.
 constexpr double kRelativeDeviation = 0.4;
+/// The same where that fit ended at a bound: it does not tell the size, perhaps not to a factor of ten.
+constexpr double kBoundDeviation = 2.3;
+/// A value so near to a bound, over the bound, is at it.
+constexpr double kAtBound = 0.01;
+/// Of a logarithm: the most that one linearisation may change it.
+constexpr double kReach = 1;
 /// rad, rad/s: of coefficients of the start.
 constexpr double kStartDeviation = 0.2;
 /// Of the admissible range of any other.
@@ -54,7 +60,10 @@ LatentUnknowns::LatentUnknowns(const Problem& problem, const VectorXd& x)
     if (unknown.parameter < 0)
       deviation_[i] = kStartDeviation;
     else if (logarithmic_.back())
-      deviation_[i] = kRelativeDeviation;
+      deviation_[i] = std::abs(x[i] - unknown.lower) <= kAtBound * unknown.lower ||
+                              std::abs(x[i] - unknown.upper) <= kAtBound * unknown.upper
+                          ? kBoundDeviation
+                          : kRelativeDeviation;
     else if (std::isfinite(unknown.upper - unknown.lower))
       deviation_[i] = kRangeDeviation * (unknown.upper - unknown.lower);
     else
@@ -96,8 +105,9 @@ VectorXd LatentUnknowns::deviation(const std::vector<Index>& which) const {
 double LatentUnknowns::moved(Index unknown, double value, double by) const {
   const auto j = static_cast<std::size_t>(unknown);
   const Unknown& limits = problem_.unknowns()[j];
-  return std::clamp(logarithmic_[j] ? value * std::exp(by) : value + by, limits.lower,
-                    limits.upper);
+  return std::clamp(
+      logarithmic_[j] ? value * std::exp(std::clamp(by, -kReach, kReach)) : value + by,
+      limits.lower, limits.upper);
 }
 
 ForcePaths::ForcePaths(const Problem& problem, const LatentUnknowns& unknowns,

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identify/problem/initial_state.hpp"
-
 namespace catena {
 
 using Eigen::Index;
@@ -30,7 +28,9 @@ void act_at_middles(const VectorXd& force, VectorXd& carried) {
 }
 
 ForcePattern empty(Index links, std::string name, std::string unit) {
-  ForcePattern pattern{std::move(name), std::move(unit), {}, {}, {}};
+  ForcePattern pattern;
+  pattern.name = std::move(name);
+  pattern.unit = std::move(unit);
   pattern.torque.setZero(links);
   pattern.side.setZero(links);
   pattern.down.setZero(links);
@@ -39,13 +39,22 @@ ForcePattern empty(Index links, std::string name, std::string unit) {
 
 }  // namespace
 
-ForcePattern density_pattern(ForceDirection direction, int mode, const VectorXd& lengths) {
-  const Index n = lengths.size();
+VectorXd link_middles(const VectorXd& lengths) {
+  VectorXd middles(lengths.size());
+  double begin = 0;
+  for (Index k = 0; k < lengths.size(); ++k) {
+    middles[k] = begin + 0.5 * lengths[k];
+    begin += lengths[k];
+  }
+  return middles;
+}
+
+ForcePattern density_pattern(ForceDirection direction, const std::string& shape,
+                             const VectorXd& density, const VectorXd& lengths) {
   ForcePattern pattern =
-      empty(n, fmt::format("{} density, mode {}", word(direction), mode), fmt::format("N/m"));
-  // The shapes of the angles are the same polynomials, at the middles of the links.
-  const VectorXd density =
-      shape_basis(Shape::kSmooth, static_cast<int>(n), mode + 1, lengths).col(mode);
+      empty(lengths.size(), fmt::format("{} density {}", word(direction), shape), "N/m");
+  pattern.direction = direction;
+  pattern.density = density;
   act_at_middles(density.cwiseProduct(lengths),
                  direction == ForceDirection::kSide ? pattern.side : pattern.down);
   return pattern;
@@ -55,6 +64,7 @@ ForcePattern point_pattern(ForceDirection direction, double s, const VectorXd& l
   const Index n = lengths.size();
   ForcePattern pattern = empty(
       n, fmt::format("{} force at arc length {:.3g} m", word(direction), s), fmt::format("N"));
+  pattern.direction = direction;
   VectorXd& carried = direction == ForceDirection::kSide ? pattern.side : pattern.down;
   double begin = 0;
   for (Index k = 0; k < n; ++k) {

@@ -9,6 +9,8 @@
 
 namespace catena {
 
+enum class ForceDirection { kSide, kDown };
+
 /// A force of unit size, distributed along the chain, that keeps its direction: how much of it acts
 /// below each place. Its generalised force on the angle of link k is
 ///
@@ -21,14 +23,19 @@ struct ForcePattern {
   std::string unit;            ///< of its size: N/m, N or N m
   Eigen::VectorXd side, down;  ///< per link, N per unit: carried by the link's end
   Eigen::VectorXd torque;      ///< per link, N m per unit
-  int group = 0;               ///< patterns of a group have one prior variance
+  /// Of a density: its values at the middles of the links; else empty.
+  Eigen::VectorXd density;
+  ForceDirection direction = ForceDirection::kSide;  ///< of a density or a force at a point
+  int group = 0;  ///< patterns of a group have one prior variance
 };
 
-enum class ForceDirection { kSide, kDown };
+/// Arc lengths of the middles of links of these lengths, m.
+Eigen::VectorXd link_middles(const Eigen::VectorXd& lengths);
 
-/// Side or down density P_m(2 s / L - 1) along the cable, P_m the Legendre polynomial m, from 0.
-/// `lengths`: of the links, m. N/m.
-ForcePattern density_pattern(ForceDirection direction, int mode, const Eigen::VectorXd& lengths);
+/// A density along the cable, given at the middles of the links. `shape`: what the name says of it,
+/// as "around arc length 1.2 m". `lengths`: of the links, m. N/m.
+ForcePattern density_pattern(ForceDirection direction, const std::string& shape,
+                             const Eigen::VectorXd& density, const Eigen::VectorXd& lengths);
 
 /// A force at arc length s (m), 0 < s <= L. N.
 ForcePattern point_pattern(ForceDirection direction, double s, const Eigen::VectorXd& lengths);

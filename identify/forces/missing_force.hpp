@@ -26,12 +26,13 @@ struct MissingForceThresholds {
   /// evidence strong.
   double told_apart = 3;
 };
+inline constexpr MissingForceThresholds kForceThresholds;
 
 /// Whether, where and when a force acts on the chain that the model does not have, from the
 /// recordings alone.
 ///
-/// Forces are densities to the side and down along the cable, in Legendre polynomials, a force at
-/// the end and a torque at the support, each a smooth random function of time. They are estimated
+/// Forces are densities to the side and down along the cable, a force at the end and a torque at the
+/// support (forces_everywhere.hpp), each a smooth random function of time. They are estimated
 /// together with every free parameter, the start and the free sensors; the prior variances are those
 /// of the largest evidence. Then a force at each place alone is tried. The parts that are fitted are
 /// used, of all recordings. How: docs/diagnosis.md.

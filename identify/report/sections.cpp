@@ -144,13 +144,18 @@ std::string title_of(const Diagnosis& diagnosis, const std::string& id) {
   return spaced(id);
 }
 
+/// Files of before have no title there.
+std::string other_title(const Diagnosis& diagnosis, const OtherEffect& other) {
+  return other.title.empty() ? title_of(diagnosis, other.id) : other.title;
+}
+
 Html others_html(const Diagnosis& diagnosis, const std::string& caption,
                  const std::vector<OtherEffect>& others) {
   if (others.empty()) return {};
   std::vector<Cells> rows = {
       {"Effect", "In place of", "Gap, fitted part", "Gap, held out", "Predictions apart"}};
   for (const OtherEffect& other : others) {
-    rows.push_back({title_of(diagnosis, other.id),
+    rows.push_back({other_title(diagnosis, other),
                     other.instead_of.empty() ? "–" : title_of(diagnosis, other.instead_of),
                     length(other.fit, diagnosis.unit), length(other.validate, diagnosis.unit),
                     std::isnan(other.difference)
@@ -171,7 +176,7 @@ Html undecided_html(const Diagnosis& diagnosis) {
   for (const OtherEffect& other : diagnosis.undecided) {
     if (!other.experiment_that_tells || other.experiment_that_tells->words.empty()) continue;
     const TellingExperiment& telling = *other.experiment_that_tells;
-    experiments.push_back(title_of(diagnosis, other.id) + ": " + telling.words);
+    experiments.push_back(other_title(diagnosis, other) + ": " + telling.words);
     if (!std::isnan(telling.difference))
       experiments.back() += fmt::format("; the predictions differ by {} times the noise there",
                                         for_people(telling.difference, 3));

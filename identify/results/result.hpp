@@ -291,6 +291,7 @@ struct OtherEffect {
   double difference = kAbsent;  ///< of its predictions from the final model's, in noise levels
   double behind = kAbsent;      ///< of its criterion, behind the final model's
   std::optional<TellingExperiment> experiment_that_tells;
+  std::string title;
 };
 
 /// A parameter of the final model.

@@ -281,6 +281,7 @@ void fields(auto& archive, Is<OtherEffect> auto& other) {
   archive("difference", other.difference);
   archive("behind", other.behind);
   archive.optional("experiment_that_tells", other.experiment_that_tells);
+  archive.optional("title", other.title);
 }
 
 void fields(auto& archive, Is<Share> auto& share) {

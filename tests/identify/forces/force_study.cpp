@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
   testing::Gusts gusts;
   app.add_option("--gusts", gusts.size,
                  "N, of a force at mid-cable that follows no law; no effects");
+  app.add_flag("--spread", gusts.spread,
+               "the gusts push the whole cable, 1/length of it each metre");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& effect : effects) {
     const std::size_t equals = effect.find('=');
@@ -67,17 +69,14 @@ int main(int argc, char** argv) {
     for (const CandidateLaw::Constant& c : found.law->formula.constants)
       fmt::print("  {:12} {:.6g} +- {:.2g} {}\n", c.name, c.value, c.deviation, c.unit);
   }
-  if (hidden.wall_spring == 0 || found.everywhere.empty()) return 0;
+  if ((hidden.wall_spring == 0 && !gusts.spread) || found.everywhere.empty()) return 0;
   const testing::Recovery modes = testing::recovery_of_modes(filmed, hidden, found);
   fmt::print(
       "two lowest modes normal to the cable below 2 Hz: error {:.1f} % (asked: 20), covered {:.1f} "
       "% (asked: 90 to "
       "97)\n",
       100 * modes.error, 100 * modes.covered);
-  const testing::Recovery side = testing::recovery_of_side_modes(filmed, hidden, found);
-  fmt::print("of these to the side: error {:.1f} %, covered {:.1f} %\n", 100 * side.error,
-             100 * side.covered);
-  if (found.at_best.empty() || found.best->joint >= 0) return 0;
+  if (gusts.spread || found.at_best.empty() || found.best->joint >= 0) return 0;
   const testing::Recovery place = testing::recovery_at_place(filmed, hidden, found);
   fmt::print("at the place {:.3f} m (true {:.3f} m): error {:.1f} % (asked: 5), covered {:.1f} %\n",
              found.best->arc_length, testing::true_place(film), 100 * place.error,

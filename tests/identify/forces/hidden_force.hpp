@@ -46,6 +46,8 @@ struct Filmed {
   Film film;
   Case the_case;
   Recording recording;
+  /// Legendre modes 0 and 1 of the density normal to the cable that gusts push with, 2 x frames, N/m.
+  Eigen::MatrixXd gust_modes;
 
   FittedModel baseline() const {
     const auto problem = std::make_shared<const Problem>(the_case, any_links_model(film.case_links),
@@ -63,7 +65,7 @@ inline Filmed film(const Film& film, const truth::Hidden& hidden) {
                                       {.links = film.case_links, .recordings = {"markers.csv"}});
   const std::size_t experiment = text.find("[[experiment]]");
   text.erase(experiment, text.find("[error]") - experiment);
-  Filmed filmed{film, parse_case(text, "case.toml", ""), {}};
+  Filmed filmed{film, parse_case(text, "case.toml", ""), {}, {}};
   add_experiment(filmed.the_case, "run");
   Recording& recording = filmed.recording;
   recording.time = seen.time;
@@ -102,6 +104,7 @@ inline Eigen::VectorXd true_force(const Filmed& filmed, const truth::Hidden& hid
 struct Gusts {
   double size = 0;
   unsigned seed = 1;
+  bool spread = false;  ///< along the whole cable instead of at its middle
 
   double operator()(double t) const { return sum(t, false); }
   double rate(double t) const { return sum(t, true); }
@@ -120,20 +123,24 @@ struct Gusts {
   }
 };
 
-/// The same film where gusts push mid-cable to the side, made by the model of the case.
+/// The same film where gusts push the cable to the side, made by the model of the case.
 inline void push(Filmed& filmed, const Gusts& gusts) {
   const Problem problem(filmed.the_case, any_links_model(filmed.film.case_links),
                         std::vector<Recording>{filmed.recording});
   const Eigen::VectorXd parameters = problem.model_parameters(problem.start(), 0);
   const Eigen::VectorXd lengths = link_lengths(problem.model(), parameters);
+  const double length = lengths.sum();
+  const Eigen::VectorXd constant = Eigen::VectorXd::Constant(lengths.size(), 1 / length);
   const std::vector<ForcePattern> patterns = {
-      point_pattern(ForceDirection::kSide, 0.5 * lengths.sum(), lengths)};
+      gusts.spread ? density_pattern(ForceDirection::kSide, "constant", constant, lengths)
+                   : point_pattern(ForceDirection::kSide, 0.5 * length, lengths)};
   IntervalIntegrator integrate(problem.model(), parameters, problem.experiments()[0].signals,
                                patterns, {}, 1.0 / 960);
   const std::vector<double> start = filmed.film.start();
   Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * lengths.size());
   for (Eigen::Index k = 0; k < lengths.size(); ++k) state[k] = start[static_cast<std::size_t>(k)];
   Recording& recording = filmed.recording;
+  filmed.gust_modes.resize(2, static_cast<Eigen::Index>(recording.time.size()));
   std::mt19937_64 random(filmed.film.camera.seed);
   std::normal_distribution<double> noise(0, filmed.film.camera.noise);
   for (std::size_t frame = 0; frame < recording.time.size(); ++frame) {
@@ -147,6 +154,14 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
       recording.measured(row, column) = (reach * angles.sin()).sum() + noise(random);
       recording.measured(row + 1, column) = (reach * angles.cos()).sum() + noise(random);
     }
+    // Of the density to the side times the cosine of the angle.
+    const Eigen::ArrayXd across = state.head(lengths.size()).array().cos();
+    const Eigen::ArrayXd from_middle = 2 * link_middles(lengths).array() / length - 1;
+    const auto column = static_cast<Eigen::Index>(frame);
+    const double density = gusts(recording.time[frame]) / length;
+    const Eigen::ArrayXd weights = lengths.array() / length;
+    filmed.gust_modes(0, column) = density * (weights * across).sum();
+    filmed.gust_modes(1, column) = 3 * density * (weights * across * from_middle).sum();
     if (frame + 1 == recording.time.size()) break;
     const double t = recording.time[frame];
     const Eigen::Vector2d force(gusts(t), gusts.rate(t));
@@ -186,10 +201,14 @@ inline Recovery recovery(const Eigen::MatrixXd& size, const Eigen::MatrixXd& dev
   return recovery;
 }
 
-/// Of the two lowest modes of the density normal to the cable, those of a point force of the truth.
+/// Of the two lowest modes of the density normal to the cable: of gusts along all of it, or of the
+/// hidden spring at a point.
 inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hidden,
                                   const MissingForce& found) {
   const auto& history = found.everywhere.at(0);
+  if (filmed.gust_modes.size() > 0)
+    return recovery(history.normal_modes, history.normal_modes_deviation, filmed.gust_modes,
+                    history.time);
   const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
   const double length = filmed.film.cable().length, place = true_place(filmed.film);
   const truth::Motion motion =
@@ -200,18 +219,6 @@ inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hid
     truth(1, k) = 3 * (2 * place / length - 1) * truth(0, k);
   }
   return recovery(history.normal_modes, history.normal_modes_deviation, truth, history.time);
-}
-
-/// The same of the density to the side.
-inline Recovery recovery_of_side_modes(const Filmed& filmed, const truth::Hidden& hidden,
-                                       const MissingForce& found) {
-  const auto& history = found.everywhere.at(0);
-  const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
-  const double length = filmed.film.cable().length;
-  Eigen::MatrixXd truth(2, force.size());
-  truth.row(0) = force / length;
-  truth.row(1) = 3 * (2 * true_place(filmed.film) / length - 1) * force / length;
-  return recovery(history.size.topRows(2), history.deviation.topRows(2), truth, history.time);
 }
 
 /// Of the side force at the place that was found.

@@ -41,6 +41,10 @@ TEST_CASE("a hidden spring to a wall is found: its place, its force over time, i
   const testing::Recovery recovery = testing::recovery_at_place(filmed, hidden, found);
   CHECK(recovery.error < 0.05);
   CHECK(recovery.covered > 0.9);
+  // Without knowing that it acts at one place, from what forces along the whole cable do.
+  const testing::Recovery modes = testing::recovery_of_modes(filmed, hidden, found);
+  CHECK(modes.error < 0.2);
+  CHECK(modes.covered > 0.9);
   // The spring does not push down. A down force would follow the noise, and the side force with it.
   CHECK(found.at_best.at(0).rows == std::vector<std::string>{"side"});
   // The fit without the force has made EI three times as large.
@@ -48,6 +52,20 @@ TEST_CASE("a hidden spring to a wall is found: its place, its force over time, i
   CHECK(found.parameters.at(0).value == doctest::Approx(0.014).epsilon(0.1));
   REQUIRE(found.words.size() >= 2);
   CHECK(found.words[0].starts_with("a side force at arc length 1."));
+}
+
+TEST_CASE("a force along the whole cable: its two lowest modes") {
+  testing::Filmed filmed = testing::film(short_film(), {});
+  testing::push(filmed, {.size = 0.1, .spread = true});
+  const FittedModel baseline = filmed.baseline();
+  REQUIRE(baseline.ok);
+  const MissingForce found =
+      missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
+  REQUIRE(found.found);
+  CHECK_FALSE(found.one_place);
+  const testing::Recovery modes = testing::recovery_of_modes(filmed, {}, found);
+  CHECK(modes.error < 0.2);
+  CHECK(modes.covered > 0.9);
 }
 
 TEST_CASE("no force is found where nothing is hidden") {

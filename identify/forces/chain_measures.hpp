@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identify/problem/problem.hpp"
+
+namespace catena {
+
+/// The chain that forces act on.
+struct ChainMeasures {
+  Eigen::VectorXd lengths;        ///< of the links, m
+  double length = 0, weight = 0;  ///< m; N, with the load
+
+  /// At the values `x` of the problem's unknowns, of one of its experiments.
+  ChainMeasures(const Problem& problem, const Eigen::VectorXd& x, int experiment);
+};
+
+}  // namespace catena
