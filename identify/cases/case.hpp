@@ -128,14 +128,16 @@ enum class DataSource { kCatena, kTracker, kKinovea, kDeepLabCut };
 /// joint (its far end), link and load says where it is.
 struct PointSpec {
   std::string name;
-  std::string side_column, down_column;   ///< markers
-  std::string across_column;              ///< markers in space
-  std::string angle_column;               ///< angles
-  double arc_length = kNotGiven;          ///< m from the support along the cable
-  int joint = 0;                          ///< marker at the far end of link `joint`, 1-based
-  int link = 0;                           ///< angle of this link, 1-based
-  bool load = false;                      ///< marker at the load
-  std::string camera;                     ///< in space, a marker in its picture; else empty
+  std::string side_column, down_column;  ///< markers
+  std::string across_column;             ///< markers in space
+  std::string angle_column;              ///< angles
+  double arc_length = kNotGiven;         ///< m from the support along the cable
+  double share =
+      kNotGiven;       ///< of the cable's length, of markers spread over it: beside arc_length
+  int joint = 0;       ///< marker at the far end of link `joint`, 1-based
+  int link = 0;        ///< angle of this link, 1-based
+  bool load = false;   ///< marker at the load
+  std::string camera;  ///< in space, a marker in its picture; else empty
   std::array<double, 2> centre = {0, 0};  ///< px, of that camera
 };
 

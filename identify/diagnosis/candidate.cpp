@@ -9,6 +9,7 @@
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "description/expression_syntax.hpp"
+#include "identify/diagnosis/doubted_knowns.hpp"
 #include "identify/diagnosis/score.hpp"
 #include "identify/problem/marker_places.hpp"
 
@@ -194,7 +195,7 @@ std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::
     add(std::move(effect));
   }
   for (const Effect& effect : present.effects) known.push_back(effect.id);
-  known.emplace_back(kMarkerPlaces);  // places_of_markers.hpp
+  for (const char* id : {kMarkerPlaces, kCableKnowns}) known.emplace_back(id);
   check_known(the_case.diagnosis.possible, "possible", the_case, known);
   check_known(the_case.diagnosis.impossible, "impossible", the_case, known);
   std::sort(library.begin(), library.end(),

@@ -7,9 +7,9 @@
 #include "identify/diagnosis/baseline.hpp"
 #include "identify/diagnosis/diagnosis_state.hpp"
 #include "identify/diagnosis/discovery.hpp"
+#include "identify/diagnosis/doubted_knowns.hpp"
 #include "identify/diagnosis/look_back.hpp"
 #include "identify/diagnosis/pairs.hpp"
-#include "identify/diagnosis/places_of_markers.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/search.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -34,8 +34,8 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   context.begin("fitting the baseline");
   state.enter(fit_baseline(for_the_search(the_case), context), {}, "");
   const std::vector<Experiment>& experiments = state.last().model.problem->experiments();
-  std::optional<Candidate> places = places_of_markers(the_case, experiments);
-  if (places && !context.knows(places->id)) context.add(std::move(*places));
+  for (Candidate& known : doubted_knowns(the_case, experiments))
+    if (!context.knows(known.id)) context.add(std::move(known));
   for (const Experiment& experiment : experiments)
     for (const std::string& warning : experiment.recording.warnings)
       state.found.notes.push_back(experiment.spec.name + ": " + warning);

@@ -2,6 +2,7 @@
 #include "identify/problem/observer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "identify/problem/marker_places.hpp"
 
@@ -53,12 +54,23 @@ Observer::Place Observer::place_of(const Model& model, const VectorXd& parameter
   if (!point.camera.empty()) place.camera.emplace(model, point.camera);
   place.load = point.load;
   place.at_arc_length = !point.load && !point.joint && !point.link;
-  if (place.at_arc_length) place.off = index_of_place(model, point.name);
-  place.point = point.load    ? MaterialPoint{model.links() - 1, 1.0}
-                : point.joint ? MaterialPoint{point.joint - 1, 1.0}
-                : point.link  ? MaterialPoint{point.link - 1, 0.0}
-                              : moved_point(model, parameters, point.arc_length,
-                                           place.off ? parameters[*place.off] : 0);
+  if (!place.at_arc_length) {
+    place.point = point.load    ? MaterialPoint{model.links() - 1, 1.0}
+                  : point.joint ? MaterialPoint{point.joint - 1, 1.0}
+                                : MaterialPoint{point.link - 1, 0.0};
+    return place;
+  }
+  place.off = index_of_place(model, point.name);
+  double arc_length = point.arc_length;
+  if (!std::isnan(point.share)) {
+    place.share = point.share;
+    const double length = link_lengths(model, parameters).sum();
+    // Roundings are no other length: they would move a mark at a joint to the next link.
+    constexpr double kRounding = 1e-9;
+    if (std::abs(place.share * length - arc_length) > kRounding * length)
+      arc_length = place.share * length;
+  }
+  place.point = moved_point(model, parameters, arc_length, place.off ? parameters[*place.off] : 0);
   return place;
 }
 
@@ -92,13 +104,14 @@ Observer::Observer(const Model& model, const Experiment& experiment, const Vecto
     places_.push_back(place_of(model, parameters, point));
   for (const SensitivityDirection& direction : directions_) {
     std::vector<double>& moved = moved_.emplace_back();
+    const VectorXd changes = direction.parameters.head(model.links());  // of the lengths
     for (const Place& place : places_) {
       double& fraction = moved.emplace_back(0);
-      if (place.at_arc_length)
-        fraction = fraction_tangent(model, parameters, direction.parameters, place.point);
-      if (place.off)
-        fraction +=
-            direction.parameters[*place.off] / link_lengths(model, parameters)[place.point.link];
+      if (!place.at_arc_length) continue;
+      double farther = place.share * changes.sum();
+      if (place.off) farther += direction.parameters[*place.off];
+      fraction = fraction_tangent(model, parameters, direction.parameters, place.point) +
+                 farther / link_lengths(model, parameters)[place.point.link];
     }
   }
   true_.resize(places_.size());

@@ -50,11 +50,12 @@ class Observer {
 
  private:
   /// Where a point is on the chain. Material points keep their place when the cable bends; those
-  /// given by arc length also move along a link whose length changes, and by what a parameter says of
-  /// them (marker_places.hpp).
+  /// given by arc length also move along a link whose length changes, with the whole length if they are spread over the
+  /// cable, and by what a parameter says of them (marker_places.hpp).
   struct Place {
     MaterialPoint point;
     bool at_arc_length = false;
+    double share = 0;                      ///< of the length, of those spread over the cable
     std::optional<Eigen::Index> off = {};  ///< that parameter
     bool load = false;
     std::optional<Camera> camera = {};  ///< in whose picture it is seen

@@ -205,9 +205,10 @@ std::vector<PointSpec> default_points(const ExperimentSpec& experiment, const Ta
                      "; it has " + first_names(table.names));
   }
   if (experiment.kind == DataKind::kMarkers)
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i].arc_length =
-          cable_length * static_cast<double>(i + 1) / static_cast<double>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i].share = static_cast<double>(i + 1) / static_cast<double>(points.size());
+      points[i].arc_length = cable_length * points[i].share;
+    }
   return points;
 }
 

@@ -64,10 +64,10 @@ def run(command):
 def judged(trial, found):
     all_named = {effect["id"] for effect in found["effects"]}
     truth = {name for name in trial.hidden if name in design.EFFECTS}
-    if trial.kind == "known":  # right where nothing but knowns is named, one of those that it may be called
-        (known,) = trial.hidden
-        if all_named <= design.KNOWNS_AND_SENSORS and all_named & design.CALLED[known]:
-            truth = all_named
+    if trial.kind == "known":  # right where nothing but knowns is named, what it is called among them
+        called = design.CALLED[trial.hidden[0]]
+        among = all_named <= design.KNOWNS_AND_SENSORS and all_named & called
+        truth = all_named if among else called if len(called) == 1 else set()
     # Of a rod's recording, what is said of knowns and sensors may be so.
     named = all_named - (design.KNOWNS_AND_SENSORS - truth) if trial.is_rod() else all_named
     forms = {(f["instead_of"], f["id"]) for f in found["forms"]}

@@ -46,7 +46,7 @@ KINDS = {
     "outside": "something that is in no library",
     "beside": "something that is in no library, and an effect of it",
     "known": "length, density or load stated 0.5, 1 or 3 % wrong, or marks misplaced by 2, 3.5 or 5 mm (standard deviation); "
-             "a wrong load and wrong marks have names of their own, of the others any known or sensor counts as right, physics as wrong",
+             "a wrong density has no name of its own, any known or sensor counts as right there; physics is wrong",
     "rod_quiet": "an elastic rod, nothing missing",
     "rod_single": "an elastic rod, one effect, strength 3 or 10",
     "setup_quiet": "other cables, markers, durations, numbers of recordings; nothing missing",

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "identify/diagnosis/doubted_knowns.hpp"
 #include "identify/models/model_provider.hpp"
+#include "identify/problem/marker_places.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/data.hpp"
 
@@ -18,7 +20,7 @@ inline Case two_links_with(const std::vector<std::string>& possible) {
   Case the_case = sections(kTwoLinks);
   add_experiment(the_case, "run");
   std::vector<std::string> known = built_in_effect_ids();
-  known.emplace_back("marker_places");
+  for (const char* id : {kMarkerPlaces, kCableKnowns}) known.emplace_back(id);
   for (const std::string& id : known)
     if (std::find(possible.begin(), possible.end(), id) == possible.end())
       the_case.diagnosis.impossible.push_back(id);

@@ -75,6 +75,26 @@ TEST_CASE("derivatives by places are those of differences, beside those of what 
   }
 }
 
+TEST_CASE("markers spread over the cable stay so where its length is unknown") {
+  Case the_case = with_doubted_marks({});
+  ParameterSpec length;
+  length.name = length.sets = "cable.length";
+  length.value = 1.1;  // m; the case says 1
+  length.lower = 0.5;
+  length.upper = 2;
+  length.free = true;
+  the_case.parameters.push_back(length);
+  Recording recording = testing::empty_markers({0.5, 0.75, 1.0}, 30, 0.05);
+  for (PointSpec& point : recording.points) point.share = point.arc_length;
+  const Problem spread(the_case, Model::built_in(2), std::vector<Recording>{recording});
+  const Problem there = seen_at({0.55, 0.825, 1.1}, the_case);
+  CHECK((prediction(spread) - prediction(there)).norm() < 1e-12);
+  const Eigen::VectorXd x = spread.start();
+  const Eigen::MatrixXd by_differences = testing::difference_along(spread, x, x.size() - 1);
+  CHECK((spread.predict(x, 0, true, spread.directions(x, 0)).sensitivity.back() - by_differences)
+            .norm() < 1e-3 * by_differences.norm());
+}
+
 TEST_CASE("a place of a marker that no recording has is refused") {
   const testing::TemporaryFolder folder;
   const Recording film = testing::with_truth(with_doubted_marks({}), Model::built_in(2),

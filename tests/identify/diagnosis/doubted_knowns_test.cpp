@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "identify/diagnosis/places_of_markers.hpp"
+#include "identify/diagnosis/doubted_knowns.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,12 +15,12 @@ using namespace catena;
 
 namespace {
 
-const std::vector<std::string> kPossible = {"load_drag", "marker_places"};
+const std::vector<std::string> kPossible = {"load_drag", "marker_places", "cable"};
 
-/// What is said of a film with marks at these places and so much drag, kg/m. The case takes the marks to be
-/// evenly spread.
+/// What is said of a film with marks at these places of a cable of 1 m and so much drag, kg/m. The case takes the
+/// marks to be evenly spread, and the cable to be so long, m.
 Diagnosis diagnosed(const testing::TemporaryFolder& folder, const std::vector<double>& places,
-                    double drag) {
+                    double drag, double stated = 1) {
   Case the_case = testing::two_links_with(kPossible);
   DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares,
                            testing::provider_of_build());
@@ -29,6 +29,7 @@ Diagnosis diagnosed(const testing::TemporaryFolder& folder, const std::vector<do
   const Recording film = testing::with_truth(with_effects(the_case, {hidden}, true),
                                              context.model_with({"load_drag"}, 2),
                                              testing::empty_markers(places, 240, 1.0 / 60), 1e-3);
+  the_case.cable.length = stated;
   the_case = testing::measured(the_case, folder, film);
   Diagnosis found = diagnose(the_case, context, {.max_links = 2});
   write_diagnosis(record_of(found, find_out(found), context), folder.path(), folder.path());
@@ -58,6 +59,22 @@ TEST_CASE("a mark that sits elsewhere is found, and the case says so when it is 
   CHECK(place->free);
 }
 
+TEST_CASE("a wrong length of the cable is no wrong mark, but a wrong length") {
+  const testing::TemporaryFolder folder;
+  const Diagnosis found = diagnosed(folder, {0.25, 0.5, 0.75, 1.0}, 0, 1.01);
+  CAPTURE(found.sentence);
+  CHECK(found.verdict == DiagnosisVerdict::kNamed);
+  CHECK(found.effects == std::vector<std::string>{"cable"});
+  CHECK(found.sentence.find("The cable is ") != std::string::npos);
+  CHECK(found.sentence.find(" shorter than the case says") != std::string::npos);
+  const Case again = read_case(folder.path() / "diagnosed.toml");
+  const auto length =
+      std::find_if(again.parameters.begin(), again.parameters.end(),
+                   [](const ParameterSpec& spec) { return spec.sets == "cable.length"; });
+  REQUIRE(length != again.parameters.end());
+  CHECK(length->value == doctest::Approx(1.0).epsilon(2e-3));
+}
+
 TEST_CASE("drag is no wrong mark, and marks where they should be are not blamed") {
   const testing::TemporaryFolder folder;
   const std::vector<double> evenly = {0.25, 0.5, 0.75, 1.0};
@@ -67,15 +84,24 @@ TEST_CASE("drag is no wrong mark, and marks where they should be are not blamed"
   CHECK(diagnosed(folder, evenly, 0).verdict == DiagnosisVerdict::kNone);
 }
 
-TEST_CASE("marks that the case frees itself, and what it calls impossible, are no candidates") {
+TEST_CASE("what the case sets itself and what it calls impossible is no candidate") {
   Case the_case = testing::two_links_with(kPossible);
   const Problem problem(the_case, Model::built_in(2),
                         std::vector<Recording>{testing::empty_markers({0.5, 1.0}, 60, 0.1)});
-  REQUIRE(places_of_markers(the_case, problem.experiments())->parameters.size() == 2);
-  ParameterSpec tip;
-  tip.sets = "marker_places.marker 2";
-  the_case.parameters.push_back(tip);
-  REQUIRE(places_of_markers(the_case, problem.experiments())->parameters.size() == 1);
+  const auto amplitudes = [&] {
+    std::vector<std::string> names;
+    for (const Candidate& each : doubted_knowns(the_case, problem.experiments()))
+      for (const CandidateParameter& parameter : each.parameters) names.push_back(parameter.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(amplitudes() == Names{"marker_places.marker 1", "marker_places.marker 2", "cable.length"});
+  ParameterSpec known;
+  known.sets = "marker_places.marker 2";
+  the_case.parameters.push_back(known);
+  known.sets = "cable.density";
+  the_case.parameters.push_back(known);
+  CHECK(amplitudes() == Names{"marker_places.marker 1"});
   the_case.diagnosis.impossible.emplace_back("marker_places");
-  CHECK_FALSE(places_of_markers(the_case, problem.experiments()));
+  CHECK(amplitudes().empty());
 }
