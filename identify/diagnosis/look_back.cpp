@@ -53,10 +53,13 @@ Stage stage_without(DiagnosisState& state, const std::string& id,
   without.links = the_case.links;
   without.fit = fit_gap(without.model, state.found.noise);
   without.held_out = held_out_gap(without.model, state.found.noise);
-  // Something that nearly fits may stand in the place of the right one.
+  // Something that nearly fits may stand in the place of the right one. Else the looks ahead have tried
+  // all of them.
   const bool nearly =
       gap_left(last) && nearly_closes(last.fit, last_without_effects(state.found.stages).fit);
-  if (!needless(state, without)) without.explanations = look(state, without.model, others, nearly);
+  if (!needless(state, without))
+    without.explanations =
+        look(state, without.model, others, nearly ? RefitOthers::kAlways : RefitOthers::kNever);
   return without;
 }
 

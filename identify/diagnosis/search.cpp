@@ -63,7 +63,7 @@ void look_for_effects(DiagnosisState& state) {
 }
 
 std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
-                              const std::vector<std::string>& effects, bool all) {
+                              const std::vector<std::string>& effects, RefitOthers others) {
   DiagnosisContext& context = state.context;
   const bool far = state.far();
   const CandidateSearch search{context, model, effects, state.found.noise};
@@ -80,7 +80,8 @@ std::vector<Explanation> look(DiagnosisState& state, const FittedModel& model,
   };
   // Where the best leave a gap, the score ranked wrongly: what holds and slips scores little if it
   // holds most of the time. The others may be what is missing.
-  if (all || !closed()) refit_rest(search, explanations);
+  if (others == RefitOthers::kAlways || (others == RefitOthers::kWhereGapIsLeft && !closed()))
+    refit_rest(search, explanations);
   context.stop_if_asked();
   // Effects that need a model of their own cost more: only if the others leave a gap.
   if (!closed()) {
