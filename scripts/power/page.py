@@ -6,6 +6,7 @@ import re
 import statistics
 
 from power import design
+from power.program import hash_of_sources
 
 HEAD = """# How often a diagnosis is right
 
@@ -57,6 +58,9 @@ and `not shown` where the trials are too few to tell.
 
 """
 KNOWN_PROGRAM = "All trials are of the sources with SHA-256 `{hash}` (`docs/power/program.txt`)."
+SINCE = """ The sources
+have changed since. These are the rates of the program of then, by its rules and by what counted as right then;
+[diagnosis.md](diagnosis.md#limits) says what is newer."""
 OLD_PROGRAM = """The trials so far were run before the sources' hash was
 kept, with rules of choice that have changed since: the held-out part now rules effects out, and a verdict
 may be `partly`."""
@@ -90,9 +94,15 @@ def write(file, rows, seconds, program):
     kinds = "".join(f"| `{kind}` | {len(of_kind(rows, kind))} of {design.COUNTS[kind]} | {what} |\n"
                     for kind, what in KINDS.items())
     text = HEAD.format(done=len(rows), all=len(design.trials()), elements=design.ROD_ELEMENTS, kinds=kinds,
-                       program=KNOWN_PROGRAM.format(hash=program) if program else OLD_PROGRAM)
+                       program=said_of(program))
     text += rates(ran, seconds) + by_effect(ran) + confusion(ran) + by_dirt(ran) + others(ran) + not_run(rows)
     file.write_text(text)
+
+
+def said_of(hash_of_trials):
+    if not hash_of_trials:
+        return OLD_PROGRAM
+    return KNOWN_PROGRAM.format(hash=hash_of_trials) + (SINCE if hash_of_trials != hash_of_sources() else "")
 
 
 def of_kind(rows, kind):
