@@ -11,8 +11,8 @@
 namespace catena::checking {
 
 /// Operations for one statement with its loops, and again for the comparison of one entry: numbers
-/// and names evaluated, products of terms expanded. Some ten seconds to a minute. The longest that
-/// is known to be wanted, the Lagrangian of 60 links, needs a tenth of it.
+/// and names evaluated, products of terms expanded. Some ten seconds. The longest that is known to be
+/// wanted, the equations of 60 links from their Lagrangian in one loop, needs more than a third of it.
 inline constexpr double kMostOperations = 1e7;
 
 /// Bits of a number: 30 000 decimal digits.
