@@ -543,14 +543,22 @@ void add_simulation(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Models, simulation, identification and diagnosis of a hanging cable.";
-  py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
-  py::register_exception<ComputationError>(module, "ComputationError", PyExc_RuntimeError);
+  py::exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::exception<ComputationError>(module, "ComputationError", PyExc_RuntimeError);
   py::register_exception_translator([](std::exception_ptr raised) {
+    // A message may name a file, and names of files need not be UTF-8.
+    const auto raise = [](const char* type, const char* what) {
+      const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(what));
+      PyErr_SetObject(py::module_::import("catena._core").attr(type).ptr(), text.ptr());
+    };
     try {
       std::rethrow_exception(raised);
+    } catch (const InputError& error) {
+      raise("InputError", error.what());
+    } catch (const ComputationError& error) {
+      raise("ComputationError", error.what());
     } catch (const ModelError& error) {
-      const py::object type = py::module_::import("catena._core").attr("ComputationError");
-      PyErr_SetString(type.ptr(), error.what());
+      raise("ComputationError", error.what());
     }
   });
   module.attr("__version__") = CATENA_VERSION;

@@ -68,6 +68,8 @@ class Cases(unittest.TestCase):
     def test_errors(self):
         with self.assertRaisesRegex(catena.InputError, "no_such.toml"):
             catena.Case("no_such.toml")
+        with self.assertRaisesRegex(catena.InputError, "is not UTF-8"):
+            catena.Case("latin_\udce9.toml")
         with self.assertRaisesRegex(ValueError, "x: 1 values"):
             self.case.error([1.0])
         with self.assertRaisesRegex(ValueError, "experiment: 1"):
