@@ -286,6 +286,8 @@ class EffectReader {
   // (x + sqrt(x^2 + rounding^2))/2 in place of max(x, 0). Two constants of value one carry the units.
   void read_tables() {
     constexpr std::size_t kMostPoints = 24;  // an expression has an end (expression_syntax.cpp)
+    constexpr double kGreatest = 1e50;       // as of parameters: squares and slopes stay numbers
+    constexpr const char* kTooGreat = "must be finite, and at most 1e50 in size";
     for (const TomlTable& table : file_.tables("table")) {
       Definition definition;
       definition.name = table.text("name");
@@ -303,8 +305,8 @@ class EffectReader {
         table.fail("values", std::to_string(values.size()) + " numbers; there are " +
                                  std::to_string(points.size()) + " points");
       for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!std::isfinite(points[i])) table.fail("points", "must be finite");
-        if (!std::isfinite(values[i])) table.fail("values", "must be finite");
+        if (!(std::abs(points[i]) <= kGreatest)) table.fail("points", kTooGreat);
+        if (!(std::abs(values[i]) <= kGreatest)) table.fail("values", kTooGreat);
         if (i && !(points[i] > points[i - 1]))
           table.fail("points", shortest_number(points[i]) + " after " +
                                    shortest_number(points[i - 1]) + "; points must increase");
@@ -312,8 +314,8 @@ class EffectReader {
       // Its square must not vanish beside that of a distance, nor the table beside it.
       constexpr double kLeastRounding = 1e-7;
       const double rounding = table.number("rounding"), span = points.back() - points.front();
-      if (!(rounding >= kLeastRounding * span && rounding <= span))
-        table.fail("rounding", shortest_number(rounding) + "; must be " +
+      if (!(rounding >= kLeastRounding * span && rounding <= span && rounding * kGreatest >= 1))
+        table.fail("rounding", shortest_number(rounding) + "; must be at least 1e-50, and " +
                                    shortest_number(kLeastRounding) +
                                    " to 1 times the distance from the first to the last point, " +
                                    shortest_number(span));
@@ -326,9 +328,9 @@ class EffectReader {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const double next =
             i + 1 < points.size() ? (values[i + 1] - values[i]) / (points[i + 1] - points[i]) : 0;
-        if (!std::isfinite(next - slope))
+        if (!(std::abs(next - slope) <= kGreatest))
           table.fail("values", "change too steeply at the point " + shortest_number(points[i]) +
-                                   "; no slope may be above 1e308");
+                                   "; no slope may be above 1e50");
         const std::string x = place + shortest_number(points[i]) + "))";
         text.append("+(").append(shortest_number((next - slope) / 2)).append(")*(").append(x);
         text.append("+sqrt(")

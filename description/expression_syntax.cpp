@@ -194,7 +194,7 @@ class Parser {
                                                    "tanh", "sinh", "cosh", "atan", "asinh"};
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       fail(in_quotes(name) + " is no known function" + suggestion(name, known) +
-           " A product is written " + name + "*(...)");
+           "; a product is written " + name + "*(...)");
     }
     take('(');
     SyntaxNode argument = sum();

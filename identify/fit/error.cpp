@@ -323,6 +323,7 @@ Misfit misfit_of(const Problem& problem, const Evaluation& evaluation) {
   Misfit misfit{true, fitted_residuals(problem, evaluation), constraints_of(problem, evaluation),
                 0};
   misfit.error = error_of(problem, misfit.residuals, misfit.constraints);
+  if (!std::isfinite(misfit.error)) return {false, {}, {}, kInfinite};
   return misfit;
 }
 

@@ -89,7 +89,8 @@ const char* error_unit(const Problem& problem);
 
 /// The fitted part of an evaluation: what the optimisers work with.
 struct Misfit {
-  bool ok = false;  ///< else the simulation failed, the error is infinite and the rest empty
+  bool ok =
+      false;  ///< else the simulation failed or its error is too great a number: infinite, and the rest empty
   Residuals residuals;
   SoftConstraints constraints;
   double error = 0;  ///< error_of

@@ -90,8 +90,12 @@ Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, b
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };
   const Evaluation evaluation = catena::evaluate(problem, x, false, jacobian, keep_going);
-  message = evaluation.message;
-  return misfit_of(problem, evaluation);
+  Misfit misfit = misfit_of(problem, evaluation);
+  message = evaluation.ok && !misfit.ok
+                ? "the squares of what is left are too great for numbers of a computer; look at "
+                  "noise, and at measured and standard_deviation of parameters"
+                : evaluation.message;
+  return misfit;
 }
 
 Misfit FitJournal::evaluate_residuals(const Eigen::VectorXd& x, bool jacobian) {

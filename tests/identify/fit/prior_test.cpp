@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kNoise = 1e-3, kTruth = 0.1;
 
-/// Two links filmed for 2 s; the stiffness was measured before, 20 % too large.
-Problem problem(double standard_deviation) {
+/// Two links filmed for 2 s; the stiffness was measured before, 20 % too large unless stated.
+Problem problem(double standard_deviation, double measured = 1.2 * kTruth) {
   Case the_case = testing::sections(testing::kTwoLinks);
   testing::add_experiment(the_case, "run");
   the_case.experiments[0].noise = kNoise;
@@ -26,7 +26,7 @@ Problem problem(double standard_deviation) {
   truth.parameters[1].value = 0.005;
   const Recording film = testing::with_truth(
       truth, Model::built_in(2), testing::empty_markers({0.5, 1.0}, 60, 1.0 / 30), kNoise);
-  the_case.parameters[0].measured = 1.2 * kTruth;
+  the_case.parameters[0].measured = measured;
   the_case.parameters[0].standard_deviation = standard_deviation;
   return Problem(the_case, Model::built_in(2), {film});
 }
@@ -48,6 +48,12 @@ TEST_CASE(
   const auto [between, error] = found(error_of_data);
   CHECK(between == doctest::Approx((free + 1.2 * kTruth) / 2).epsilon(0.02));
   CHECK(error == doctest::Approx(error_of_data / std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("a prior whose square is no number is said to be the reason") {
+  const FitResult result = fit_least_squares(problem(1.0, 1e300), {});
+  CHECK(result.status == FitStatus::kFailed);
+  CHECK(result.message.find("look at noise, and at measured") != std::string::npos);
 }
 
 TEST_CASE("the gradient of the error counts the prior") {
