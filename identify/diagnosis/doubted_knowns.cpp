@@ -84,6 +84,7 @@ Candidate length_of_cable(const Case& the_case, const std::vector<Experiment>& e
 
 std::vector<Candidate> doubted_knowns(const Case& the_case,
                                       const std::vector<Experiment>& experiments) {
+  if (the_case.error.measure != Measure::kLeastSquares) return {};
   std::vector<Candidate> candidates = {places_of_markers(the_case, experiments),
                                        length_of_cable(the_case, experiments)};
   const auto& impossible = the_case.diagnosis.impossible;

@@ -6,6 +6,7 @@ import re
 import statistics
 
 from power import design
+from power.outcome import key
 from power.program import hash_of_sources
 
 HEAD = """# How often a diagnosis is right
@@ -89,7 +90,7 @@ def interval(hits, count):
 
 
 def write(file, rows, seconds, program):
-    """`seconds`: CPU time of each diagnosis; `program`: the sources' hash, None if not known."""
+    """`seconds`: CPU time of each diagnosis, by outcome.key(row); `program`: the sources' hash, None if not known."""
     ran = [r for r in rows if r["verdict"] not in ("not reached", "not filmed")]
     kinds = "".join(f"| `{kind}` | {len(of_kind(rows, kind))} of {design.COUNTS[kind]} | {what} |\n"
                     for kind, what in KINDS.items())
@@ -179,10 +180,25 @@ def rates(rows, seconds):
         lines.append([f"strength {s}: right", "", count(some, right_name)])
     lines = [line + [met(line[1], line[2])] for line in lines if line[2] != "-"]
     text = "## Rates\n\n" + BOUNDS + table(["what", "asked", "observed", "asked bound"], lines)
-    if seconds:
-        text += (f"CPU time of one diagnosis, compiling where the cache lacked a model: median "
-                 f"{statistics.median(seconds):.1f} s, longest {max(seconds):.1f} s.\n\n")
-    return text
+    return text + times(rows, seconds)
+
+
+def times(rows, seconds):
+    """CPU times by what was said, in one line: no machine repeats it."""
+    def said(verdicts, effects):
+        return [seconds[key(r)] for r in rows if key(r) in seconds and r["verdict"] in verdicts
+                and len(r["effects"].split("+")) in effects]
+
+    parts = []
+    for what, spent, asked in (
+            ("one name", said(["named"], [1]), 30),
+            ("nothing missing or two names", said(["none"], [1]) + said(["named"], [2]), 120),
+            ("any other verdict", said(["ambiguous", "partly", "discovered", "unexplained"], range(9)), 120)):
+        if spent:
+            within = sum(t <= asked for t in spent)
+            parts.append(f"{what}: {within} of {len(spent)} within {asked} s (median {statistics.median(spent):.1f} s, "
+                         f"longest {max(spent):.1f} s)")
+    return "CPU time of a diagnosis, compiling where the cache lacked a model; " + "; ".join(parts) + ".\n\n" if parts else ""
 
 
 def by_effect(rows):

@@ -96,6 +96,9 @@ TEST_CASE("what the case sets itself and what it calls impossible is no candidat
   };
   using Names = std::vector<std::string>;
   CHECK(amplitudes() == Names{"marker_places.marker 1", "marker_places.marker 2", "cable.length"});
+  the_case.error.measure = Measure::kMeanDistance;
+  CHECK(amplitudes().empty());
+  the_case.error.measure = Measure::kLeastSquares;
   ParameterSpec known;
   known.sets = "marker_places.marker 2";
   the_case.parameters.push_back(known);
