@@ -35,7 +35,7 @@ TEST_CASE("each effect as emitted computes what was derived") {
     Description description = plain_chain();
     description.effects.push_back(built_in_effect(id));
     if (description.effects[0].space == "3d") description.space = Space::kThreeDimensional;
-    check(description, 5, 2, Language::kCpp);
+    check(description, 5, 1, Language::kCpp);
   }
 }
 

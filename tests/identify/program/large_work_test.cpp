@@ -52,7 +52,7 @@ TEST_CASE("fits that would take hours are begun with --yes only") {
   folder.write("data.csv", rows(3, 0.1));
   const std::string starts =
       fit_of("data.csv") + "[optimiser]\nmethod = \"nelder_mead\"\nstarts = ";
-  const auto many = folder.write("case.toml", starts + "100000\n");
+  const auto many = folder.write("case.toml", starts + "20000\n");
   check_refused(folder, {"identify", many, "--threads", "1", "--bootstrap", "100000"},
                 "the identification needs about ");
   const auto run = [&](std::vector<std::string> more) {
