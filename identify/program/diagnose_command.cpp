@@ -92,8 +92,7 @@ void add_diagnose_command(CLI::App& program, int& exit_status) {
   command->add_option("--refits", options.diagnosis.refits, "candidates to refit in every look")
       ->check(CLI::Range(1, 30));
   command->add_flag("--discover", options.diagnosis.discover,
-                    "seek a law that no library has also where effects of the library close the "
-                    "gap; with --max-effects 0 without trying the library");
+                    "seek a law of no library even where the gap closes");
   add_threads_option(*command, options.threads, "2");
   command->callback([&exit_status] { exit_status = diagnose_case(options); });
 }
