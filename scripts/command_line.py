@@ -25,3 +25,11 @@ def of_study(name, *rest, **how):
         said.error(f"no catena in {values.binaries}/bin; build it, or name the folder")
     os.makedirs(values.output, exist_ok=True)
     return values
+
+
+def part_of_order(text):
+    """A slice of a study's fixed order of trials."""
+    first, _, last = text.partition(":")
+    if not (first.isdigit() and last.isdigit() and int(first) < int(last)):
+        raise argparse.ArgumentTypeError(f"{text} is no range A:B of whole numbers, the first below the second")
+    return slice(int(first), int(last))

@@ -192,7 +192,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   const LawNames names = names_of(site_, variable_);
   Formula formula;
   formula.dissipation = dissipative();
-  const auto add_amplitude = [&](const char* name, int power, Index i) {
+  const auto add_amplitude = [&](const std::string& name, int power, Index i) {
     const double scale = std::pow(half_, power), value = -coefficients[i] / scale;
     const double bound = kBound * std::abs(value);
     formula.constants.push_back({name, unit_over(names, power), value,
@@ -242,14 +242,21 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   const std::string symbols =
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
+  char knot = 'a';  // names that end with a number are those of one joint or link
   Index shapes = has_place() + 2 * has_point();
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
-    terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "");
+    formula.curve = formula.curve || term.kind == TermKind::kBend;
+    const std::string n(term.kind == TermKind::kBend ? 1 : 0, knot);
+    terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "", n);
     formula.energy +=
-        (formula.energy.empty() ? "" : " + ") + filled(text.energy, "", symbols, names.squared);
-    add_amplitude(text.amplitude, text.power, static_cast<Index>(j));
+        (formula.energy.empty() ? "" : " + ") + filled(text.energy, "", symbols, names.squared, n);
+    add_amplitude(filled(text.amplitude, "", "", "", n), text.power, static_cast<Index>(j));
+    if (term.kind == TermKind::kBend) {
+      formula.fixed.push_back({"knot_" + n, names.variable_unit, term.shape * half_});
+      ++knot;
+    }
     if (!text.shape) continue;
     const double shape = term.shape * half_;
     const bool edge = shape_name(form[j]) == kEdge;

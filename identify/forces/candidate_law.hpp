@@ -69,6 +69,7 @@ class CandidateLaw {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
     bool dissipation = false;  ///< `energy` is one, else a potential
+    bool curve = false;        ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md). A
     /// place is `offset` past the middle of a link.
     std::string energy;

@@ -485,6 +485,8 @@ void describe_law(ForceLaw& law) {
   if (law.found) {
     law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
     law.words.push_back(tested);
+    if (law.formula.curve)
+      law.words.emplace_back("no formula fits: it is a curve of straight pieces between knots");
     for (const ForceLaw& rival : law.rivals)
       law.words.push_back("these data do not tell it from: " + with_constants(rival.formula) +
                           site_in_words(rival.site));

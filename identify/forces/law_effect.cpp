@@ -55,9 +55,11 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
       "variable in the first half of the frames, it explained {:.0f} % of what a force can explain "
       "in the second; of random forces {:.2g} did as well.",
       title, formula.text, law.candidates, 100 * law.confirmed, law.chance);
+  const char* const curve =
+      formula.curve ? " No formula fits: the law is a curve of straight pieces between knots." : "";
   std::string text =
       fmt::format("format = 1\nkind = \"effect\"\nid = \"{}\"\ntitle = {}\ndescription = {}\n", id,
-                  toml_quoted("Discovered: " + title), toml_quoted(words));
+                  toml_quoted("Discovered: " + title), toml_quoted(words + curve));
 
   const auto parameter = [&](const CandidateLaw::Constant& of) {
     text += fmt::format("\n[parameters.{}]\nunit = \"{}\"\nlower = {}\nupper = {}\n{} = {}\n",

@@ -39,6 +39,13 @@ void add_shapes(Forms& forms, TermKind kind, std::initializer_list<double> shape
   for (const double shape : shapes) forms.push_back({{kind, shape}});
 }
 
+/// A curve of straight pieces: for what no formula fits.
+void add_curve(Forms& forms) {
+  std::vector<LawTerm> curve = {{TermKind::kConstant}, {TermKind::kLinear}};
+  for (const double knot : {-0.6, -0.2, 0.2, 0.6}) curve.push_back({TermKind::kBend, knot});
+  forms.push_back(std::move(curve));
+}
+
 const LawTerm kOne{TermKind::kConstant}, kX{TermKind::kLinear}, kX2{TermKind::kQuadratic},
     kX3{TermKind::kCubic};
 
@@ -57,6 +64,7 @@ double value_of(const LawTerm& term, double u) {
     case TermKind::kCube:
       return u * u * u;
     case TermKind::kUpperStop:
+    case TermKind::kBend:
       return positive_part(u - term.shape);
     case TermKind::kLowerStop:
       return -positive_part(term.shape - u);
@@ -103,6 +111,9 @@ const LawTermText& text_of(TermKind kind) {
       {TermKind::kDeadZone,
        {"spring", "gap", 1, "spring x (({x}) beyond -gap to gap)",
         "spring*(" CATENA_STOP("({z} - gap)") " + " CATENA_STOP("(-({z}) - gap)") ")"}},
+      {TermKind::kBend,
+       {"bend_{n}", nullptr, 1, "bend_{n} x (({x}) - knot_{n}, if it is above)",
+        "bend_{n}*" CATENA_STOP("({z} - knot_{n})")}},
       {TermKind::kUpperExponential,
        {"force", "decay", 0, "force x exp(({x})/decay)", "force*decay*exp(({z})/decay)"}},
       {TermKind::kLowerExponential,
@@ -131,7 +142,7 @@ const LawTermText& text_of(TermKind kind) {
 #undef CATENA_STOP
 
 std::string filled(const std::string& text, const std::string& x, const std::string& z,
-                   const std::string& q) {
+                   const std::string& q, const std::string& n) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool slot = text[i] == '{' && i + 2 < text.size() && text[i + 2] == '}';
@@ -139,7 +150,7 @@ std::string filled(const std::string& text, const std::string& x, const std::str
       out += text[i];
       continue;
     }
-    out += text[i + 1] == 'x' ? x : text[i + 1] == 'z' ? z : q;
+    out += text[i + 1] == 'x' ? x : text[i + 1] == 'z' ? z : text[i + 1] == 'q' ? q : n;
     i += 2;
   }
   return out;
@@ -152,6 +163,7 @@ const LawGrammar& position_grammar() {
     add_shapes(forms, TermKind::kLowerStop, {0.5, 0.25, 0, -0.25, -0.5});
     add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
     add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
+    add_curve(forms);
     return grammar(forms);
   }();
   return kGrammar;
@@ -176,6 +188,7 @@ const LawGrammar& angle_grammar() {
     add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
     add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
     add_shapes(forms, TermKind::kLowerStop, {0.25, 0, -0.25, -0.5});
+    add_curve(forms);
     return grammar(forms);
   }();
   return kGrammar;

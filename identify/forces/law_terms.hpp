@@ -15,6 +15,7 @@ enum class TermKind {
   kUpperStop,  ///< pushes back beyond the shape: what a stop or a taut string does
   kLowerStop,
   kDeadZone,          ///< pushes back beyond the shape on both sides: play
+  kBend,              ///< the slope changes at the shape, a knot that stays where it is
   kUpperExponential,  ///< grows by e within the shape
   kLowerExponential,
   // against a distance
@@ -46,7 +47,7 @@ inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
 
 /// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the
 /// power of the variable's unit, words and energy, in which {x} is the variable in words, {z} in the language
-/// of effects from the middle, {q} its square.
+/// of effects from the middle, {q} its square and {n} the letter of a knot, also behind the amplitude's name.
 struct LawTermText {
   const char *amplitude, *shape;
   int power = 0;
@@ -54,9 +55,9 @@ struct LawTermText {
 };
 const LawTermText& text_of(TermKind kind);
 
-/// A text with {x}, {z}, {q} replaced.
+/// A text with {x}, {z}, {q}, {n} replaced.
 std::string filled(const std::string& text, const std::string& x, const std::string& z,
-                   const std::string& q);
+                   const std::string& q, const std::string& n = "");
 
 /// The terms of a variable, and the sets of them that make a formula, simplest first.
 struct LawGrammar {

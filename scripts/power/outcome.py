@@ -101,11 +101,11 @@ def key(row):
     return (row["kind"], row["hidden"], str(row["strength"]), str(row["noise_m"]), str(row["seed"]))
 
 
-def read(file):
+def read(file, key_of=key):
     if not file.exists():
         return {}
     with file.open() as lines:
-        return {key(row): row for row in csv.DictReader(lines)}
+        return {key_of(row): row for row in csv.DictReader(lines)}
 
 
 def append(file, fields, row):
