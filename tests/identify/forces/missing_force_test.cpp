@@ -218,6 +218,42 @@ TEST_CASE(
   check(3, "point_down", hidden.string_down);
 }
 
+TEST_CASE("drag of the load is a force at one place, however many strengths forces everywhere have") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  film.camera.seed = 101;
+  truth::Hidden hidden;
+  hidden.load_drag = 0.02;  // kg/m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.found);
+  CHECK(found.one_place);
+  CHECK(found.best->arc_length == doctest::Approx(film.cable().length));
+}
+
+TEST_CASE("a spring beside an end stop: no formula fits, the law is a curve") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  film.camera.seed = 3;
+  truth::Hidden hidden;
+  hidden.wall_spring = 0.3;  // N/m
+  hidden.stop = 2;
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "side position");
+  const CandidateLaw::Formula& formula = found.law->formula;
+  REQUIRE(formula.curve);
+  CHECK(formula.energy.find("knot_d") != std::string::npos);
+  // The slope is that of the spring at first, and of both at last.
+  double last = 0;
+  for (const CandidateLaw::Constant& constant : formula.constants)
+    if (constant.unit == "N/m") last += constant.value;
+  REQUIRE(formula.constants.at(1).name == "linear");
+  CHECK(last > 4 * formula.constants.at(1).value);
+  CHECK(std::count(found.words.begin(), found.words.end(),
+                   "no formula fits: it is a curve of straight pieces between knots") == 1);
+}
+
 TEST_CASE("a force that follows the velocity and drives it is no law") {
   testing::Film film = short_film();
   film.camera.duration = 4;
