@@ -218,7 +218,8 @@ TEST_CASE(
   check(3, "point_down", hidden.string_down);
 }
 
-TEST_CASE("drag of the load is a force at one place, however many strengths forces everywhere have") {
+TEST_CASE(
+    "drag of the load is a force at one place, however many strengths forces everywhere have") {
   testing::Film film = short_film();
   film.camera.duration = 4;
   film.camera.seed = 101;
