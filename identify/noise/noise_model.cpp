@@ -12,6 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Correlation of neighbouring frames from which on noise remembers ten frames, as motion does.
+constexpr double kAsMotion = 0.9;
+
+}  // namespace
+
 double NoiseModel::degrees_of_freedom() const {
   return excess_kurtosis > 0 ? 4 + 6 / excess_kurtosis : std::numeric_limits<double>::infinity();
 }
@@ -28,8 +35,10 @@ std::vector<std::string> NoiseModel::words() const {
                                 smoothing.name));
   const double correlation = shape.autocorrelation(1)[1];
   if (smoothing.frames() == 1 && std::abs(correlation) > 0.1)
-    words.push_back(
-        fmt::format("the noise of neighbouring frames is correlated by {:.2g}", correlation));
+    words.push_back(fmt::format(
+        "the noise of neighbouring frames is correlated by {:.2g}{}", correlation,
+        correlation > kAsMotion ? ": what is left may as well be a motion that the model lacks"
+                                : ""));
   if (sigma.size() > 0 && sigma.maxCoeff() > 1.5 * sigma.minCoeff())
     words.push_back(fmt::format("the noisiest channel has {:.2g} times the noise of the quietest",
                                 sigma.maxCoeff() / sigma.minCoeff()));

@@ -114,6 +114,12 @@ TEST_CASE("correlated noise is found and made white, with missing frames too") {
   }
 }
 
+TEST_CASE("noise as slow as motion is said to be so") {
+  const std::string slow = "may as well be a motion that the model lacks";
+  CHECK(says(estimated(regressed(white(24, 400, 8), 0.95)), slow));
+  CHECK_FALSE(says(estimated(regressed(white(24, 400, 8), 0.6)), slow));
+}
+
 TEST_CASE("every channel has noise of its own") {
   MatrixXd residual = white(24, 240, 9);
   residual.row(5) *= 3;
