@@ -28,7 +28,7 @@ constexpr double kBoundDeviation = 2.3;
 /// A value so near to a bound, over the bound, is at it.
 constexpr double kAtBound = 0.01;
 /// Of a logarithm: the most that one linearisation may change it.
-constexpr double kReach = 1;
+constexpr double kLargestChange = 1;
 /// rad, rad/s: of coefficients of the start.
 constexpr double kStartDeviation = 0.2;
 /// Of the admissible range of any other.
@@ -105,9 +105,10 @@ VectorXd LatentUnknowns::deviation(const std::vector<Index>& which) const {
 double LatentUnknowns::moved(Index unknown, double value, double by) const {
   const auto j = static_cast<std::size_t>(unknown);
   const Unknown& limits = problem_.unknowns()[j];
-  return std::clamp(
-      logarithmic_[j] ? value * std::exp(std::clamp(by, -kReach, kReach)) : value + by,
-      limits.lower, limits.upper);
+  return std::clamp(logarithmic_[j]
+                        ? value * std::exp(std::clamp(by, -kLargestChange, kLargestChange))
+                        : value + by,
+                    limits.lower, limits.upper);
 }
 
 ForcePaths::ForcePaths(const Problem& problem, const LatentUnknowns& unknowns,

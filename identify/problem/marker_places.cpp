@@ -16,10 +16,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kFar = 1e3;  // m: no cable of a case is that long
+constexpr double kFarthestMark = 1e3;  // m: no cable of a case is that long
 constexpr catena_parameter kPlace = {
-    "",   "m", "How much farther from the support a marker sits than the case says", 0, -kFar,
-    kFar, 0};
+    "",
+    "m",
+    "How much farther from the support a marker sits than the case says",
+    0,
+    -kFarthestMark,
+    kFarthestMark,
+    0};
 
 /// What a parameter of the case names, if it is the place of a marker.
 std::optional<std::string> marker_of(const std::string& sets) {
