@@ -543,8 +543,8 @@ void add_simulation(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Models, simulation, identification and diagnosis of a hanging cable.";
-  py::exception<InputError>(module, "InputError", PyExc_ValueError);
-  py::exception<ComputationError>(module, "ComputationError", PyExc_RuntimeError);
+  const py::exception<InputError> input(module, "InputError", PyExc_ValueError);
+  const py::exception<ComputationError> computation(module, "ComputationError", PyExc_RuntimeError);
   py::register_exception_translator([](std::exception_ptr raised) {
     // A message may name a file, and names of files need not be UTF-8.
     const auto raise = [](const char* type, const char* what) {

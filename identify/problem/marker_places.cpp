@@ -41,7 +41,7 @@ std::string marker_place_of(const std::string& marker) {
   return std::string(kMarkerPlaces) + "." + marker;
 }
 
-Model with_marker_places(const Case& the_case, Model model) {
+Model with_marker_places(const Case& the_case, const Model& model) {
   std::vector<SensorParameter> places;
   for (const ParameterSpec& parameter : the_case.parameters) {
     const std::optional<std::string> marker = marker_of(parameter.sets);

@@ -22,7 +22,7 @@ std::string marker_place_of(const std::string& marker);
 
 /// The model with those of these parameters that the case sets behind its own; a model that has them is returned as it
 /// is.
-Model with_marker_places(const Case& the_case, Model model);
+Model with_marker_places(const Case& the_case, const Model& model);
 
 /// Throws InputError for a parameter of a marker that no experiment has at an arc length.
 void check_marker_places(const Case& the_case, const std::vector<Experiment>& experiments);
