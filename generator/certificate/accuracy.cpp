@@ -314,7 +314,18 @@ class Measurement {
     Values rate(as_index(table_.states)), tangent(rate);
     table_.state_rate(table_.context, &here, rate.data());
     table_.state_rate_tangent(table_.context, &here, &along, tangent.data());
-    const double size = largest(rate) + 1, tangent_size = largest(tangent) + size;
+    // A motion that time prescribes has a phase, whose rounding is one of time.
+    RandomPoint later = direction_;
+    for (auto* list : {&later.q, &later.v, &later.a, &later.z, &later.u, &later.p})
+      std::fill(list->begin(), list->end(), 0.0);
+    later.t = here.t;
+    ExactEvaluation ahead(chain_.definitions(), exact_inputs(table_, point_, later, step_));
+    ExactEvaluation behind(chain_.definitions(), exact_inputs(table_, point_, later, -step_));
+    Values by_time;
+    for (const ex& exact : chain_.state_rates())
+      by_time.push_back(((ahead.of(exact) - behind.of(exact)) / (2 * step_)).to_double());
+    const double size = largest(rate) + largest(by_time) + 1,
+                 tangent_size = largest(tangent) + size;
     for (std::size_t i = 0; i < rate.size(); ++i) {
       note("state_rate", difference(rate[i], here_->of(chain_.state_rates()[i])), size);
       note("state_rate_tangent", difference(tangent[i], slope(chain_.state_rates()[i])),

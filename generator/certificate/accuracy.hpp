@@ -10,6 +10,8 @@
 //   newton_solve                       backward: |N x - b| over |N| |x|; its transpose likewise;
 //                                      the step so short that elimination needs no row exchanges; with a
 //                                      constraint |N| is times the growth of M's entries in elimination
+//   state_rate                         the largest rate, one, and the derivative by time, times time: a phase
+//                                      that is rounded is time that is rounded
 //   residual_adjoint                   along a direction, over the sizes of what is added up there
 //   energy                             for each stored energy the sum of the sizes of its parts
 //   power                              the sum of the sizes of all powers, v.r included

@@ -365,9 +365,21 @@ static int32_t @whole_factor_in_place(@Matrix* m) {
 
 /* Overwrites x, the right-hand side, with the solution; after @whole_factor_in_place. */
 static void @whole_solve_in_place(@Matrix* m, double* x) {
+  double right[@border], found[@border] = {0.0};
+  double* const beyond = x + @block * kLinks;
+  memcpy(right, beyond, sizeof right);
   @matrix_solve_in_place(m, x);
-  @whole_border_rest(m->border_row, x);
-  @whole_border_solve(m->schur, @border, 1, m->border_column, x);
+  /* The second time solves for what rounding leaves of these rows after the first time. */
+  for (int time = 0; time < 2; ++time) {
+    for (int k = 0; k < @border; ++k) {
+      beyond[k] = right[k];
+      for (int l = 0; l < @border; ++l) beyond[k] -= m->corner[k * @border + l] * found[l];
+    }
+    @whole_border_rest(m->border_row, x);
+    @whole_border_solve(m->schur, @border, 1, m->border_column, x);
+    for (int k = 0; k < @border; ++k) found[k] += beyond[k];
+  }
+  memcpy(beyond, found, sizeof found);
 }
 )";
 

@@ -58,22 +58,34 @@ struct Bordered : BlockQuasiseparable<T, links, upper_rank, lower_rank, block> {
   /// (directions.hpp).
   template <class X>
   void solve(X* x) const {
-    Inner::solve(x);
-    X rest[border];
+    X right[border];
     for (int k = 0; k < border; ++k) {
-      rest[k] = x[n + k];
-      for (int a = 0; a < block; ++a)
-        for (int i = 0; i < links; ++i)
-          rest[k] = negative_multiply_add(border_row[a * border + k][i], x[a * links + i], rest[k]);
+      right[k] = x[n + k];
+      x[n + k] = X(0);
     }
-    for (int k = 0; k < border; ++k) {
-      X multiplier = X(0);
-      for (int l = 0; l < border; ++l) multiplier = multiply_add(schur[k][l], rest[l], multiplier);
-      x[n + k] = multiplier;
-      for (int a = 0; a < block; ++a)
-        for (int i = 0; i < links; ++i)
-          x[a * links + i] =
-              negative_multiply_add(border_column[a * border + k][i], multiplier, x[a * links + i]);
+    Inner::solve(x);
+    // Where N^-1 b is much larger than the solution, as that of a chain without what holds it, the first time
+    // leaves more than a rounding of the last rows; the second time solves for what is left.
+    for (int time = 0; time < 2; ++time) {
+      X rest[border];
+      for (int k = 0; k < border; ++k) {
+        rest[k] = right[k];
+        for (int l = 0; l < border; ++l)
+          rest[k] = negative_multiply_add(corner[k * border + l], x[n + l], rest[k]);
+        for (int a = 0; a < block; ++a)
+          for (int i = 0; i < links; ++i)
+            rest[k] =
+                negative_multiply_add(border_row[a * border + k][i], x[a * links + i], rest[k]);
+      }
+      for (int k = 0; k < border; ++k) {
+        X change = X(0);
+        for (int l = 0; l < border; ++l) change = multiply_add(schur[k][l], rest[l], change);
+        x[n + k] = x[n + k] + change;
+        for (int a = 0; a < block; ++a)
+          for (int i = 0; i < links; ++i)
+            x[a * links + i] =
+                negative_multiply_add(border_column[a * border + k][i], change, x[a * links + i]);
+      }
     }
   }
 
