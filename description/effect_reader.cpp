@@ -12,6 +12,7 @@
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "common/toml_reader.hpp"
+#include "description/built_in_effects.hpp"
 #include "description/description.hpp"
 #include "description/effect.hpp"
 #include "description/effect_checks.hpp"
@@ -35,6 +36,9 @@ const std::set<std::string, std::less<>>& reserved_names() {
                                                            "velocity_across",
                                                            "velocity_normal",
                                                            "velocity_tangential",
+                                                           "direction_side",
+                                                           "direction_down",
+                                                           "direction_across",
                                                            "relative_side",
                                                            "relative_down",
                                                            "relative_across",
@@ -81,6 +85,15 @@ class EffectReader {
     if (!effect_.form_of.empty()) check_identifier(file_, "form_of", effect_.form_of);
     effect_.rare = file_.optional_flag("rare").value_or(false);
     if (file_.has("space")) effect_.space = space_words()[file_.choice("space", space_words())];
+    if (const auto extended = file_.optional_text("extends")) take_over(*extended);
+    read_parts();
+    file_.finish();
+    check_consistency(effect_);
+    return std::move(effect_);
+  }
+
+ private:
+  void read_parts() {
     read_parameters();
     read_constants();
     read_signals();
@@ -92,12 +105,30 @@ class EffectReader {
     read_forces();
     read_scalars();
     read_whole_chain_terms();
-    file_.finish();
-    check_consistency(effect_);
-    return std::move(effect_);
   }
 
- private:
+  // All that the built-in effect `id` declares, as if it stood at the beginning of this file. Its own title
+  // and what a diagnosis makes of it stay behind.
+  void take_over(const std::string& id) {
+    const auto& effects = built_in_effects();
+    const auto base = std::find_if(effects.begin(), effects.end(),
+                                   [&](const BuiltInEffect& effect) { return effect.id == id; });
+    if (base == effects.end())
+      file_.fail("extends", in_quotes(id) + " is not a built-in effect" +
+                                suggestion(id, built_in_effect_ids()));
+    const TomlTable own = file_;
+    file_ = TomlTable::parse(base->text, "built in: " + id, "effect");
+    if (effect_.space.empty() && file_.has("space"))
+      effect_.space = space_words()[file_.choice("space", space_words())];
+    for (const char* const table :
+         {"flow", "support", "held_end", "held_joint", "kinematics", "sensor"})
+      if (file_.has(table) && own.has(table))
+        own.fail(table,
+                 "stands in " + in_quotes(id) + ", too, which this effect extends; leave one away");
+    read_parts();
+    file_ = own;
+  }
+
   void check_identifier(const TomlTable& table, std::string_view key, const std::string& name) {
     const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
     const auto inner = [&](char c) {

@@ -98,17 +98,19 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
   std::vector<ex> velocity, direction = direction_at(place, i);
   for (const ex& component : point_at(place, i)) velocity.push_back(time_.of(component));
   velocity.resize(3), direction.resize(3);
+  const char* const axis_names[] = {"side", "down", "across"};
+  for (std::size_t k = 0; k < 3; ++k)
+    here.known.add(std::string("direction_") + axis_names[k], direction[k], Unit::parse("1"));
   // v x e about side, down and across, and e x (v x e)
   const auto add_normal = [&](const std::string& name, const std::string& family,
                               const std::vector<ex>& v, const auto& define) {
     std::vector<ex> crossing(3), normal;
-    const char* axes[] = {"side", "down", "across"};
     const auto cross = [](const std::vector<ex>& a, const std::vector<ex>& b, std::size_t k) {
       return a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
     };
     // side, down, across is a left-handed or a right-handed system; twice a product, it does not matter.
     for (std::size_t k = 0; k < 3; ++k)
-      crossing[k] = define(family + axes[k] + "_velocity", cross(v, direction, k));
+      crossing[k] = define(family + axis_names[k] + "_velocity", cross(v, direction, k));
     for (std::size_t k = 0; k < 3; ++k) normal.push_back(cross(direction, crossing, k));
     add_size(here, name, "m/s", crossing, normal);
   };

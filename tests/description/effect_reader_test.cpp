@@ -114,12 +114,40 @@ TEST_CASE("a table is a definition whose constants carry its units") {
   CHECK(effect.constants[1].unit == "m/s");
 }
 
+TEST_CASE("an effect that extends a built-in one has all that it declares, and its own") {
+  const Effect base = built_in_effect("load_body");
+  const Effect effect = read("extends = \"load_body\"\n" + kParameter +
+                             "[[force]]\nat = \"load\"\nalong = \"yaw_rate\"\nvalue = "
+                             "\"c*added_lateral*relative_speed_lateral\"\n");
+  CHECK(effect.id == "drag");
+  CHECK(effect.source_file == "drag.toml");
+  CHECK(effect.space == base.space);
+  CHECK_FALSE(effect.rare);
+  REQUIRE(effect.parameters.size() == base.parameters.size() + 1);
+  CHECK(effect.parameters.front().name == base.parameters.front().name);
+  CHECK(effect.parameters.back().name == "c");
+  CHECK(effect.definitions.size() == base.definitions.size());
+  CHECK(effect.coordinates.size() == base.coordinates.size());
+  CHECK(effect.scalars.size() == base.scalars.size());
+  CHECK(effect.kinematics.load_side.text == base.kinematics.load_side.text);
+  REQUIRE(effect.forces.size() == base.forces.size() + 1);
+  CHECK(effect.forces.back().along.text == "yaw_rate");
+  CHECK(effect.forces.back().along.file == "drag.toml");
+  CHECK(effect.forces.front().value.file == "built in: load_body");
+}
+
 TEST_CASE("errors in an effect name their line") {
   struct Row {
     std::string body, said;
   };
   const Row rows[] = {
       {"", "drag.toml:1: the effect does nothing; give it"},
+      {"extends = \"load_boby\"\n" + kForceAlone,
+       "drag.toml:6: extends: \"load_boby\" is not a built-in effect; did you mean \"load_body\"?"},
+      {"extends = \"load_body\"\n[kinematics]\nload_side = \"1\"\n",
+       "drag.toml:7: kinematics: stands in \"load_body\", too, which this effect extends; leave"},
+      {"extends = \"load_body\"\n[parameters.pressure]\nunit = \"m\"\ndescription = \"c\"\n",
+       "drag.toml:7: parameters.pressure: \"pressure\" is given twice in this effect"},
       {"[[forse]]\n" + kForce, "drag.toml:6: unknown key \"forse\"; did you mean \"force\"?"},
       {"[parameters.c]\ndescription = \"c\"\n" + kForce,
        "drag.toml:6: parameters.c: \"unit\" is missing"},

@@ -11,6 +11,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generator/certificate/exact_evaluation.hpp"
@@ -541,13 +542,27 @@ TEST_CASE("a force along a velocity is that force, in the plane and in space") {
   const std::string head =
       "format = 1\nkind = \"effect\"\nid = \"own\"\ntitle = \"Own\"\ndescription = \"One\"\n"
       "[parameters.c]\nunit = \"N s/m\"\nneutral = 0.0\ndescription = \"c\"\n[[force]]\n";
-  for (const std::string place : {"load", "joint", "link_centre"}) {
+  using Laws = std::vector<std::string>;
+  const Laws towards_side = {"side = \"-c*velocity_down\"\n",
+                             "along = \"velocity_side\"\nvalue = \"-c*velocity_down\"\n"};
+  const Laws along_link = {
+      "tangential = \"-c*velocity_tangential\"\n",
+      "along = \"direction_side*velocity_side + direction_down*velocity_down + "
+      "direction_across*velocity_across\"\nvalue = \"-c*velocity_tangential\"\n",
+      "side = \"-c*velocity_tangential*direction_side\"\n"
+      "down = \"-c*velocity_tangential*direction_down\"\n"
+      "across = \"-c*velocity_tangential*direction_across\"\n"};
+  for (const auto& [place, laws] :
+       std::vector<std::pair<std::string, Laws>>{{"load", towards_side},
+                                                 {"joint", towards_side},
+                                                 {"link_centre", towards_side},
+                                                 {"load", along_link},
+                                                 {"link_centre", along_link}}) {
     for (const Space space : {Space::kPlane, Space::kThreeDimensional}) {
       CAPTURE(place);
       std::vector<std::vector<ex>> residuals;
       std::vector<ex> powers;
-      for (const std::string law : {"side = \"-c*velocity_down\"\n",
-                                    "along = \"velocity_side\"\nvalue = \"-c*velocity_down\"\n"}) {
+      for (const std::string& law : laws) {
         Description description = with({}, space);
         std::string text = head;
         text.append("at = \"").append(place).append("\"\n").append(law);
@@ -565,9 +580,12 @@ TEST_CASE("a force along a velocity is that force, in the plane and in space") {
         powers.push_back(power);
       }
       CHECK(size(residuals[0][0]) > 1e-3);
-      CHECK(difference(powers[0], powers[1]) < kTolerance);
-      for (std::size_t i = 0; i < residuals[0].size(); ++i)
-        CHECK(difference(residuals[0][i], residuals[1][i]) < kTolerance);
+      for (std::size_t k = 1; k < laws.size(); ++k) {
+        CAPTURE(laws[k]);
+        CHECK(difference(powers[0], powers[k]) < kTolerance);
+        for (std::size_t i = 0; i < residuals[0].size(); ++i)
+          CHECK(difference(residuals[0][i], residuals[k][i]) < kTolerance);
+      }
     }
   }
 }
