@@ -9,6 +9,7 @@
 using namespace catena;
 using testing::replaced;
 
+namespace canonical_text_test {
 namespace {
 
 const std::string kEffect =
@@ -76,3 +77,5 @@ TEST_CASE("SHA-256 of the standard's examples and across the padding") {
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   CHECK(sha256_hex(std::string(55, 'x')) != sha256_hex(std::string(56, 'x')));
 }
+
+}  // namespace canonical_text_test

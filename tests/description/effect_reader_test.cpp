@@ -9,6 +9,7 @@
 
 using namespace catena;
 
+namespace effect_reader_test {
 namespace {
 
 const std::string kHead =
@@ -318,3 +319,5 @@ TEST_CASE("errors in an effect name their line") {
     CHECK(said.find(row.said) == 0);
   }
 }
+
+}  // namespace effect_reader_test

@@ -13,6 +13,7 @@
 #include "runtime/model.hpp"
 #include "tests/runtime/reference_model.hpp"
 
+namespace twin_test {
 namespace {
 
 using catena::testing::reference_model;
@@ -390,3 +391,5 @@ TEST_CASE("every built-in model was compared above") {
 }
 
 }  // namespace
+
+}  // namespace twin_test

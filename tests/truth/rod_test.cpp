@@ -13,6 +13,7 @@
 #include "truth/camera.hpp"
 #include "truth/files.hpp"
 
+namespace rod_test {
 namespace {
 
 using truth::Cable;
@@ -221,3 +222,5 @@ TEST_CASE("lens, shutter, misplaced marks and wrong knowns are as asked") {
   CHECK(wrong.bending_stiffness == kCable.bending_stiffness);
   CHECK_THROWS_AS(stated.set("stiffness", 0.1), std::invalid_argument);
 }
+
+}  // namespace rod_test

@@ -15,6 +15,7 @@ using namespace catena;
 using namespace catena::checking;
 using GiNaC::ex;
 
+namespace flat_derivation_test {
 namespace {
 
 bool identical(const ex& a, const ex& b) {
@@ -77,3 +78,5 @@ TEST_CASE("the time derivative follows the chain rule") {
   CHECK(s.time_derivative(s.mass[1] * s.gravity).is_zero());
   CHECK_THROWS_AS((void)s.time_derivative(s.acceleration[1]), std::invalid_argument);
 }
+
+}  // namespace flat_derivation_test

@@ -14,6 +14,7 @@ using namespace catena;
 using namespace catena::checking;
 using namespace catena::tests;
 
+namespace normal_form_test {
 namespace {
 
 struct Row {
@@ -95,3 +96,5 @@ TEST_CASE("a denominator that is zero by identity is refused") {
   CHECK(result.of("row").verdict == Verdict::kDifferent);
   CHECK(result.of("row").remark == "a denominator is identically zero");
 }
+
+}  // namespace normal_form_test

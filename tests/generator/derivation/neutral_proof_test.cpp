@@ -10,6 +10,7 @@
 
 using namespace catena;
 
+namespace neutral_proof_test {
 namespace {
 
 constexpr int kLinks = 3;
@@ -91,3 +92,5 @@ TEST_CASE("a moment on a load's own coordinate is found if it depends on the lin
     CHECK(all_equal(prove_neutral(with({effect}), kLinks)) == !row.depends);
   }
 }
+
+}  // namespace neutral_proof_test

@@ -22,6 +22,7 @@ using namespace catena;
 using GiNaC::ex;
 using GiNaC::numeric;
 
+namespace space_effects_test {
 namespace {
 
 constexpr int kLinks = 3;
@@ -589,3 +590,5 @@ TEST_CASE("a force along a velocity is that force, in the plane and in space") {
     }
   }
 }
+
+}  // namespace space_effects_test

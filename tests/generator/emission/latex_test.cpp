@@ -11,6 +11,7 @@
 
 using namespace catena;
 
+namespace latex_test {
 namespace {
 
 // Without spaces, line breaks, alignment and needless braces: "\theta_{1}" is "\theta_1".
@@ -205,3 +206,5 @@ TEST_CASE("rest angles stand in the equations") {
   CHECK(text.find("e_{2} ={}& 0") != std::string::npos);
   CHECK(latex_document(plain_chain(), {2}).find("\\vec{E}") == std::string::npos);
 }
+
+}  // namespace latex_test

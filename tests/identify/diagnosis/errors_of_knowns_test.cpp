@@ -13,6 +13,7 @@
 
 using namespace catena;
 
+namespace errors_of_knowns_test {
 namespace {
 
 constexpr double kNoise = 1e-3;
@@ -94,3 +95,5 @@ TEST_CASE("effects of sensors and of wrong knowns are errors of knowns, physics 
   for (const char* id : {"load_drag", "joint_hysteresis", "support_motion", "added_mass"})
     CHECK_FALSE(is_error_of_known(candidate_of(built_in_effect(id))));
 }
+
+}  // namespace errors_of_knowns_test

@@ -12,6 +12,7 @@
 
 using namespace catena;
 
+namespace fitted_model_test {
 namespace {
 
 const std::vector<NoiseModel> kNoise = {{.level = 1e-3}};
@@ -72,3 +73,5 @@ TEST_CASE("a frequency is told from that of the motion if it is one over the dur
   CHECK(told_from_motion(model, 1.0));
   CHECK(told_from_motion(model, 0.6));
 }
+
+}  // namespace fitted_model_test

@@ -10,6 +10,7 @@
 
 using namespace catena;
 
+namespace held_out_starts_test {
 namespace {
 
 const char* const kAnyStart = R"(
@@ -76,3 +77,5 @@ TEST_CASE(
   CHECK_FALSE(tested_held_out_gap(found, noise).present);
   CHECK(tested_held_out_gap(other, noise).present);
 }
+
+}  // namespace held_out_starts_test

@@ -14,6 +14,7 @@
 
 using namespace catena;
 
+namespace look_back_test {
 namespace {
 
 constexpr int kFrames = 240, kChannels = 12;
@@ -243,3 +244,5 @@ TEST_CASE(
   found.alternatives.front().instead_of = "load_drag";
   CHECK_FALSE(standing_effects(found).empty());
 }
+
+}  // namespace look_back_test

@@ -8,6 +8,7 @@
 
 #include "identify/noise/cosine_spectrum.hpp"
 
+namespace maximum_statistic_test {
 namespace {
 
 using Eigen::Index;
@@ -113,3 +114,5 @@ TEST_CASE("what the check throws ends the work") {
 }
 
 }  // namespace
+
+}  // namespace maximum_statistic_test

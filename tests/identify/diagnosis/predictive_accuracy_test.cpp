@@ -11,6 +11,7 @@
 
 using namespace catena;
 
+namespace predictive_accuracy_test {
 namespace {
 
 constexpr int kChannels = 4;
@@ -71,3 +72,5 @@ TEST_CASE("of two models that predict alike, one leads by chance as rarely as it
   CHECK(one_in_20 <= 71);
   CHECK(one_in_1000 <= 5);  // 1 expected
 }
+
+}  // namespace predictive_accuracy_test

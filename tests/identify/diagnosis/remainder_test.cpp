@@ -14,6 +14,7 @@
 
 using namespace catena;
 
+namespace remainder_test {
 namespace {
 
 using Eigen::Index;
@@ -172,3 +173,5 @@ TEST_CASE("at a glance a gap is closed where a tenth of the misfit is left, or n
   left.present = false;
   CHECK(nearly_closes(left, before));
 }
+
+}  // namespace remainder_test

@@ -13,6 +13,7 @@
 
 using namespace catena;
 
+namespace sealed_part_test {
 namespace {
 
 constexpr int kFrames = 200;
@@ -86,3 +87,5 @@ TEST_CASE("what is shown and written has no seal") {
   CHECK(opened.experiments()[0].recording.sealed.size() == 0);
   CHECK(std::isinf(opened.with(found.final.x).experiments[0].sealed_from));
 }
+
+}  // namespace sealed_part_test

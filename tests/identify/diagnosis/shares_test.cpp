@@ -10,6 +10,7 @@ using namespace catena;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+namespace shares_test {
 namespace {
 
 constexpr Index kChannels = 8, kFrames = 180;
@@ -96,3 +97,5 @@ TEST_CASE("the intervals cover the shares of an endless recording in 90 to 97 of
   CHECK(covered > 0.90 * 3 * kTrials);
   CHECK(covered < 0.97 * 3 * kTrials);
 }
+
+}  // namespace shares_test

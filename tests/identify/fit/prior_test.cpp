@@ -12,6 +12,7 @@
 
 using namespace catena;
 
+namespace prior_test {
 namespace {
 
 constexpr double kNoise = 1e-3, kTruth = 0.1;
@@ -77,3 +78,5 @@ TEST_CASE("a case written at the fitted values keeps what was measured before") 
   CHECK(known.with(x).parameters[0].value == 0.11);
   CHECK(known.with(x).parameters[0].measured == doctest::Approx(1.2 * kTruth));
 }
+
+}  // namespace prior_test
