@@ -33,31 +33,40 @@ uint32_t Sigma1(uint32_t x) { return rotr(x, 6) ^ rotr(x, 11) ^ rotr(x, 25); }
 uint32_t sigma0(uint32_t x) { return rotr(x, 7) ^ rotr(x, 18) ^ (x >> 3); }
 uint32_t sigma1(uint32_t x) { return rotr(x, 17) ^ rotr(x, 19) ^ (x >> 10); }
 
-// 5.1.1: a one bit, zeros up to 56 bytes modulo 64, the length in bits.
-std::string padded(std::string_view message) {
-  std::string text(message);
-  text.push_back('\x80');
-  while (text.size() % 64 != 56) text.push_back('\0');
-  const std::uint64_t bits = 8 * static_cast<std::uint64_t>(message.size());
-  for (int shift = 56; shift >= 0; shift -= 8) {
-    text.push_back(static_cast<char>((bits >> shift) & 0xff));
+/// The hash of a message that comes in parts of any size: a file need not be in memory.
+class Sha256 {
+ public:
+  void add(std::string_view part) {
+    size_ += part.size();
+    rest_ += part;
+    std::size_t at = 0;
+    for (; at + 64 <= rest_.size(); at += 64) add_block(std::string_view(rest_).substr(at, 64));
+    rest_.erase(0, at);
   }
-  return text;
-}
 
-}  // namespace
+  /// 5.1.1: a one bit, zeros up to 56 bytes modulo 64, the length in bits. Nothing can be added then.
+  std::string hexadecimal() {
+    const std::uint64_t bits = 8 * size_;
+    std::string end(1, '\x80');
+    end.resize(1 + (119 - rest_.size()) % 64, '\0');
+    for (int shift = 56; shift >= 0; shift -= 8)
+      end.push_back(static_cast<char>((bits >> shift) & 0xff));
+    add(end);
+    std::string digest;
+    for (const uint32_t word : H) {
+      for (int shift = 28; shift >= 0; shift -= 4)
+        digest += "0123456789abcdef"[(word >> shift) & 0xf];
+    }
+    return digest;
+  }
 
-std::string sha256_hex(std::string_view message) {
-  // 5.3.3: the same of the square roots of the first eight primes.
-  std::array<uint32_t, 8> H = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                               0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  const std::string text = padded(message);
-  for (std::size_t block = 0; block < text.size(); block += 64) {  // 6.2.2
+ private:
+  void add_block(std::string_view block) {  // 6.2.2
     std::array<uint32_t, 64> W{};
     for (std::size_t t = 0; t < 64; ++t) {
       if (t < 16) {
         for (std::size_t byte = 0; byte < 4; ++byte) {
-          W[t] = (W[t] << 8) | static_cast<unsigned char>(text[block + 4 * t + byte]);
+          W[t] = (W[t] << 8) | static_cast<unsigned char>(block[4 * t + byte]);
         }
       } else {
         W[t] = sigma1(W[t - 2]) + W[t - 7] + sigma0(W[t - 15]) + W[t - 16];
@@ -73,16 +82,26 @@ std::string sha256_hex(std::string_view message) {
     const std::array<uint32_t, 8> working = {a, b, c, d, e, f, g, h};
     for (std::size_t i = 0; i < 8; ++i) H[i] += working[i];
   }
-  std::string digest;
-  for (const uint32_t word : H) {
-    for (int shift = 28; shift >= 0; shift -= 4)
-      digest += "0123456789abcdef"[(word >> shift) & 0xf];
-  }
-  return digest;
+
+  // 5.3.3: the same as K of the square roots of the first eight primes.
+  std::array<uint32_t, 8> H = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                               0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  std::uint64_t size_ = 0;
+  std::string rest_;  // less than a block
+};
+
+}  // namespace
+
+std::string sha256_hex(std::string_view message) {
+  Sha256 hash;
+  hash.add(message);
+  return hash.hexadecimal();
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  return sha256_hex(bytes_of_file(file, std::string::npos));  // a result may be of any size
+  Sha256 hash;
+  read_in_parts(file, [&](std::string_view part) { hash.add(part); });
+  return hash.hexadecimal();
 }
 
 }  // namespace catena

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -102,7 +103,8 @@ void require_utf8(std::string_view text, const std::string& what) {
                    "utf8 converts it)");
 }
 
-std::string bytes_of_file(const std::filesystem::path& path, std::size_t most) {
+void read_in_parts(const std::filesystem::path& path,
+                   const std::function<void(std::string_view)>& take) {
   // A stream does not tell a failure to read from the end of the file.
   const auto fail = [&] {
     const std::error_code error(errno, std::generic_category());
@@ -112,17 +114,23 @@ std::string bytes_of_file(const std::filesystem::path& path, std::size_t most) {
   if (file < 0) fail();
   const std::unique_ptr<const int, void (*)(const int*)> closed(&file,
                                                                 [](const int* f) { close(*f); });
-  std::string bytes;
   std::array<char, 1 << 16> buffer;
   for (ssize_t got; (got = read(file, buffer.data(), buffer.size())) != 0;) {
     if (got > 0)
-      bytes.append(buffer.data(), static_cast<std::size_t>(got));
+      take({buffer.data(), static_cast<std::size_t>(got)});
     else if (errno != EINTR)
       fail();
+  }
+}
+
+std::string bytes_of_file(const std::filesystem::path& path, std::size_t most) {
+  std::string bytes;
+  read_in_parts(path, [&](std::string_view part) {
+    bytes += part;
     if (bytes.size() > most)
       throw InputError(path.string() + ": is larger than " + std::to_string(most / 1'000'000) +
                        " MB, the most that is read of a file; give a part of it");
-  }
+  });
   return bytes;
 }
 

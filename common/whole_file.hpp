@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,11 @@ namespace catena {
 /// The most bytes of an input file: a recording of ten million frames of three markers. Without
 /// a limit, an endless file (/dev/zero) would take all memory.
 inline constexpr std::size_t kMostFileBytes = 500'000'000;
+
+/// Hands the bytes of a file over as they are, in parts of 64 KB at most. Throws
+/// std::filesystem::filesystem_error naming the path if they cannot be read, all of them.
+void read_in_parts(const std::filesystem::path& path,
+                   const std::function<void(std::string_view)>& take);
 
 /// The bytes of a file as they are. Throws std::filesystem::filesystem_error naming the path if they
 /// cannot be read, all of them, and InputError if they are more than `most`.

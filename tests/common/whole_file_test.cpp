@@ -72,6 +72,15 @@ TEST_CASE("a result larger than an input may be has a checksum") {
   CHECK(sha256_of_file(result).size() == 64);
 }
 
+TEST_CASE("a file that is read in parts has the hash of its text") {
+  const testing::TemporaryFolder folder;
+  std::string text;
+  for (const std::size_t size : {0, 55, 56, 63, 64, 65, 65536, 200001}) {
+    for (std::size_t k = text.size(); k < size; ++k) text += static_cast<char>('a' + k % 23);
+    CHECK(sha256_of_file(folder.write("text", text)) == sha256_hex(text));
+  }
+}
+
 TEST_CASE("within a run a file is read once, unless the run writes it") {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("case.toml", "first");
