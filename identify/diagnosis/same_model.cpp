@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kStates = 8;
-constexpr double kStep = 0.1;      // of an amplitude, in its unit
+constexpr double kDifferenceStep = 0.1;      // of an amplitude, in its unit
 constexpr double kEqual = 1e-6;    // relative: above roundings and the floors of |v|
 constexpr double kNothing = 1e-9;  // of the residual: an amplitude that does nothing
 
@@ -74,7 +74,7 @@ Span span_of(const Candidate& candidate, const Model& all, const VectorXd& param
   for (const CandidateParameter& parameter : candidate.parameters) {
     VectorXd changed = parameters;
     const double room = parameter.upper - parameter.neutral;
-    changed[all.parameter_index(parameter.name)] += std::min(kStep, room);
+    changed[all.parameter_index(parameter.name)] += std::min(kDifferenceStep, room);
     const VectorXd slope = residuals(all, changed) - plain;
     if (slope.norm() > kNothing * plain.norm()) columns.push_back(slope.normalized());
   }
