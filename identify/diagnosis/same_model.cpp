@@ -16,9 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kStates = 8;
-constexpr double kDifferenceStep = 0.1;      // of an amplitude, in its unit
-constexpr double kEqual = 1e-6;    // relative: above roundings and the floors of |v|
-constexpr double kNothing = 1e-9;  // of the residual: an amplitude that does nothing
+constexpr double kDifferenceStep = 0.1;  // of an amplitude, in its unit
+constexpr double kEqual = 1e-6;          // relative: above roundings and the floors of |v|
+constexpr double kNothing = 1e-9;        // of the residual: an amplitude that does nothing
 
 /// A candidate, and how r changes with each of its amplitudes that does anything.
 struct Span {
