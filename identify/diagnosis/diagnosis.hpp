@@ -77,7 +77,9 @@ struct Diagnosis {
 
 struct DiagnosisOptions {
   int max_effects = 4;  ///< fits with all their subsets give the shares
-  int max_links = 60;
+  /// A clamped cable bends within sqrt(bending stiffness / tension), which a link must not exceed: 0.11 m
+  /// for a soft rope of 10 m. More links are tried only where the data want them.
+  int max_links = 120;
   int refits = 6;  ///< candidates refitted in every look
   /// A law in no library is sought also where effects of the library close the gap.
   bool discover = false;

@@ -101,12 +101,10 @@ Residuals fitted_residuals(const Problem& problem, const Evaluation& evaluation)
     make_white(residuals.value);
     for (std::size_t i = first; i < last; ++i)
       kept[i] = !std::isnan(residuals.value[static_cast<Index>(i)]);
-    for (Index j = 0; j < residuals.jacobian.cols(); ++j) {
-      auto along = residuals.jacobian.col(j).segment(static_cast<Index>(first),
-                                                     static_cast<Index>(last - first));
-      if (!along.isZero(0))
-        make_white(residuals.jacobian.col(j));  // else of another window's start
-    }
+    const auto& sensitivity = evaluation.predictions[e].sensitivity;
+    for (Index j = 0; j < residuals.jacobian.cols(); ++j)
+      if (sensitivity[static_cast<std::size_t>(j)].size() > 0)  // else of another window's start
+        make_white(residuals.jacobian.col(j));
   }
   if (std::find(kept.begin(), kept.end(), false) == kept.end()) return residuals;
   Residuals seen;

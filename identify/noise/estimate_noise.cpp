@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "identify/noise/frame_grid.hpp"
+#include "identify/noise/neighbour_differences.hpp"
 #include "identify/noise/noise_band.hpp"
 #include "identify/noise/noise_level.hpp"
 #include "identify/noise/segments.hpp"
@@ -181,10 +182,15 @@ std::vector<NoiseModel> estimate_noise(const std::vector<NoiseWindow>& windows,
   if (longest >= length) {
     const ExpectedPower expected(length);
     noise.shape = kFirstShape;
-    for (int round = 0; round < kRounds && (round == 0 || noise.told); ++round) {
-      const Segments segments(residuals, predictions, noise.shape, expected.taper());
-      noise.told = improve(noise, segments, expected);
-    }
+    const auto segmented = [&] {
+      return Segments(residuals, predictions, noise.shape, expected.taper());
+    };
+    for (int round = 0; round < kRounds && (round == 0 || noise.told); ++round)
+      noise.told = improve(noise, segmented(), expected);
+    // What neighbouring channels share is a misfit that was taken for noise.
+    noise.told =
+        noise.told &&
+        !NeighbourDifferences(segmented(), noise.sigma, direction).refute(expected(noise.shape));
   }
   if (!noise.told) {
     const auto channels = static_cast<Index>(direction.size());
