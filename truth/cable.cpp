@@ -46,9 +46,9 @@ class Chain {
   int links() const { return n_; }
 
   /// Residual of Newton's equations at (t, q, v, a). `memory`: the hysteretic part of each joint
-  /// angle.
+  /// angle. `outside`: takes what the laws outside of every library do, if it is wanted.
   void residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                const VectorXd& memory, VectorXd& r) const;
+                const VectorXd& memory, VectorXd& r, OutsideForces* outside = nullptr) const;
 
   Vector support(double t) const {
     const double w = 2 * std::numbers::pi * hidden_.support_frequency;
@@ -139,7 +139,7 @@ double Chain::middle_moment(double angle, double rate) const {
 }
 
 void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                     const VectorXd& memory, VectorXd& r) const {
+                     const VectorXd& memory, VectorXd& r, OutsideForces* outside) const {
   const Hidden& h = hidden_;
   const bool stretches = unknowns_ > n_;
   thread_local std::vector<Vector> lack, along, across;
@@ -190,8 +190,11 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                 link_ * h.added_tangential * (vtd * along[k] + (vt * v[i]) * across[k]);
       turning[k] += link_ * (h.added_tangential - h.added_normal) * vn * vt;
     }
-    if (i == n_ / 2 - 1)  // the link whose lower end is mid-cable
-      lack[k] = lack[k] + middle_force(t, centre.position, centre.velocity, centre.acceleration);
+    if (i == n_ / 2 - 1) {  // the link whose lower end is mid-cable
+      const Vector force = middle_force(t, centre.position, centre.velocity, centre.acceleration);
+      lack[k] = lack[k] + force;
+      if (outside) outside->middle = {centre.position, centre.velocity, q[i], force};
+    }
     end = beyond(link_, 1.0);
   }
   const auto last = static_cast<std::size_t>(n_ - 1);
@@ -202,8 +205,9 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                               end.velocity + (d * v[n_ - 1]) * across[last],
                               end.acceleration + (-d * v[n_ - 1] * v[n_ - 1]) * along[last] +
                                   (d * a[n_ - 1]) * across[last]};
-  Vector carried = load * (gravity - load_centre.acceleration) +
-                   load_force(t, load_centre.position, load_centre.velocity) -
+  const Vector on_load = load_force(t, load_centre.position, load_centre.velocity);
+  if (outside) outside->load = {load_centre.position, load_centre.velocity, q[n_ - 1], on_load};
+  Vector carried = load * (gravity - load_centre.acceleration) + on_load -
                    h.load_added_mass * load_centre.acceleration;
 
   // Up the chain: the projections.
@@ -222,7 +226,15 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
         h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
     if (h.tension_friction != 0)
       moment += h.tension_friction * norm(carried + lack[k]) * rounded_sign(rate);
-    if (i == n_ / 2) moment += middle_moment(angle, rate);
+    if (i == n_ / 2) {
+      const double against = middle_moment(angle, rate);
+      moment += against;
+      if (outside) {
+        outside->joint_angle = angle;
+        outside->joint_rate = rate;
+        outside->joint_moment = -against;
+      }
+    }
     if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
       moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
@@ -280,6 +292,16 @@ class Midpoint {
   /// Between the last two step ends.
   VectorXd angles_at(double t) const {
     return hermite(q_before_, v_before_, q_, v_, step_, (t - (time() - step_)) / step_);
+  }
+
+  /// In the middle of the last step.
+  OutsideForces outside() const {
+    OutsideForces outside;
+    outside.time = time() - 0.5 * step_;
+    VectorXd r(v_.size());
+    chain_.residual(outside.time, 0.5 * (q_before_ + q_), 0.5 * (v_before_ + v_),
+                    (v_ - v_before_) / step_, memory_, r, &outside);
+    return outside;
   }
 
   void advance() {
@@ -430,6 +452,21 @@ Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>&
     motion.angle.push_back(angle);
   }
   return motion;
+}
+
+std::vector<OutsideForces> outside_forces(const Cable& cable, const Hidden& hidden,
+                                          const std::vector<double>& start_angles,
+                                          const std::vector<double>& time,
+                                          const Integration& integration) {
+  const Chain chain(cable, hidden);
+  Midpoint state(chain, hidden, start_state(cable, hidden, chain, start_angles), integration.step);
+  state.advance();
+  std::vector<OutsideForces> forces;
+  for (const double t : time) {
+    while (state.time() < t) state.advance();
+    forces.push_back(state.outside());
+  }
+  return forces;
 }
 
 std::vector<double> mechanical_energy(const Cable& cable, const std::vector<double>& start_angles,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "truth/hidden.hpp"
+#include "truth/vector.hpp"
 
 namespace truth {
 
@@ -28,6 +29,19 @@ struct Motion {
   std::vector<std::vector<double>> side, down, angle;  // [time][point], m and rad
 };
 
+/// The hidden laws that are in no library (hidden.hpp): what they do at mid-cable, at the load and in
+/// the joint at mid-cable, and the motion there.
+struct OutsideForces {
+  struct AtPoint {
+    Vector position, velocity;  // m, m/s
+    double angle = 0;           // rad, of the link
+    Vector force;               // N, on the cable or the load
+  };
+  double time = 0;  // s
+  AtPoint middle, load;
+  double joint_angle = 0, joint_rate = 0, joint_moment = 0;  // rad, rad/s, N m that opens the joint
+};
+
 struct Integration {
   double step = 2e-4;  // s; half of it changes no marker by more than 0.05 mm
 };
@@ -43,6 +57,13 @@ std::vector<double> catenary_angles(const Cable& cable, double held_side, double
 Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>& start_angles,
             const std::vector<double>& arc, const std::vector<double>& time,
             const Integration& integration = {});
+
+/// What the hidden laws do in the same motion: in the middle of the integrator's step that leads to, or
+/// beyond, each of these times.
+std::vector<OutsideForces> outside_forces(const Cable& cable, const Hidden& hidden,
+                                          const std::vector<double>& start_angles,
+                                          const std::vector<double>& time,
+                                          const Integration& integration = {});
 
 /// Kinetic plus potential energy over time of the same motion without hidden effects, J, for the
 /// tests of this simulator itself.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <stdexcept>
 #include <utility>
 
@@ -65,6 +66,28 @@ void write_markers(const Recording& recording, const std::filesystem::path& path
       std::snprintf(field, sizeof field, ",%.6f,%.6f", recording.side[i][k], recording.down[i][k]);
       text += field;
     }
+    text += '\n';
+  }
+  write_text(text, path);
+}
+
+void write_outside_forces(const std::vector<OutsideForces>& forces,
+                          const std::filesystem::path& path) {
+  std::string text = "time_s";
+  for (const char* where : {"middle_", "load_"})
+    for (const char* what :
+         {"side", "down", "velocity_side", "velocity_down", "angle", "force_side", "force_down"})
+      text.append(",").append(where).append(what);
+  text += ",joint_angle,joint_rate,joint_moment\n";
+  for (const OutsideForces& row : forces) {
+    text += number(row.time);
+    const auto add = [&](std::initializer_list<double> values) {
+      for (const double value : values) text.append(",").append(number(value));
+    };
+    for (const OutsideForces::AtPoint* at : {&row.middle, &row.load})
+      add({at->position.side, at->position.down, at->velocity.side, at->velocity.down, at->angle,
+           at->force.side, at->force.down});
+    add({row.joint_angle, row.joint_rate, row.joint_moment});
     text += '\n';
   }
   write_text(text, path);

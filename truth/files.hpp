@@ -13,6 +13,11 @@ namespace truth {
 /// time_s, side_i_m, down_i_m; an empty field where a marker was not seen.
 void write_markers(const Recording& recording, const std::filesystem::path& path);
 
+/// time_s; of mid-cable and of the load (middle_, load_): side, down, velocity_side, velocity_down, angle,
+/// force_side, force_down; joint_angle, joint_rate, joint_moment. In m, m/s, rad, rad/s, N, N m.
+void write_outside_forces(const std::vector<OutsideForces>& forces,
+                          const std::filesystem::path& path);
+
 /// By which share the case states a known of the cable too large.
 struct Stated {
   double length = 0, density = 0, load = 0;

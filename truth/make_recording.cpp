@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   bool rod = false;
   std::vector<std::string> stated_texts;
   std::filesystem::path films;
+  bool forces = false;
 
   CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
   app.add_option("--output", output, "folder to write to")->required();
@@ -58,6 +59,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, static_cast<int>(std::size(kTurns))));
   app.add_option("--films", films,
                  "folder that keeps motions, to film them again with other noise");
+  app.add_flag("--forces", forces,
+               "also write forces.csv: what effects that are in no library do, frame by frame");
   app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
   app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
   app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");
@@ -108,6 +111,8 @@ int main(int argc, char** argv) {
       const auto [name, share] = split("--stated", text);
       stated.set(name, share);
     }
+    if (forces && (rod || recordings > 1))
+      throw std::invalid_argument("--forces: of one recording of a chain of links only");
     std::filesystem::create_directories(output);
     const double reach = std::hypot(held.at(0), held.at(1)), angle = std::atan2(held[0], held[1]);
     std::vector<std::vector<double>> points;
@@ -131,7 +136,12 @@ int main(int argc, char** argv) {
       here.seed = camera.seed + kOtherSeed * static_cast<std::uint64_t>(k);
       const std::string file =
           recordings == 1 ? "markers.csv" : "markers_" + std::to_string(k + 1) + ".csv";
-      truth::write_markers(truth::film(cable, hidden, moves, here), output / file);
+      const truth::Recording recording = truth::film(cable, hidden, moves, here);
+      truth::write_markers(recording, output / file);
+      if (forces)
+        truth::write_outside_forces(
+            truth::outside_forces(cable, hidden, start, recording.time, integration),
+            output / "forces.csv");
       points.push_back(point);
       case_options.recordings.push_back(file);
     }

@@ -351,3 +351,40 @@ TEST_CASE("a motion that was kept is filmed again with the same bytes, another o
   CHECK_THROWS_AS(filmed({}, camera), std::runtime_error);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("what the hidden laws in no library do, where they act") {
+  const Cable cable{.links = 4};
+  Hidden hidden;
+  hidden.wall_spring = 0.5;
+  hidden.magnet = 0.02;
+  hidden.brake = 0.1;
+  hidden.joint_stop = 1;
+  const auto start = truth::catenary_angles(cable, 1.2, 2.0);
+  const std::vector<double> time = frames(1, 1000);
+  const auto forces = truth::outside_forces(cable, hidden, start, time);
+  REQUIRE(forces.size() == time.size());
+  const truth::Motion motion = truth::move(cable, hidden, start, {cable.length}, time);
+  double work = 0, largest = 0;
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    const truth::OutsideForces& now = forces[i];
+    CHECK(now.middle.force.side ==
+          doctest::Approx(-0.5 * (now.middle.position.side - hidden.wall_side)));
+    CHECK(now.middle.force.down == 0);
+    // The load is where the motion has it, up to half a step.
+    CHECK(std::abs(now.load.position.side - motion.side[i][0]) < 1e-3);
+    const double share = now.joint_rate / hidden.brake_rate;
+    const double play = std::max(0.0, std::abs(now.joint_angle) - hidden.joint_gap);
+    CHECK(now.joint_moment == doctest::Approx(-0.1 * now.joint_rate / (1 + share * share) -
+                                              std::copysign(play, now.joint_angle)));
+    work += (now.time - forces[i - 1].time) * dot(now.load.force, now.load.velocity);
+    largest = std::max(largest, norm(now.load.force));
+  }
+  // A magnet gives what its potential -strength/distance loses.
+  const auto potential = [&](const truth::OutsideForces& at) {
+    const double away = cable.length + hidden.magnet_depth - at.load.position.down;
+    return -hidden.magnet / std::sqrt(std::pow(at.load.position.side, 2) + away * away + 1e-4);
+  };
+  CHECK(work ==
+        doctest::Approx(potential(forces.front()) - potential(forces.back())).epsilon(0.01));
+  CHECK(largest > 0.1);
+}
