@@ -27,8 +27,8 @@ constexpr double kBound = 1000, kMostShapeChange = 20;
 /// A step of a number, over its size; the least shape that is no edge, in half widths.
 constexpr double kNumberStep = 0.02, kLeastShape = 0.01;
 constexpr const char* kEdge = "edge";
-/// Fixed points of a distance: in so many directions, so far beyond what the place visits, over the
-/// length of the cable.
+/// Fixed points of a distance: in so many directions from the middle of what the place visits, so far beyond
+/// that, over the length of the cable.
 constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
 
@@ -290,15 +290,20 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
       positions.emplace_back(
           place_kinematics(state, chain.coordinates, chain.lengths, site.arc_length)
               .motion.head<2>());
+    Vector2d least = positions.front(), most = least;
+    for (const Vector2d& at : positions) {
+      least = least.cwiseMin(at);
+      most = most.cwiseMax(at);
+    }
+    const Vector2d middle = 0.5 * (least + most);
     for (int k = 0; k < kDirections; ++k) {
       const double turn = 2 * std::numbers::pi * k / kDirections;
       const Vector2d direction(std::sin(turn), std::cos(turn));
-      const Vector2d farthest = *std::max_element(
-          positions.begin(), positions.end(),
-          [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
+      double reach = 0;
+      for (const Vector2d& at : positions) reach = std::max(reach, (at - middle).dot(direction));
       for (const double beyond : kBeyond)
         candidates.emplace_back(site, variable, chain, visited,
-                                farthest + beyond * chain.lengths.sum() * direction);
+                                middle + (reach + beyond * chain.lengths.sum()) * direction);
     }
   }
   return candidates;
