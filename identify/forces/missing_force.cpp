@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/cpu_seconds.hpp"
 #include "identify/forces/force_history.hpp"
@@ -77,6 +78,53 @@ SettledForce directions_shown(SettledForce both, const std::vector<double>& vari
   return alone;
 }
 
+/// Forces everywhere without the patterns that the recordings do not show: those that are resolved least, as
+/// many as the log evidence allows, with the time scale of the largest evidence. Of their strengths the
+/// evidence says nothing, so they stay near where its search began, and every interval with them. All
+/// patterns where the motion cannot be followed with fewer.
+SettledForce patterns_shown(SettledForce all, const std::vector<double>& variance,
+                            const std::vector<MissingForce::Pattern>& resolved) {
+  const std::optional<LinearProblem> linear = all.paths.linearise();
+  if (!linear) return all;
+  std::vector<std::size_t> order(resolved.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return resolved[a].resolved > resolved[b].resolved;
+  });
+  const auto evidence_of = [&](std::size_t count) {
+    std::vector<ActingForce> acting;
+    for (std::size_t k = 0; k < count; ++k)
+      acting.push_back({static_cast<Index>(order[k]), all.paths.patterns()[order[k]].group});
+    return smooth_forces(*linear, acting, variance, all.paths.prior, false).log_evidence;
+  };
+  // Few patterns are tried first: the work grows with the cube of their number.
+  const double least = all.smoothed.log_evidence - kForceThresholds.log_evidence;
+  std::size_t few = 0, enough = 1;
+  while (enough < order.size() && evidence_of(enough) < least) {
+    few = enough;
+    enough = std::min(2 * enough, order.size());
+  }
+  while (few + 1 < enough) {
+    const std::size_t middle = (few + enough) / 2;
+    (evidence_of(middle) < least ? few : enough) = middle;
+  }
+  order.resize(enough);
+  std::sort(order.begin(), order.end());
+  SettledForce shown = all;
+  std::vector<ForcePattern> patterns;
+  std::vector<double> variances;
+  for (const std::size_t k : order) {
+    patterns.push_back(all.paths.patterns()[k]);
+    variances.push_back(variance[static_cast<std::size_t>(patterns.back().group)]);
+    patterns.back().group = static_cast<int>(patterns.size()) - 1;
+  }
+  shown.paths.act(std::move(patterns));
+  std::optional<Smoothed> smoothed = shown.paths.settle(variances, true);
+  if (!smoothed) return all;
+  shown.smoothed = std::move(*smoothed);
+  return shown;
+}
+
 /// Log evidence without what the fitted numbers of a prior, its strengths and time scale, gain by
 /// chance: 1 each (Akaike, IEEE Trans. Automatic Control 19 (1974) 716). So forces everywhere, with many
 /// strengths, can be held against a force at one place.
@@ -113,8 +161,11 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.patterns.push_back({pattern.name, pattern.unit, std::sqrt(prior),
                                 std::clamp(1 - left / count / prior, 0.0, 1.0)});
   }
+  const SettledForce shown_everywhere =
+      patterns_shown({paths, *everywhere}, variance, missing.patterns);
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
-    missing.everywhere.push_back(force_history(paths, r, problem, *everywhere, chain, true));
+    missing.everywhere.push_back(
+        force_history(shown_everywhere.paths, r, problem, shown_everywhere.smoothed, chain, true));
   add_parameters(problem, x, paths, unknowns, *everywhere, missing);
 
   PlaceSearch search(paths, chain);

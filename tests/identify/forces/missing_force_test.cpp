@@ -45,6 +45,9 @@ TEST_CASE("a hidden spring to a wall is found: its place, its force over time, i
   const testing::Recovery modes = testing::recovery_of_modes(filmed, hidden, found);
   CHECK(modes.error < 0.2);
   CHECK(modes.covered > 0.9);
+  // Of 27 patterns only those that are shown are left: the others would widen every interval.
+  CHECK(found.patterns.size() == 27);
+  CHECK(found.everywhere.at(0).size.rows() < 5);
   // The spring does not push down. A down force would follow the noise, and the side force with it.
   CHECK(found.at_best.at(0).rows == std::vector<std::string>{"side"});
   // The fit without the force has made EI three times as large.
@@ -216,6 +219,26 @@ TEST_CASE(
   check(1, "edge", hidden.string_slack);
   check(2, "point_side", hidden.string_side);
   check(3, "point_down", hidden.string_down);
+}
+
+TEST_CASE(
+    "a magnet below the load: its fixed point is under the middle of the arc, not under an end of "
+    "it") {
+  testing::Film film = short_film();
+  film.camera.duration = 3.5;
+  film.camera.markers = 12;
+  truth::Hidden hidden;
+  hidden.magnet = 0.02;  // N m^2
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "distance from it");
+  REQUIRE(found.law->formula.constants.size() == 3);
+  CHECK(found.law->formula.constants[0].name == "pull");
+  check_constant(found.law->formula.constants[0], hidden.magnet, "N m^2");
+  CHECK(std::abs(found.law->formula.constants[1].value) < 0.01);
+  CHECK(found.law->formula.constants[2].value ==
+        doctest::Approx(film.cable().length + hidden.magnet_depth).epsilon(0.005));
 }
 
 TEST_CASE(
