@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How right is a law that catena discovered: its curve, and what its model predicts of other motions."""
+import csv
+import json
+import math
+import pathlib
+import re
+import subprocess
+import tomllib
+
+# Where an effect acts, as the truth's forces.csv calls it (make_recording --forces).
+PLACES = {"link_centre": "middle_", "load": "load_"}
+STEP = 1e-5  # of differences, m, m/s, rad, rad/s
+LINK_ENDS = 2  # every so many-th marker is the end of a link
+
+
+def columns(file):
+    """Columns of a CSV file by name."""
+    with open(file, newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def rms(values):
+    return math.sqrt(sum(value * value for value in values) / len(values))
+
+
+class Law:
+    """A discovered effect with the values that were fitted; it acts at one place or joint, or `at` is None."""
+
+    def __init__(self, found):
+        law = tomllib.loads((found / "discovered_law.toml").read_text())
+        case = tomllib.loads((found / "diagnosed.toml").read_text())
+        self.constants = {name: of["value"] for name, of in law.get("constants", {}).items()}
+        self.constants |= {name: of.get("default", of.get("neutral")) for name, of in law["parameters"].items()}
+        self.constants |= {name.removeprefix("discovered_law."): value for parameter in case["parameter"]
+                           for name, value in [(parameter["sets"], parameter["value"])]
+                           if name.startswith("discovered_law.")}  # fmt: skip
+        self.constants |= {"here": 1.0, "offset": 0.0}  # at its place
+        self.potential = "potential" in law
+        energy = law["potential" if self.potential else "dissipation"][0]
+        one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))
+        self.at = energy["at"] if one_place else None
+        self.energy = compile(energy["value"].replace("^", "**"), "effect", "eval")
+
+    def _energy(self, state):
+        functions = {name: getattr(math, name) for name in ("sqrt", "log", "exp", "sin", "cos", "tanh")}
+        return eval(self.energy, {"__builtins__": {}}, functions | self.constants | state)  # noqa: S307
+
+    def force(self, state):
+        """Its parts: side and down, N, of a place; the moment, N m, of a joint."""
+        names = ("joint_angle",) if self.at == "joint" else ("side", "down")
+        if not self.potential:
+            names = ("joint_rate",) if self.at == "joint" else ("velocity_side", "velocity_down")
+
+        def energy(name, change):
+            moved = state | {name: state[name] + change}
+            if self.at != "joint":
+                s, c = math.sin(moved["angle"]), math.cos(moved["angle"])
+                moved["velocity_normal"] = c * moved["velocity_side"] - s * moved["velocity_down"]
+                moved["velocity_tangential"] = s * moved["velocity_side"] + c * moved["velocity_down"]
+                moved["rate"] = 0.0  # its place has no offset
+            return self._energy(moved)
+
+        return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) for name in names]
+
+
+def curve_error(found, forces):
+    """Root mean square, over the true motion, of the law's force less the true one at the same state, over that of the
+    true one. None where the law acts where no force is."""
+    law, true = Law(found), columns(forces)
+    if law.at == "joint":
+        there, states = [true["joint_moment"]], ("joint_angle", "joint_rate")
+        where = ""
+    elif law.at in PLACES:
+        where = PLACES[law.at]
+        there = [true[f"{where}force_side"], true[f"{where}force_down"]]
+        states = ("side", "down", "velocity_side", "velocity_down", "angle")
+    else:
+        return None
+    size = math.hypot(*map(rms, there))
+    if size == 0:
+        return None
+    errors = []
+    for k, truth in enumerate(zip(*there)):
+        says = law.force({name: true[where + name][k] for name in states})
+        errors.append(math.hypot(*(a - b for a, b in zip(says, truth))))
+    return rms(errors) / size
+
+
+def prediction_error(found, with_law, without_law, load, catena):
+    """Root mean square of the found model's motion less the true one, over that of the truth without its law less the
+    true one. `with_law`, `without_law`: folders of films without noise, from rest."""
+    truth = columns(with_law / "markers.csv")
+    ends = [0] + [n for n in range(LINK_ENDS, 1000, LINK_ENDS) if f"side_{n}_m" in truth]
+    first = {(axis, n): truth[f"{axis}_{n}_m"][0] if n else 0.0 for axis in ("side", "down") for n in ends}
+    angles = [math.atan2(first["side", b] - first["side", a], first["down", b] - first["down", a])
+              for a, b in zip(ends, ends[1:])]  # fmt: skip
+    case = (found / "diagnosed.toml").read_text()
+    case = re.sub(r"(?ms)^\[experiment.initial\]\n.*?(?=^\[)", "", case)
+    case = re.sub(r"(?ms)^\[initial\]\n.*?(?=^\[)", f'[initial]\nshape = "angles"\nangles = {angles}\n\n', case)
+    case = re.sub(r"(?m)^load_mass = .*", f"load_mass = {load!r}", case, count=1)
+    case = re.sub(r"(?m)^data = .*", f'data = "{with_law / "markers.csv"}"', case)
+    case = re.sub(r'(?m)^(fit_until|noise) = .*\n', "", case)
+    (found / "other.toml").write_text(case)
+    run = subprocess.run([catena, "simulate", found / "other.toml", "--quiet", "--output", found / "other"],
+                         capture_output=True, check=False)  # fmt: skip
+    if run.returncode != 0:
+        return math.inf
+    gap = json.loads((found / "other" / "result.json").read_text())["experiments"][0]["gap"]["fit"]
+    other = columns(without_law / "markers.csv")
+    return gap / rms([a - b for name in truth if name != "time_s" for a, b in zip(truth[name], other[name])])
