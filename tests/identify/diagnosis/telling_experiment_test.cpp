@@ -32,8 +32,8 @@ FittedModel pendulum(double gravity, double stiffness, double mass, double load)
   const Model model = any_links_model(2);
   const auto problem = std::make_shared<const Problem>(
       the_case, model,
-      std::vector<Recording>{
-          testing::with_truth(the_case, model, testing::empty_markers({1.0}, 101, 0.05), kFilmNoise)});
+      std::vector<Recording>{testing::with_truth(
+          the_case, model, testing::empty_markers({1.0}, 101, 0.05), kFilmNoise)});
   return assess(problem, problem->start(), fit_least_squares, nullptr);
 }
 
