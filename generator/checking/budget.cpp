@@ -84,6 +84,15 @@ ex moderate_power(const ex& base, const ex& exponent) {
   return GiNaC::pow(base, exponent);
 }
 
+int integer_exponent(const ex& factor) {
+  if (!GiNaC::is_a<GiNaC::power>(factor) || !factor.op(1).info(GiNaC::info_flags::integer))
+    return 1;
+  const numeric exponent = GiNaC::ex_to<numeric>(factor.op(1));
+  if (GiNaC::abs(exponent) > kGreatestExponent)
+    throw Overlong("an exponent in it is beyond " + std::to_string(kGreatestExponent));
+  return exponent.to_int();
+}
+
 double written_size(const ex& expression) { return Extent()(expression).written; }
 
 double products_in(const ex& e) {

@@ -21,6 +21,9 @@ inline constexpr double kMostBits = 1e5;
 /// The greatest degree of a root, and common denominator of roots and fractions of angles.
 inline constexpr int kGreatestDivisor = 10000;
 
+/// The greatest exponent of a power, in size: products and sums of two fit in an int.
+inline constexpr int kGreatestExponent = 10000000;
+
 /// A statement needs more than it may.
 class Overlong : public std::runtime_error {
  public:
@@ -58,6 +61,10 @@ void require_moderate(const GiNaC::ex& value);
 
 /// base^exponent, or Overlong if the numbers in it would be too long.
 GiNaC::ex moderate_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
+
+/// The exponent of a power that is an integer, 1 of anything else. Throws Overlong if it is beyond
+/// kGreatestExponent in size.
+int integer_exponent(const GiNaC::ex& factor);
 
 /// Bits of the numerator and denominator of a rational number; 0 of others, whose length is fixed.
 double bits_of(const GiNaC::numeric& number);

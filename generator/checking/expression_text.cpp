@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "generator/checking/budget.hpp"
+
 namespace catena::checking {
 namespace {
 
@@ -129,8 +131,7 @@ std::string base_text(const ex& base) {
     const ex symbol = power ? factor.op(0) : factor;
     std::ostringstream name;
     name << symbol;
-    const bool whole = power && factor.op(1).info(GiNaC::info_flags::integer);
-    monomial[SymbolOrder(name.str())] += whole ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
+    monomial[SymbolOrder(name.str())] += integer_exponent(factor);
   };
   if (GiNaC::is_a<GiNaC::mul>(base)) {
     for (const ex& factor : base) add(factor);
@@ -219,7 +220,7 @@ class Reader {
       const bool power =
           GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::integer);
       const ex symbol = power ? factor.op(0) : factor;
-      const int exponent = power ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
+      const int exponent = integer_exponent(factor);
       const NormalForm::Generator generator = form_.generator(symbol);
       if (generator.role == NormalForm::Role::kSine ||
           generator.role == NormalForm::Role::kCosine) {

@@ -215,7 +215,7 @@ Fraction NormalForm::convert_power(const ex& e) {
   if (is_positive_rational(e.op(0)))
     return {power_of_number(GiNaC::ex_to<numeric>(e.op(0)), exponent), 1};
   const Fraction base = convert(e.op(0));
-  if (exponent.is_integer()) return raised(base, exponent.to_int());
+  if (exponent.is_integer()) return raised(base, integer_exponent(e));
   return raised(root(base, exponent.denom().to_int()), exponent.numer().to_int());
 }
 
@@ -284,7 +284,9 @@ Fraction NormalForm::exponential(const ex& argument, const ex& whole) {
     if (entry == exponentials_.end()) return opaque(function_name(whole), {argument});
     const numeric multiple = term.coefficient * entry->second.divisor;
     if (!multiple.is_integer()) return opaque(function_name(whole), {argument});
-    result *= GiNaC::pow(entry->second.value, multiple);
+    const ex power = GiNaC::pow(entry->second.value, multiple);
+    integer_exponent(power);  // throws where it is too large
+    result *= power;
   }
   return {result, 1};
 }
@@ -325,7 +327,7 @@ Fraction NormalForm::root(const Fraction& radicand, int degree) {
       const bool is_power =
           GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
       const ex base = is_power ? factor.op(0) : factor;
-      const int exponent = is_power ? GiNaC::ex_to<numeric>(factor.op(1)).to_int() : 1;
+      const int exponent = is_power ? integer_exponent(factor) : 1;
       if (is_positive_rational(factor)) {
         const numeric value = GiNaC::ex_to<numeric>(factor);
         number = upper ? number * value : number / value;
@@ -430,16 +432,15 @@ ex NormalForm::reduced(const ex& polynomial) const {
       if (GiNaC::is_a<GiNaC::power>(factor)) {
         const auto cosine = cosine_of_.find(factor.op(0));
         if (cosine != cosine_of_.end() && factor.op(1).info(GiNaC::info_flags::posint)) {
-          const int exponent = GiNaC::ex_to<numeric>(factor.op(1)).to_int();
+          const int exponent = integer_exponent(factor);
           factors.push_back(GiNaC::pow(1 - GiNaC::pow(cosine->second, 2), exponent / 2) *
                             GiNaC::pow(factor.op(0), exponent % 2));
           squares = true;
           return;
         }
         const auto prime = prime_of_.find(factor.op(0));
-        if (prime != prime_of_.end() &&
-            GiNaC::ex_to<numeric>(factor.op(1)).to_int() >= radical_degree_) {
-          const int exponent = GiNaC::ex_to<numeric>(factor.op(1)).to_int();
+        if (const int exponent = integer_exponent(factor);
+            prime != prime_of_.end() && exponent >= radical_degree_) {
           factors.push_back(GiNaC::pow(prime->second, exponent / radical_degree_) *
                             GiNaC::pow(factor.op(0), exponent % radical_degree_));
           squares = true;

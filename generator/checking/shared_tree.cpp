@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "generator/checking/budget.hpp"
+
 namespace catena::checking {
 namespace {
 
@@ -66,7 +68,7 @@ class Clearing {
       }
       result.numerator = GiNaC::mul(numerators);
     } else if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer)) {
-      result = power((*this)(e.op(0)), GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int());
+      result = power((*this)(e.op(0)), integer_exponent(e));
     }
     return known_[e] = std::move(result);
   }
