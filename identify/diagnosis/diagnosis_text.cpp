@@ -128,12 +128,10 @@ results::MissingForce entry_of(const MissingForce& force) {
   if (force.best)
     entry.best =
         results::ForcePlace{force.best->name, force.best->arc_length, force.best->log_evidence};
-  std::vector<std::string> names, places;
-  for (const MissingForce::Pattern& pattern : force.patterns) {
+  for (const MissingForce::Pattern& pattern : force.patterns)
     entry.patterns.push_back(
         {pattern.name, pattern.unit, pattern.prior_deviation, pattern.resolved});
-    names.push_back(pattern.name);
-  }
+  std::vector<std::string> places;
   for (const double s : force.arc_length) places.push_back(fmt::format("{:.3g} m", s));
   for (const MissingForce::History& history : force.everywhere) {
     entry.densities.push_back(history_entry(history, "side density", "N/m", places, history.side,
@@ -141,7 +139,7 @@ results::MissingForce entry_of(const MissingForce& force) {
     entry.densities.push_back(history_entry(history, "down density", "N/m", places, history.down,
                                             history.down_deviation));
     entry.patterns_over_time.push_back(
-        history_entry(history, "patterns", "", names, history.size, history.deviation));
+        history_entry(history, "patterns", "", history.rows, history.size, history.deviation));
   }
   for (const MissingForce::History& history : force.at_best) {
     const bool torque = force.best->joint >= 0;

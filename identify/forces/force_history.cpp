@@ -20,10 +20,10 @@ MissingForce::History force_history(const ForcePaths& paths, std::size_t number,
   history.time = paths.times(number);
   const auto& patterns = paths.patterns();
   const Smoothed::Recording& found = smoothed.recordings[number];
-  if (!densities)
-    for (const ForcePattern& pattern : patterns)
-      history.rows.emplace_back(!pattern.torque.isZero() ? "moment"
-                                : !pattern.side.isZero() ? "side"
+  for (const ForcePattern& pattern : patterns)
+    history.rows.emplace_back(densities                  ? pattern.name
+                              : !pattern.torque.isZero() ? "moment"
+                              : !pattern.side.isZero()   ? "side"
                                                          : "down");
   const auto count = static_cast<Index>(patterns.size());
   const Index times = found.force.cols(), links = chain.lengths.size();

@@ -59,7 +59,7 @@ struct MissingForce {
     std::string experiment;
     std::vector<double> time;         ///< s, of the frames that are fitted
     Eigen::MatrixXd size, deviation;  ///< patterns x times
-    std::vector<std::string> rows;    ///< of a single place: "side", "down" or "moment"
+    std::vector<std::string> rows;  ///< the patterns; of a single place: "side", "down" or "moment"
     /// Densities to the side and down at the middles of the links, links x times, N/m; empty for a
     /// single place.
     Eigen::MatrixXd side, down, side_deviation, down_deviation;

@@ -48,6 +48,8 @@ TEST_CASE("a hidden spring to a wall is found: its place, its force over time, i
   // Of 27 patterns only those that are shown are left: the others would widen every interval.
   CHECK(found.patterns.size() == 27);
   CHECK(found.everywhere.at(0).size.rows() < 5);
+  CHECK(found.everywhere.at(0).rows.size() ==
+        static_cast<std::size_t>(found.everywhere.at(0).size.rows()));
   // The spring does not push down. A down force would follow the noise, and the side force with it.
   CHECK(found.at_best.at(0).rows == std::vector<std::string>{"side"});
   // The fit without the force has made EI three times as large.
