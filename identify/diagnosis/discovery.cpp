@@ -49,16 +49,22 @@ const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& ba
   return candidate;
 }
 
+/// Begins with the parameters that were estimated beside the force: those of `base` have made up for what it lacks,
+/// and a fit from there may end elsewhere.
 Explanation refitted_with(const DiagnosisState& state, const FittedModel& base,
-                          const std::vector<std::string>& effects, const Candidate& candidate) {
+                          const MissingForce& force, const std::vector<std::string>& effects,
+                          const Candidate& candidate) {
   DiagnosisContext& context = state.context;
   Explanation explanation;
   explanation.id = candidate.id;
   const Case the_case = with_effects(base.problem->the_case(), {candidate}, true);
   const auto problem =
       std::make_shared<const Problem>(the_case, context.model_with(effects, the_case.links));
-  FittedModel model = fit_model(problem, transfer(*base.problem, base.x, *problem),
-                                state.found.noise, context.least_squares, context.stop);
+  Eigen::VectorXd start = transfer(*base.problem, base.x, *problem);
+  for (const MissingForce::Parameter& parameter : force.parameters)
+    start[unknown_index(*problem, parameter.name)] = parameter.value;
+  FittedModel model =
+      fit_model(problem, start, state.found.noise, context.least_squares, context.stop);
   explanation.refitted = model.ok;
   if (!model.ok) return explanation;
   explanation.comparison = compare(base, model, state.found.noise);
@@ -93,7 +99,7 @@ void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<Fo
     state.context.begin("fitting a rival of the law");
     const Candidate candidate = *state.context.find(id);
     // One model has all rivals: those that the case does not have stay at zero.
-    Explanation explanation = refitted_with(state, base.model, all, candidate);
+    Explanation explanation = refitted_with(state, base.model, *found.force, all, candidate);
     state.context.stop_if_asked();
     if (!explanation.refitted) continue;
     explanation.title = words;
@@ -122,7 +128,7 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
   const Candidate& candidate = add_to_library(state.context, base.model, *force.law);
   const std::string title = candidate.title;
   const std::vector<std::string> effects = with(base.effects, candidate.id);
-  Explanation explanation = refitted_with(state, base.model, effects, candidate);
+  Explanation explanation = refitted_with(state, base.model, force, effects, candidate);
   state.context.stop_if_asked();
   const bool replaces = base.effects.size() < state.last().effects.size();
   Diagnosis before = found;
