@@ -53,7 +53,7 @@ class Sha256 {
       end.push_back(static_cast<char>((bits >> shift) & 0xff));
     add(end);
     std::string digest;
-    for (const uint32_t word : H) {
+    for (const uint32_t word : hash_) {
       for (int shift = 28; shift >= 0; shift -= 4)
         digest += "0123456789abcdef"[(word >> shift) & 0xf];
     }
@@ -72,7 +72,7 @@ class Sha256 {
         W[t] = sigma1(W[t - 2]) + W[t - 7] + sigma0(W[t - 15]) + W[t - 16];
       }
     }
-    auto [a, b, c, d, e, f, g, h] = H;
+    auto [a, b, c, d, e, f, g, h] = hash_;
     for (std::size_t t = 0; t < 64; ++t) {
       const uint32_t T1 = h + Sigma1(e) + Ch(e, f, g) + K[t] + W[t];
       const uint32_t T2 = Sigma0(a) + Maj(a, b, c);
@@ -80,12 +80,12 @@ class Sha256 {
       d = c, c = b, b = a, a = T1 + T2;
     }
     const std::array<uint32_t, 8> working = {a, b, c, d, e, f, g, h};
-    for (std::size_t i = 0; i < 8; ++i) H[i] += working[i];
+    for (std::size_t i = 0; i < 8; ++i) hash_[i] += working[i];
   }
 
-  // 5.3.3: the same as K of the square roots of the first eight primes.
-  std::array<uint32_t, 8> H = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                               0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  // 5.3.3: H of the standard, the same as K of the square roots of the first eight primes.
+  std::array<uint32_t, 8> hash_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                   0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::uint64_t size_ = 0;
   std::string rest_;  // less than a block
 };

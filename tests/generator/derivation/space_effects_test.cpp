@@ -553,12 +553,14 @@ TEST_CASE("a force along a velocity is that force, in the plane and in space") {
       "side = \"-c*velocity_tangential*direction_side\"\n"
       "down = \"-c*velocity_tangential*direction_down\"\n"
       "across = \"-c*velocity_tangential*direction_across\"\n"};
-  for (const auto& [place, laws] :
-       std::vector<std::pair<std::string, Laws>>{{"load", towards_side},
-                                                 {"joint", towards_side},
-                                                 {"link_centre", towards_side},
-                                                 {"load", along_link},
-                                                 {"link_centre", along_link}}) {
+  for (const auto& row : std::vector<std::pair<std::string, Laws>>{{"load", towards_side},
+                                                                   {"joint", towards_side},
+                                                                   {"link_centre", towards_side},
+                                                                   {"load", along_link},
+                                                                   {"link_centre", along_link}}) {
+    // clang 14 captures no structured binding.
+    const std::string& place = row.first;
+    const Laws& laws = row.second;
     for (const Space space : {Space::kPlane, Space::kThreeDimensional}) {
       CAPTURE(place);
       std::vector<std::vector<ex>> residuals;

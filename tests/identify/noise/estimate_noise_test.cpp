@@ -127,7 +127,8 @@ TEST_CASE("a misfit with kinks is no slow noise, as neighbouring markers share i
   for (Index c = 0; c < 24; ++c)
     for (Index k = 0; k < frames; ++k)
       for (int mode = 0; mode < 6; ++mode) {
-        const double place = static_cast<double>(c / 2 + 1) / 12;
+        const Index marker = c / 2 + 1;
+        const double place = static_cast<double>(marker) / 12;
         const double angle =
             (0.7 + 1.6 * mode) * 2 * std::numbers::pi * static_cast<double>(k) / 60;
         residual(c, k) += 8e-3 / (1 + mode) * std::sin((mode + 0.5) * std::numbers::pi * place) *
