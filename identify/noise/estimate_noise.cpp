@@ -188,9 +188,8 @@ std::vector<NoiseModel> estimate_noise(const std::vector<NoiseWindow>& windows,
     for (int round = 0; round < kRounds && (round == 0 || noise.told); ++round)
       noise.told = improve(noise, segmented(), expected);
     // What neighbouring channels share is a misfit that was taken for noise.
-    noise.told =
-        noise.told &&
-        !NeighbourDifferences(segmented(), noise.sigma, direction).refute(expected(noise.shape));
+    noise.told = noise.told &&
+                 !neighbours_refute(segmented(), noise.sigma, direction, expected(noise.shape));
   }
   if (!noise.told) {
     const auto channels = static_cast<Index>(direction.size());

@@ -41,30 +41,28 @@ MatrixXd differences_of(const VectorXd& sigma, const std::vector<int>& direction
 
 }  // namespace
 
-NeighbourDifferences::NeighbourDifferences(const Segments& segments, const VectorXd& sigma,
-                                           const std::vector<int>& direction) {
-  const Index frequencies = segments.motion_power.cols();
-  power_ = VectorXd::Zero(frequencies);
+bool neighbours_refute(const Segments& segments, const VectorXd& sigma,
+                       const std::vector<int>& direction, const VectorXd& noise_power) {
   const MatrixXd differences = differences_of(sigma, direction);
+  if (differences.rows() == 0) return false;
   const auto rows = static_cast<double>(differences.rows());
-  if (rows == 0) return;
+  const Index frequencies = segments.motion_power.cols();
+  VectorXd power = VectorXd::Zero(frequencies);
   for (const MatrixXcd& x : segments.residual)
-    power_ += (differences * x).cwiseAbs2().colwise().sum().transpose();
-  power_ /= static_cast<double>(segments.residual.size()) * rows;
-  // Differences next to each other share channels, segments overlap.
+    power += (differences * x).cwiseAbs2().colwise().sum().transpose();
+  power /= static_cast<double>(segments.residual.size()) * rows;
+  // Independent complex values behind the power at one frequency: differences next to each other share channels,
+  // segments overlap.
   const MatrixXd correlation =
       differences * sigma.cwiseAbs2().asDiagonal() * differences.transpose();
   const double apart = rows * rows / correlation.squaredNorm();
   const double frames = segments.seen / static_cast<double>(sigma.size());
-  values_ = apart * frames / (2 * static_cast<double>(frequencies - 1));
-}
+  const double at_one = apart * frames / (2 * static_cast<double>(frequencies - 1));
 
-bool NeighbourDifferences::refute(const VectorXd& noise_power) const {
-  if (values_ == 0) return false;
-  const Index used = power_.size() - 1 - kFirst;
+  const Index used = frequencies - 1 - kFirst;
   const auto claimed = noise_power.segment(kFirst, used);
-  const double missing = 1 - power_.segment(kFirst, used).sum() / claimed.sum();
-  const double values = values_ * std::pow(claimed.sum(), 2) / claimed.squaredNorm();
+  const double missing = 1 - power.segment(kFirst, used).sum() / claimed.sum();
+  const double values = at_one * std::pow(claimed.sum(), 2) / claimed.squaredNorm();
   return missing > kMissing && missing * std::sqrt(values) > kDecided;
 }
 
