@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 #include "common/sha256.hpp"
 #include "identify/report/assets.hpp"
@@ -67,15 +68,18 @@ std::string base64_of_hex(const std::string& hex) {
 }
 
 /// The template with every {{name}} replaced.
-std::string filled(const std::string& page, const std::map<std::string, std::string>& values) {
+std::string filled(std::string_view page,
+                   const std::map<std::string_view, std::string_view>& values) {
   std::string text;
   std::size_t from = 0;
-  for (auto at = page.find("{{"); at != std::string::npos; at = page.find("{{", from)) {
+  for (auto at = page.find("{{"); at != std::string_view::npos; at = page.find("{{", from)) {
     const auto end = page.find("}}", at);
-    text += page.substr(from, at - from) + values.at(page.substr(at + 2, end - at - 2));
+    text += page.substr(from, at - from);
+    text += values.at(page.substr(at + 2, end - at - 2));
     from = end + 2;
   }
-  return text + page.substr(from);
+  text += page.substr(from);
+  return text;
 }
 
 }  // namespace
@@ -113,16 +117,17 @@ std::string to_html(const Document& document, const std::vector<ReportFigure>& f
     body += element("section", {{"id", section.id}, {"aria-labelledby", heading}},
                     element("h2", {{"id", heading}}, section.heading) + section.content);
   }
-  const std::string script = asset_script();
-  static const std::string script_hash = base64_of_hex(sha256_hex(script));
-  const std::string title = result.title.empty() ? "catena " + result.command : result.title;
-  return filled(asset_page(), {{"title", Html(title).str()},
-                               {"command", Html(result.command).str()},
+  static const std::string script_hash = base64_of_hex(sha256_hex(asset_script()));
+  const Html title(result.title.empty() ? "catena " + result.command : result.title);
+  const Html command(result.command);
+  const std::string data = safe_in_script(payload(document, figures, kMostPoints));
+  return filled(asset_page(), {{"title", title.str()},
+                               {"command", command.str()},
                                {"style", asset_style()},
                                {"links", links.str()},
                                {"sections", body.str()},
-                               {"data", safe_in_script(payload(document, figures, kMostPoints))},
-                               {"script", script},
+                               {"data", data},
+                               {"script", asset_script()},
                                {"script_hash", script_hash}});
 }
 
