@@ -83,8 +83,7 @@ MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& mo
   return force;
 }
 
-/// Fits the formulas that the linear equations did not tell from the law in its place, and sorts them:
-/// those that the data do not decide against are alternatives, with an experiment that would.
+/// Fits the formulas that the linear equations did not tell from the law in its place, and sorts them.
 void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<ForceLaw>& rivals) {
   Diagnosis& found = state.found;
   std::vector<std::string> all = base.effects, undecided;
@@ -103,14 +102,8 @@ void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<Fo
     state.context.stop_if_asked();
     if (!explanation.refitted) continue;
     explanation.title = words;
-    const FittedModel &law = state.last().model, &rival = explanation.model;
-    const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival, found.noise);
-    const Decision decision =
-        ahead ? decide(law, rival, found.noise) : decide(rival, law, found.noise);
-    const bool against = ahead && decision.decided;
-    if (!against) undecided.push_back(fmt::format("{} ({})", words, id));
-    (against ? found.runners_up : found.alternatives)
-        .push_back({found.law, std::move(explanation), decision});
+    if (sort_rival(found, state.last().model, std::move(explanation)))
+      undecided.push_back(fmt::format("{} ({})", words, id));
   }
   found.sentence += undecided.empty() ? " No other formula that was tried does as well."
                                       : fmt::format(" These data do not decide against {} instead.",
@@ -171,6 +164,16 @@ double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& 
 }
 
 }  // namespace
+
+bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
+  const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival.model, found.noise);
+  const Decision decision =
+      ahead ? decide(law, rival.model, found.noise) : decide(rival.model, law, found.noise);
+  const bool against = ahead && decision.decided;
+  (against ? found.runners_up : found.alternatives)
+      .push_back({found.law, std::move(rival), decision});
+  return !against;
+}
 
 void discover(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;

@@ -17,4 +17,9 @@ namespace catena {
 /// Interrupted.
 void discover(DiagnosisState& state, const Case& asked);
 
+/// Puts a formula that was fitted in the place of the law `found.law`, whose model is `law`, where the report looks
+/// for it: among the alternatives where the data do not decide against it, which is then true, else among the
+/// runners-up.
+bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival);
+
 }  // namespace catena

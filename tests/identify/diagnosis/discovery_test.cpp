@@ -85,4 +85,27 @@ TEST_CASE("an imitator that the data do not decide against is undecided, in plac
   CHECK(std::none_of(found.runners_up.begin(), found.runners_up.end(), [&](const auto& each) {
     return each.explanation.id == other.explanation.id;
   }));
+
+  // One that leaves more is no imitator, but is not forgotten. One that leaves less stays undecided.
+  const auto sorted = [&](double residuals) {
+    Diagnosis with_another = found;
+    Explanation another = other.explanation;
+    another.id = "discovered_law_3";
+    another.model.fit_residual.front() *= residuals;
+    another.model.held_out_residual.front() *= residuals;
+    const bool undecided = sort_rival(with_another, found.final, another);
+    REQUIRE(with_another.alternatives.size() == (undecided ? 2 : 1));
+    REQUIRE(with_another.runners_up.size() == found.runners_up.size() + (undecided ? 0 : 1));
+    const auto& last =
+        undecided ? with_another.alternatives.back() : with_another.runners_up.back();
+    CHECK(last.explanation.id == "discovered_law_3");
+    CHECK(last.instead_of == found.law);
+    CHECK(last.decision.decided);
+    CHECK(diagnosis_table(with_another, {})
+              .find(undecided ? "undecided: discovered_law_3" : "runner-up: discovered_law_3") !=
+          std::string::npos);
+    return undecided;
+  };
+  CHECK_FALSE(sorted(2));
+  CHECK(sorted(0.5));
 }
