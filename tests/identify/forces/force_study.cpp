@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
                  "N, of a force at mid-cable that follows no law; no effects");
   app.add_flag("--spread", gusts.spread,
                "the gusts push the whole cable, 1/length of it each metre");
+  app.add_flag(
+      "--drawn", gusts.drawn,
+      "the gusts follow no sum of oscillations but are drawn from the prior, of this deviation");
   CLI11_PARSE(app, argc, argv);
   for (const std::string& effect : effects) {
     const std::size_t equals = effect.find('=');

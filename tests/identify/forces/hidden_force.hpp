@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -99,15 +100,38 @@ inline Eigen::VectorXd true_force(const Filmed& filmed, const truth::Hidden& hid
   return force;
 }
 
-/// A force in time that follows no law, N at t s: `size` times the sum of five oscillations of 0.3 to
-/// 2.3 Hz with phases of the seed.
+/// A force in time that follows no law: `size` times the sum of five oscillations of 0.3 to 2.3 Hz with phases of the
+/// seed, or a draw of the prior that missing forces have.
 struct Gusts {
   double size = 0;
   unsigned seed = 1;
   bool spread = false;  ///< along the whole cable instead of at its middle
+  bool drawn = false;   ///< a draw of the prior, of deviation `size`, instead of the sum
 
-  double operator()(double t) const { return sum(t, false); }
-  double rate(double t) const { return sum(t, true); }
+  /// The force and its rate, N and N/s, one column per time.
+  Eigen::MatrixXd at(const std::vector<double>& time) const {
+    Eigen::MatrixXd forces(2, static_cast<Eigen::Index>(time.size()));
+    std::seed_seq own{seed, 1U};  // not that of the noise
+    std::mt19937_64 random(own);
+    std::normal_distribution<double> normal;
+    const ForcePrior prior;
+    Eigen::Vector2d state = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < time.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      if (!drawn) {
+        forces.col(column) << sum(time[k], false), sum(time[k], true);
+        continue;
+      }
+      Eigen::Matrix2d from_before = Eigen::Matrix2d::Zero();
+      if (k > 0) from_before = prior.transition(time[k] - time[k - 1]);
+      const Eigen::Matrix2d added =
+          (Eigen::Matrix2d::Identity() - from_before * from_before.transpose()).llt().matrixL();
+      const double first = normal(random), second = normal(random);
+      state = (from_before * state + added * Eigen::Vector2d(first, second)).eval();
+      forces.col(column) << size * state[0], size * prior.rate() * state[1];
+    }
+    return forces;
+  }
 
  private:
   double sum(double t, bool differentiated) const {
@@ -140,6 +164,7 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * lengths.size());
   for (Eigen::Index k = 0; k < lengths.size(); ++k) state[k] = start[static_cast<std::size_t>(k)];
   Recording& recording = filmed.recording;
+  const Eigen::MatrixXd forces = gusts.at(recording.time);
   filmed.gust_modes.resize(2, static_cast<Eigen::Index>(recording.time.size()));
   std::mt19937_64 random(filmed.film.camera.seed);
   std::normal_distribution<double> noise(0, filmed.film.camera.noise);
@@ -158,14 +183,13 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
     const Eigen::ArrayXd across = state.head(lengths.size()).array().cos();
     const Eigen::ArrayXd from_middle = 2 * link_middles(lengths).array() / length - 1;
     const auto column = static_cast<Eigen::Index>(frame);
-    const double density = gusts(recording.time[frame]) / length;
+    const double density = forces(0, column) / length;
     const Eigen::ArrayXd weights = lengths.array() / length;
     filmed.gust_modes(0, column) = density * (weights * across).sum();
     filmed.gust_modes(1, column) = 3 * density * (weights * across * from_middle).sum();
     if (frame + 1 == recording.time.size()) break;
-    const double t = recording.time[frame];
-    const Eigen::Vector2d force(gusts(t), gusts.rate(t));
-    const auto next = integrate(t, recording.time[frame + 1], state, force);
+    const auto next =
+        integrate(recording.time[frame], recording.time[frame + 1], state, forces.col(column));
     if (!next) throw std::runtime_error("the gusts cannot be followed");
     state = next->end;
   }
