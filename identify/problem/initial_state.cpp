@@ -251,11 +251,14 @@ State state_at_start(const Model& model, const Eigen::VectorXd& parameters,
     const Eigen::Index of_load = model.coordinates() - 3 * model.links();
     const Eigen::VectorXd load = state.q.tail(of_load);
     state = from_directions(model, directions_at_start(model, state, initial, lengths));
-    if (model.held()) return closed_end(model, parameters, state, time, signals);
-    state.q.tail(of_load) = load;
+    if (!model.held()) state.q.tail(of_load) = load;
   } else {
     state.v.head(model.links()) = initial_rates(initial, lengths);
   }
+  // A step of a fit may take the coefficients of a start beyond the numbers of a computer.
+  if (!state.q.allFinite() || !state.v.allFinite())
+    throw ImpossibleValue("the start's directions or rates are not finite");
+  if (model.held()) return closed_end(model, parameters, state, time, signals);
   start_load(model, initial, state);
   return state;
 }

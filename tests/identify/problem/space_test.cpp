@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "identify/fit/error.hpp"
@@ -102,6 +103,32 @@ TEST_CASE("derivatives by the unknowns of a start and by parameters are differen
       const Eigen::MatrixXd& found = here.sensitivity[static_cast<std::size_t>(j)];
       CHECK(difference.norm() > 1e-3);
       CHECK((found - difference).norm() < 1e-5 * (1 + difference.norm()));
+    }
+  }
+}
+
+TEST_CASE("a start that is not finite fails as a simulation does") {
+  for (const bool in_space : {true, false}) {
+    Case the_case = three_links();
+    InitialSpec& initial = the_case.initial;
+    initial = askew();
+    initial.free = initial.velocity_free = true;
+    if (!in_space)
+      for (auto* list : {&initial.out_of_plane, &initial.azimuths, &initial.out_of_plane_rates,
+                         &initial.azimuth_rates})
+        list->clear();
+    const Problem problem(the_case, in_space ? model() : Model::built_in(kLinks),
+                          {testing::empty_markers({0.2, 0.5, 0.9}, 4, 0.1, in_space)});
+    REQUIRE(problem.start().size() == 2 + (in_space ? 4 : 2) * kLinks);
+    for (Eigen::Index j = 2; j < problem.start().size(); ++j) {
+      CAPTURE(problem.unknowns()[static_cast<std::size_t>(j)].name);
+      VectorXd x = problem.start();
+      x[j] = std::numeric_limits<double>::infinity();
+      for (const bool jacobian : {false, true}) {
+        const Evaluation evaluation = evaluate(problem, x, true, jacobian);
+        CHECK(!evaluation.ok);
+        CHECK(evaluation.predictions[0].status == Status::kNotFinite);
+      }
     }
   }
 }
