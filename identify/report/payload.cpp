@@ -146,8 +146,9 @@ class Writer {
   std::size_t frames_stride(const Row& time) const {
     if (time.size() < 2 || most_points_ == 0) return 1;
     const double rate = static_cast<double>(time.size() - 1) / (time.back() - time.front());
-    const auto by_rate = static_cast<std::size_t>(std::max(1.0, std::floor(rate / 60 + 0.01)));
-    return std::max(by_rate, stride(time.size()));
+    const double by_rate = std::max(1.0, std::floor(rate / 60 + 0.01));
+    const auto most = static_cast<double>(time.size());  // times of any file may lie close together
+    return std::max(static_cast<std::size_t>(std::min(by_rate, most)), stride(time.size()));
   }
 
   ordered_json of(const Series& series) {
