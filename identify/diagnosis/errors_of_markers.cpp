@@ -141,7 +141,8 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
     if (experiments[e].spec.kind == DataKind::kMarkers) windows[experiments[e].source].push_back(e);
 
   std::vector<Frames> errors;
-  for (const auto& [source, members] : windows) {
+  for (const auto& recording : windows) {
+    const std::vector<std::size_t>& members = recording.second;
     std::vector<Marks> marks;  // of each window
     for (const std::size_t e : members) marks.emplace_back(model, e);
     // The errors that `of` gives for each window, times their standard deviation.

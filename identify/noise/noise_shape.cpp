@@ -34,7 +34,7 @@ VectorXd binomial(int frames) {
     VectorXd next = VectorXd::Zero(weights.size() + 1);
     next.head(weights.size()) += weights / 2;
     next.tail(weights.size()) += weights / 2;
-    weights = next;
+    weights.swap(next);  // Eigen frees the old one twice if a larger copy gets no memory
   }
   return weights;
 }
@@ -112,7 +112,7 @@ VectorXd NoiseShape::autoregression() const {
   for (const double p : partial) {
     VectorXd next(a.size() + 1);
     next << a - p * a.reverse(), p;
-    a = next;
+    a.swap(next);
   }
   return a;
 }
