@@ -301,8 +301,8 @@ void Chain::add_chain_terms() {
           kHalf * mass_[k] * speed_squared(at(centre_, k)) + kHalf * inertia_[k] * turning(k);
       if (!in_plane()) {
         const ex rate = time_.of(direction_square_[k]);
-        energy += kInertiaOfLength *
-                  (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate;
+        energy +=
+            kInertiaOfLength * (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate;
       }
       // One part of the energy a link: sums over links become loops.
       add_kinetic("kinetic", energy);
