@@ -141,7 +141,7 @@ std::vector<Frames> errors_of_markers(const FittedModel& model) {
     if (experiments[e].spec.kind == DataKind::kMarkers) windows[experiments[e].source].push_back(e);
 
   std::vector<Frames> errors;
-  for (const auto& recording : windows) {
+  for (const auto& recording : windows) {  // named members: clang 14 takes no binding into `add`
     const std::vector<std::size_t>& members = recording.second;
     std::vector<Marks> marks;  // of each window
     for (const std::size_t e : members) marks.emplace_back(model, e);
