@@ -305,7 +305,7 @@ json made_diagnosis() {
   json rounds = json::array();
   for (int round = 0; round < 2; ++round) {
     json result = head("identify", "Round", 12);
-    result["experiments"] = {experiment("run 1", 12, t, round == 0 ? 0.1 : 0.0801, 1)};
+    result["experiments"] = json::array({experiment("run 1", 12, t, round == 0 ? 0.1 : 0.0801, 1)});
     result["parameters"] = parameters();
     json candidates = json::array();
     candidates.push_back(

@@ -98,7 +98,8 @@ TEST_CASE("a file that cannot be read says where and why") {
        },
        "measured has angles beside positions of markers"},
       {[](json& r) {
-         r["experiments"][0]["measured"]["across"] = {r["experiments"][0]["measured"]["side"][0]};
+         r["experiments"][0]["measured"]["across"] =
+             json::array({r["experiments"][0]["measured"]["side"][0]});
        },
        "it has 1 rows where side has 12"},
       {[](json& r) {
