@@ -245,13 +245,13 @@ TEST_CASE(
     "a cable that snaps within milliseconds after it is let go began at rest; one that moved did "
     "not") {
   // 1000 frames/s: 0.5 (cos t - 1) of a swing, and a snap to 4 m/s with a time constant of 3 ms.
-  const auto said = [](double snap, double before, double noise) {
+  const auto said = [](double snap, double before, double noise, unsigned seed = 3) {
     Film film;
     film.rate = 1000;
     film.duration = 2;
     film.mistake = [=](Case& the_case) {
       ExperimentSpec& spec = spec_of(the_case);
-      std::mt19937_64 generator(3);
+      std::mt19937_64 generator(seed);
       std::normal_distribution<double> normal(0, noise);
       std::string text = "t,x1,y1,x2,y2,x3,y3\n";
       for (int k = 0; k < 2000; ++k) {
@@ -259,11 +259,11 @@ TEST_CASE(
         text += std::to_string(t);
         const double shift = snap * (t - 0.003 * (1 - std::exp(-t / 0.003))) * std::exp(-t / 0.05) +
                              before * t * std::exp(-t / 0.2);
-        for (const double arc : {0.4, 0.9, kLength})
-          text +=
-              "," +
-              std::to_string(arc * std::sin(0.7 * std::cos(2.6 * t)) + shift + normal(generator)) +
-              "," + std::to_string(arc * std::cos(0.7 * std::cos(2.6 * t)) + normal(generator));
+        for (const double arc : {0.4, 0.9, kLength}) {
+          const double swing = 0.7 * std::cos(2.6 * t);
+          text += "," + std::to_string(arc * std::sin(swing) + shift + normal(generator));
+          text += "," + std::to_string(arc * std::cos(swing) + normal(generator));
+        }
         text += "\n";
       }
       std::ofstream(spec.data) << text;
@@ -271,7 +271,7 @@ TEST_CASE(
     return film.said();
   };
   CHECK(said(4, 0, 1e-9) == "");
-  CHECK(said(4, 0, 1e-4) == "");
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U}) CHECK(said(4, 0, 1e-4, seed) == "");
   CHECK(said(0, 0, 1e-3) == "");
   for (const double noise : {1e-9, 1e-4, 1e-3})
     expect(said(0, 2, noise), {"from: the cable moves at", "release"});
