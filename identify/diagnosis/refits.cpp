@@ -30,7 +30,7 @@ VectorXd scaled(const Candidate& candidate, const Problem& problem, VectorXd x, 
     if (parameter.role == ParameterRole::kAmplitude)
       x[j] = parameter.neutral + factor * (x[j] - parameter.neutral);
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
-    x[j] = std::clamp(x[j], unknown.lower, unknown.upper);
+    x[j] = std::clamp(x[j], unknown.least, unknown.most);
   }
   return x;
 }

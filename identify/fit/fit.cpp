@@ -49,8 +49,8 @@ FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
   settings.method = spec.method;
   Eigen::VectorXd lower(start.size()), upper(start.size());
   for (Eigen::Index j = 0; j < start.size(); ++j) {
-    lower[j] = problem.unknowns()[static_cast<std::size_t>(j)].lower;
-    upper[j] = problem.unknowns()[static_cast<std::size_t>(j)].upper;
+    lower[j] = problem.unknowns()[static_cast<std::size_t>(j)].least;
+    upper[j] = problem.unknowns()[static_cast<std::size_t>(j)].most;
   }
   settings.lower = to_scaled(problem, lower);
   settings.upper = to_scaled(problem, upper);
@@ -103,7 +103,7 @@ Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     // exp(log(bound)) may lie a rounding beyond the bound
     if (unknown.scale == Scale::kLogarithmic)
-      x[j] = std::clamp(std::exp(y[j]), unknown.lower, unknown.upper);
+      x[j] = std::clamp(std::exp(y[j]), unknown.least, unknown.most);
   }
   return x;
 }

@@ -39,12 +39,12 @@ std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, uns
     const Unknown& unknown = problem.unknowns()[j];
     const std::vector<std::size_t> cell = shuffled(drawn, generator);
     const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    const double lower = logarithmic ? std::log(unknown.lower) : unknown.lower;
-    const double upper = logarithmic ? std::log(unknown.upper) : unknown.upper;
+    const double lower = logarithmic ? std::log(unknown.least) : unknown.least;
+    const double upper = logarithmic ? std::log(unknown.most) : unknown.most;
     for (std::size_t i = 0; i < drawn; ++i) {
       const double place =
           (static_cast<double>(cell[i]) + uniform(generator)) / static_cast<double>(drawn);
-      if (std::isfinite(lower) && std::isfinite(upper))
+      if (std::isfinite(unknown.lower) && std::isfinite(unknown.upper))
         points[i + 1][static_cast<Eigen::Index>(j)] = lower + place * (upper - lower);
     }
   }

@@ -171,8 +171,8 @@ DistanceCost::Box box_of(const Problem& problem) {
   for (Index j = 0; j < unknowns; ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
     const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    box.lower[j] = logarithmic ? std::log(unknown.lower) : unknown.lower;
-    box.upper[j] = logarithmic ? std::log(unknown.upper) : unknown.upper;
+    box.lower[j] = logarithmic ? std::log(unknown.least) : unknown.least;
+    box.upper[j] = logarithmic ? std::log(unknown.most) : unknown.most;
     box.reach[j] = logarithmic ? kReach : std::numeric_limits<double>::infinity();
   }
   return box;

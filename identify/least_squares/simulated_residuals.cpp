@@ -73,7 +73,7 @@ void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x) {
     const Unknown& unknown = problem_.unknowns()[static_cast<std::size_t>(j)];
     // What a bound keeps from falling further rests; the others move as if it were known.
     const bool rests =
-        (x[j] <= unknown.lower && gradient[j] > 0) || (x[j] >= unknown.upper && gradient[j] < 0);
+        (x[j] <= unknown.least && gradient[j] > 0) || (x[j] >= unknown.most && gradient[j] < 0);
     const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
     misfit_.residuals.jacobian.col(j) *= slope;
     misfit_.constraints.jacobian.col(j) *= slope;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/parameter_map.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
@@ -14,6 +16,8 @@
 
 namespace catena {
 namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(const ParameterSpec& parameter, const std::string& problem) {
   throw InputError(parameter.where + ": parameter " + in_quotes(parameter.name) + ": " + problem);
@@ -194,6 +198,7 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
         other = &parameter;
       }
     }
+    assignment.admitted = admitted_by(model, assignment);
     assignments_.push_back(std::move(assignment));
   }
   const Eigen::VectorXd array = (*this)(case_values(the_case));
@@ -203,6 +208,31 @@ ParameterMap::ParameterMap(const Case& the_case, const Model& model) : links_(mo
       throw InputError(the_case.file.string() + ": the model's " + entry.name + " (" + entry.unit +
                        ") has no value; add a [[parameter]] that sets it");
     }
+}
+
+ParameterMap::Range ParameterMap::admitted_by(const Model& model, const Assignment& assignment) {
+  const double factor = assignment.factor;
+  const bool geometry = assignment.targets.empty();  // which must be positive
+  Range of_model{geometry ? 0 : -kInfinite, kInfinite};
+  for (const int target : assignment.targets) {
+    const catena_parameter& entry = model.table().parameter[target];
+    of_model.lower = std::max(of_model.lower, entry.lower);
+    of_model.upper = std::min(of_model.upper, entry.upper);
+  }
+  // Other bounds of what is divided by a spacing hang on the lengths, which may be unknown.
+  if (assignment.kind == Kind::kPerSpacing) {
+    if (of_model.lower != 0) of_model.lower = -kInfinite;
+    if (of_model.upper != 0) of_model.upper = kInfinite;
+  }
+  // Rounded, the product with the factor must not lie beyond the bound.
+  const auto value_at = [&](double bound, double inwards) {
+    double value = bound / factor;
+    while (inwards * (factor * value - bound) < 0)
+      value = std::nextafter(value, inwards * factor > 0 ? kInfinite : -kInfinite);
+    return value;
+  };
+  const double lower = value_at(of_model.lower, 1), upper = value_at(of_model.upper, -1);
+  return factor > 0 ? Range{lower, upper} : Range{upper, lower};
 }
 
 void ParameterMap::check_values(const Case& the_case, const Model& model) const {
@@ -221,6 +251,13 @@ void ParameterMap::check_values(const Case& the_case, const Model& model) const 
       }
     };
     check(parameter.value);
+    const Range& admitted = assignments_[j].admitted;
+    if (parameter.free &&
+        !(std::max(parameter.lower, admitted.lower) < std::min(parameter.upper, admitted.upper)))
+      fail(parameter, "lower = " + shortest_number(parameter.lower) + ", upper = " +
+                          shortest_number(parameter.upper) + ": a free parameter needs room, and " +
+                          parameter.sets + " admits only " + shortest_number(parameter.value) +
+                          " of that; change the bounds, or leave free out");
     for (const auto& [experiment, value] : parameter.values) check(value);
   }
 }

@@ -33,6 +33,12 @@ class ParameterMap {
   /// Throws InputError naming the line where a value in the case is outside the model's bounds.
   void check_values(const Case& the_case, const Model& model) const;
 
+  /// The values of a parameter of the case that the model's own bounds admit; with others no simulation begins.
+  struct Range {
+    double lower, upper;
+  };
+  Range admitted(std::size_t parameter) const { return assignments_[parameter].admitted; }
+
   /// `values`: one per parameter of the case, in its order and unit. Returns the model's array.
   Eigen::VectorXd operator()(const Eigen::VectorXd& values) const;
 
@@ -46,8 +52,10 @@ class ParameterMap {
     double factor = 1;
     std::vector<int> targets;  // indices of model parameters
     int first = 0;             // kPerSpacing: 0-based joint of the first target
+    Range admitted;
   };
 
+  static Range admitted_by(const Model& model, const Assignment& assignment);
   template <class T>
   Eigen::Vector<T, Eigen::Dynamic> map(const Eigen::Vector<T, Eigen::Dynamic>& values) const;
 

@@ -73,7 +73,7 @@ Problem::Problem(Case the_case, Model model, std::vector<Recording> recordings)
           fitting_model(case_, with_marker_places(case_, with_cameras(case_, std::move(model))))),
       map_(checked_map(case_, model_)),
       experiments_(experiments_of(case_, model_, map_, std::move(recordings))),
-      unknowns_(case_, experiments_) {
+      unknowns_(case_, map_, experiments_) {
   for (const Experiment& experiment : experiments_) {
     const Eigen::VectorXd parameters = map_(case_values(case_, experiment.spec.name));
     check_clamps(model_, parameters, experiment.signals, experiment.recording.time,
@@ -95,7 +95,7 @@ Problem::Problem(Case the_case, Model model, std::vector<Experiment> experiments
       model_(with_marker_places(case_, with_cameras(case_, std::move(model)))),
       map_(case_, model_),
       experiments_(std::move(experiments)),
-      unknowns_(case_, experiments_) {}
+      unknowns_(case_, map_, experiments_) {}
 
 std::vector<std::string> Problem::warnings() const {
   std::vector<std::string> all;

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/problem/unknowns.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace catena {
 
-Unknowns::Unknowns(const Case& the_case, const std::vector<Experiment>& experiments) {
+Unknowns::Unknowns(const Case& the_case, const ParameterMap& map,
+                   const std::vector<Experiment>& experiments) {
   given_.push_back({catena::case_values(the_case), the_case.initial});
   for (const Experiment& experiment : experiments)
     given_.push_back({catena::case_values(the_case, experiment.spec.name), experiment.initial});
-  add_parameters(the_case, experiments);
+  add_parameters(the_case, map, experiments);
   for (std::size_t e = 0; e < experiments.size(); ++e)
     add_coefficients(experiments[e], static_cast<int>(e));
 }
 
-void Unknowns::add_parameters(const Case& the_case, const std::vector<Experiment>& experiments) {
+void Unknowns::add_parameters(const Case& the_case, const ParameterMap& map,
+                              const std::vector<Experiment>& experiments) {
   for (std::size_t j = 0; j < the_case.parameters.size(); ++j) {
     const ParameterSpec& spec = the_case.parameters[j];
     if (!spec.free) continue;
     Unknown unknown{spec.name, spec.unit, spec.value, spec.lower, spec.upper, spec.scale};
+    const ParameterMap::Range admitted = map.admitted(j);
+    unknown.least = std::max(spec.lower, admitted.lower);
+    unknown.most = std::min(spec.upper, admitted.upper);
     unknown.parameter = static_cast<int>(j);
     if (!spec.per_experiment) {
       list_.push_back(unknown);
@@ -42,8 +48,14 @@ void Unknowns::add_coefficients(const Experiment& experiment, int index) {
                        bool free) {
     for (std::size_t k = 0; free && k < values.size(); ++k) {
       constexpr double infinity = std::numeric_limits<double>::infinity();
-      Unknown unknown{experiment.spec.name + ": " + what + " " + std::to_string(k + 1), unit,
-                      values[k], -infinity, infinity};
+      Unknown unknown{experiment.spec.name + ": " + what + " " + std::to_string(k + 1),
+                      unit,
+                      values[k],
+                      -infinity,
+                      infinity,
+                      Scale::kLinear,
+                      -infinity,
+                      infinity};
       unknown.group = Unknown::Group::kInitial;
       unknown.experiment = index;
       unknown.coefficient = static_cast<int>(offset + k);

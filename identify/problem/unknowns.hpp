@@ -7,6 +7,7 @@
 
 #include "identify/cases/case.hpp"
 #include "identify/problem/experiment.hpp"
+#include "identify/problem/parameter_map.hpp"
 
 namespace catena {
 
@@ -15,8 +16,11 @@ struct Unknown {
   enum class Group { kPhysics, kInitial, kSensor };
   std::string name;  ///< "k", "run 1: angle 2"
   std::string unit;
-  double start = 0, lower = 0, upper = 0;
+  double start = 0, lower = 0, upper = 0;  ///< the case's bounds
   Scale scale = Scale::kLinear;
+  /// Within the case's bounds and the model's. A fit, a profile and a verdict `at_bound` go by these; what the case
+  /// says is where the value is expected.
+  double least = 0, most = 0;
   Group group = Group::kPhysics;
   int experiment = -1;  ///< the one experiment it belongs to; -1: all
   int parameter = -1;   ///< index into Case::parameters; -1: a coefficient of the initial state
@@ -32,7 +36,8 @@ struct Unknown {
 /// experiments; -1 stands for none: the case's own values and initial state.
 class Unknowns {
  public:
-  Unknowns(const Case& the_case, const std::vector<Experiment>& experiments);
+  Unknowns(const Case& the_case, const ParameterMap& map,
+           const std::vector<Experiment>& experiments);
 
   const std::vector<Unknown>& list() const { return list_; }
 
@@ -51,7 +56,8 @@ class Unknowns {
     Eigen::VectorXd values;
     InitialSpec initial;
   };
-  void add_parameters(const Case& the_case, const std::vector<Experiment>& experiments);
+  void add_parameters(const Case& the_case, const ParameterMap& map,
+                      const std::vector<Experiment>& experiments);
   void add_coefficients(const Experiment& experiment, int index);
   const Given& given(int experiment) const {
     return given_[static_cast<std::size_t>(experiment + 1)];

@@ -67,7 +67,7 @@ double moved(const Unknown& unknown, double best, const Estimate& estimate, doub
   const double widest = logarithmic ? 1.0 : 0.25 * (unknown.upper - unknown.lower);
   if (!std::isfinite(step) || step > widest) step = widest;
   const double value = logarithmic ? best * std::exp(deviations * step) : best + deviations * step;
-  return std::clamp(value, unknown.lower, unknown.upper);
+  return std::clamp(value, unknown.least, unknown.most);
 }
 
 /// What a log keeps of a profile: its verdict, its values, their costs.

@@ -256,7 +256,7 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     const double near = 1e-6 * std::abs(x[j]);
     if (lost[static_cast<std::size_t>(j)])
       estimate.verdict = Verdict::kStructurallyNot;
-    else if (expected_noise <= 0 && (x[j] <= unknown.lower + near || x[j] >= unknown.upper - near))
+    else if (expected_noise <= 0 && (x[j] <= unknown.least + near || x[j] >= unknown.most - near))
       estimate.verdict = Verdict::kAtBound;
     else if (kQuantile * deviation[j] > 1)
       estimate.verdict = Verdict::kPracticallyNot;

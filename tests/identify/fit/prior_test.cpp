@@ -51,6 +51,24 @@ TEST_CASE(
   CHECK(error == doctest::Approx(error_of_data / std::sqrt(2)).epsilon(0.05));
 }
 
+TEST_CASE("where the case gives no bounds, those of the model hold") {
+  // The prior drags the stiffness below zero, where the model ends.
+  const Problem bounded = problem(1e-3, -5);
+  Case the_case = bounded.the_case();
+  the_case.parameters[0].lower = -std::numeric_limits<double>::infinity();
+  for (const FitMethod method : {FitMethod::kLeastSquares, FitMethod::kNelderMead}) {
+    CAPTURE(static_cast<int>(method));
+    the_case.optimiser.method = method;
+    the_case.parameters[0].scale = Scale::kLinear;
+    const Problem known(the_case, bounded.model(), bounded.experiments());
+    const FitResult result = fit(known, {}, fit_least_squares);
+    CHECK(result.status == FitStatus::kConverged);
+    CHECK(result.x[0] == 0);
+    CHECK(result.failures == 0);
+    CHECK(uncertainty_of(known, result.x).estimates[0].verdict == Verdict::kAtBound);
+  }
+}
+
 TEST_CASE("a prior whose square is no number is said to be the reason") {
   const FitResult result = fit_least_squares(problem(1.0, 1e300), {});
   CHECK(result.status == FitStatus::kFailed);

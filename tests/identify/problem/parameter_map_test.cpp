@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <limits>
+
 #include "common/input_error.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "tests/identify/differences.hpp"
@@ -68,6 +71,50 @@ TEST_CASE("a cable on a hinge bends from joint 2 on") {
   CHECK(p[model().parameter_index("damping_1")] == doctest::Approx(0.02 / 0.25));
 }
 
+TEST_CASE("a parameter of the case may have the values that the model admits") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Case the_case =
+      case_of(kUniform, parameter("EI", "bending_stiffness", "value = 0.9") +
+                            parameter("c", "damping", "value = -3.0\nfactor = -0.1") +
+                            parameter("T", "torque_2..3", "value = 0.25") +
+                            parameter("L", "cable.length", "value = -1.4\nfactor = -1") +
+                            parameter("rho", "cable.density", "value = 0.3"));
+  const ParameterMap map(the_case, model());
+  const std::array<std::array<double, 2>, 5> expected = {
+      {{0, infinity}, {-infinity, 0}, {-infinity, infinity}, {-infinity, 0}, {0, infinity}}};
+  for (std::size_t j = 0; j < expected.size(); ++j) {
+    CAPTURE(the_case.parameters[j].name);
+    CHECK(map.admitted(j).lower == expected[j][0]);
+    CHECK(map.admitted(j).upper == expected[j][1]);
+  }
+}
+
+TEST_CASE("bounds over a factor are within the model's after rounding, too") {
+  catena_model table = model().table();
+  std::vector<catena_parameter> entries(table.parameter, table.parameter + table.parameters);
+  catena_parameter& bounded =
+      entries[static_cast<std::size_t>(model().parameter_index("torque_1"))];
+  bounded.lower = -0.1;
+  bounded.upper = 0.7;
+  table.parameter = entries.data();
+  const Model with(&table);
+  const std::string others =
+      parameter("k", "stiffness", "value = 1.0") + parameter("c", "damping", "value = 1.0");
+  for (const double factor : {0.3, -0.3, 7.0, -49.0, 1e-3, 1.0}) {
+    CAPTURE(factor);
+    const Case the_case = case_of(
+        kUniform,
+        parameter("T", "torque_1", "value = 0\nfactor = " + std::to_string(factor)) + others);
+    const ParameterMap::Range range = ParameterMap(the_case, with).admitted(0);
+    const double at_lower = factor * (factor > 0 ? range.lower : range.upper);
+    const double at_upper = factor * (factor > 0 ? range.upper : range.lower);
+    CHECK(at_lower >= -0.1);
+    CHECK(at_upper <= 0.7);
+    CHECK(at_lower == doctest::Approx(-0.1).epsilon(1e-15));
+    CHECK(at_upper == doctest::Approx(0.7).epsilon(1e-15));
+  }
+}
+
 TEST_CASE("the Jacobian is the derivative of the map") {
   const Case the_case = case_of(kUniform, parameter("EI", "bending_stiffness", "value = 0.9") +
                                               parameter("b", "damping_length", "value = 0.02") +
@@ -101,6 +148,8 @@ TEST_CASE("what cannot be set is named") {
       {c + parameter("k", "stiffness", "value = 1.0\nunit = \"N/m\""), "stiffness is in N m/rad"},
       {c + parameter("k", "stiffness", "value = 1.0\nunit = \"furlong\""), "furlong"},
       {c + parameter("k", "stiffness", "value = -1.0"), "must lie within 0 and inf"},
+      {k + parameter("c", "damping", "value = 0.0\nfree = true\nupper = 0.0"),
+       "upper = 0: a free parameter needs room, and damping admits only 0 of that"},
       {k + c + parameter("L", "cable.length", "value = -1.0"), "must be positive"},
       {k + c + parameter("L", "cable.length", "value = 1.0") +
            parameter("L2", "cable.length", "value = 1.0"),
