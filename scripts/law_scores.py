@@ -11,6 +11,7 @@ import tomllib
 # Where an effect acts, as the truth's forces.csv calls it (make_recording --forces).
 PLACES = {"link_centre": "middle_", "load": "load_"}
 STEP = 1e-5  # of differences, m, m/s, rad, rad/s
+GRAVITY = 9.81  # m/s^2, of make_recording
 LINK_ENDS = 2  # every so many-th marker is the end of a link
 
 
@@ -36,8 +37,12 @@ class Law:
         self.constants |= {name.removeprefix("discovered_law."): value for parameter in case["parameter"]
                            for name, value in [(parameter["sets"], parameter["value"])]
                            if name.startswith("discovered_law.")}  # fmt: skip
-        self.constants |= {"here": 1.0, "offset": 0.0}  # at its place
+        self.constants |= {"here": 1.0, "offset": 0.0, "gravity": GRAVITY}  # at its place
+        self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
         self.potential = "potential" in law
+        self.at = None
+        if "state" in law:  # it remembers: no function of the state of its time
+            return
         energy = law["potential" if self.potential else "dissipation"][0]
         one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))
         self.at = energy["at"] if one_place else None
@@ -62,7 +67,15 @@ class Law:
                 moved["rate"] = 0.0  # its place has no offset
             return self._energy(moved)
 
-        return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) for name in names]
+        return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) - self.mass * state.get(f"acceleration_{name}", 0.0)
+                for name in names]  # fmt: skip
+
+
+def slopes(values, times):
+    """By differences of neighbours."""
+    last = len(times) - 1
+    ends = [(max(k - 1, 0), min(k + 1, last)) for k in range(len(times))]
+    return [(values[b] - values[a]) / (times[b] - times[a]) for a, b in ends]
 
 
 def curve_error(found, forces):
@@ -75,7 +88,9 @@ def curve_error(found, forces):
     elif law.at in PLACES:
         where = PLACES[law.at]
         there = [true[f"{where}force_side"], true[f"{where}force_down"]]
-        states = ("side", "down", "velocity_side", "velocity_down", "angle")
+        for axis in ("side", "down"):
+            true[f"{where}acceleration_{axis}"] = slopes(true[f"{where}velocity_{axis}"], true["time_s"])
+        states = ("side", "down", "velocity_side", "velocity_down", "acceleration_side", "acceleration_down", "angle")
     else:
         return None
     size = math.hypot(*map(rms, there))

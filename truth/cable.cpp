@@ -45,8 +45,8 @@ class Chain {
   int unknowns() const { return unknowns_; }
   int links() const { return n_; }
 
-  /// Residual of Newton's equations at (t, q, v, a). `memory`: the hysteretic part of each joint
-  /// angle. `outside`: takes what the laws outside of every library do, if it is wanted.
+  /// Residual of Newton's equations at (t, q, v, a). `memory`: the part of each joint angle that has not given way
+  /// (hysteresis), or not relaxed. `outside`: takes what the laws outside of every library do, if it is wanted.
   void residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
                 const VectorXd& memory, VectorXd& r, OutsideForces* outside = nullptr) const;
 
@@ -227,7 +227,7 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     if (h.tension_friction != 0)
       moment += h.tension_friction * norm(carried + lack[k]) * rounded_sign(rate);
     if (i == n_ / 2) {
-      const double against = middle_moment(angle, rate);
+      const double against = middle_moment(angle, rate) + h.maxwell * memory[i];
       moment += against;
       if (outside) {
         outside->joint_angle = angle;
@@ -362,14 +362,16 @@ class Midpoint {
     chain_.residual(time() + 0.5 * h, q, middle, a, middle_memory(middle), r);
   }
 
-  /// Dahl: dm/dt = w - |w| m / m_c, at the middle of the step; linear in the memory m.
+  /// Dahl: dm/dt = w - |w| m / m_c, or Maxwell: dm/dt = w - m / lag, at the middle of the step; linear in the
+  /// memory m.
   VectorXd middle_memory(const VectorXd& middle) const {
     VectorXd m = memory_;
-    if (hidden_.hysteresis_moment == 0) return m;
+    if (hidden_.hysteresis_moment == 0 && hidden_.maxwell == 0) return m;
     for (int i = 0; i < chain_.links(); ++i) {
       const double w = middle[i] - (i > 0 ? middle[i - 1] : 0);
-      m[i] = (memory_[i] + 0.5 * step_ * w) /
-             (1 + 0.5 * step_ * std::abs(w) / hidden_.hysteresis_reach);
+      const double fading =
+          hidden_.maxwell != 0 ? 1 / hidden_.maxwell_lag : std::abs(w) / hidden_.hysteresis_reach;
+      m[i] = (memory_[i] + 0.5 * step_ * w) / (1 + 0.5 * step_ * fading);
     }
     return m;
   }
@@ -425,6 +427,8 @@ Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>&
             const Integration& integration) {
   if (hidden.stribeck != 0 || hidden.drag_growth != 0)
     throw std::invalid_argument("friction_law and drag_law: coded for the rod only");
+  if (hidden.maxwell != 0 && hidden.hysteresis_moment != 0)
+    throw std::invalid_argument("maxwell and joint_hysteresis: a joint has one memory only");
   const Chain chain(cable, hidden);
   Midpoint state(chain, hidden, start_state(cable, hidden, chain, start_angles), integration.step);
   Motion motion;

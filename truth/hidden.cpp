@@ -72,6 +72,8 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"brake.rate", &Hidden::brake_rate},
       {"joint_stop.stiffness", &Hidden::joint_stop},
       {"joint_stop.gap", &Hidden::joint_gap},
+      {"maxwell.stiffness", &Hidden::maxwell},
+      {"maxwell.lag", &Hidden::maxwell_lag},
       {"tension_friction.reach", &Hidden::tension_friction},
       {"leak.rate", &Hidden::leak},
       {"insect.mass", &Hidden::insect},

@@ -59,6 +59,7 @@ struct Hidden {
   double string_side = -0.3, string_down = 0.6;  // m, of the hook
   double brake = 0, brake_rate = 2;              // N m s/rad, rad/s; eddy brake in mid-joint
   double joint_stop = 0, joint_gap = 0.1;        // N m/rad, rad; play of mid-joint
+  double maxwell = 0, maxwell_lag = 0.3;         // N m/rad, s; spring before a dashpot in mid-joint
   double tension_friction = 0;                   // m; every joint's friction over its tension
   double leak = 0;                               // kg/s that the load loses
   double insect = 0;                             // kg at mid-cable

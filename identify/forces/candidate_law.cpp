@@ -31,10 +31,14 @@ constexpr const char* kEdge = "edge";
 /// that, over the length of the cable.
 constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
+/// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit
+/// may find.
+constexpr double kLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
 
 /// Unit of a force over a power of the variable: "N/m^2", "N s^2/m^2", "N m^2 s".
 std::string unit_over(const LawNames& names, int power) {
   if (power == 0) return names.force_unit;
+  if (names.variable_unit == "m/s^2") return "kg";
   struct Row {
     const char *unit, *below, *above;
   };
@@ -72,25 +76,31 @@ std::vector<int> all_of(Index count) {
 }  // namespace
 
 CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
-                           const std::vector<VectorXd>& visited, const Vector2d& fixed_point)
-    : site_(site), variable_(variable), chain_(chain), fixed_point_(fixed_point) {
+                           const std::vector<LawMotion>& visited, const Numbers& numbers)
+    : site_(site), variable_(variable), chain_(chain), numbers_(numbers) {
   double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const VectorXd& state : visited)
-    for (const LawElement& element : law_elements(site_, variable_, fixed_point_, chain_, state)) {
-      least = std::min(least, element.value);
-      most = std::max(most, element.value);
-    }
+  for (const LawMotion& motion : visited) {
+    const MatrixXd states = memory().along(motion, chain_);
+    for (Index k = 0; k < states.cols(); ++k)
+      for (const LawElement& element :
+           law_elements(site_, variable_, numbers_.fixed_point, chain_, states.col(k))) {
+        least = std::min(least, element.value);
+        most = std::max(most, element.value);
+      }
+  }
   const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
-  grammar_ = dissipative() ? velocity_grammar()
-             : angle       ? angle_grammar()
-             : has_point() ? distance_grammar()
-                           : position_grammar();
-  if (!dissipative() && !angle && !has_point()) middle_ = 0.5 * (least + most);
+  grammar_ = variable == LawVariable::kAcceleration ? inertia_grammar()
+             : has_lag()                            ? relaxing_grammar()
+             : against()                            ? velocity_grammar()
+             : angle                                ? angle_grammar()
+             : has_point()                          ? distance_grammar()
+                                                    : position_grammar();
+  if (!against() && !angle && !has_point()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
-  double count = has_point() ? 2 : 0;
+  double count = 2 * has_point() + has_lag();
   for (const int term : form)
     count += text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).shape ? 2 : 1;
   return count;
@@ -98,7 +108,8 @@ double CandidateLaw::constants(const std::vector<int>& form) const {
 
 MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form) const {
   MatrixXd force = MatrixXd::Zero(chain_.lengths.size(), static_cast<Index>(form.size()));
-  for (const LawElement& element : law_elements(site_, variable_, fixed_point_, chain_, state)) {
+  for (const LawElement& element :
+       law_elements(site_, variable_, numbers_.fixed_point, chain_, state)) {
     const double u = (element.value - middle_) / half_;
     for (std::size_t j = 0; j < form.size(); ++j)
       force.col(static_cast<Index>(j)) +=
@@ -111,7 +122,7 @@ MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form
 MatrixXd CandidateLaw::force(const VectorXd& state) const { return force(state, all_of(terms())); }
 
 bool CandidateLaw::admits(const VectorXd& coefficients) const {
-  return (coefficients.array() != 0).all() && (!dissipative() || (coefficients.array() <= 0).all());
+  return (coefficients.array() != 0).all() && (!against() || (coefficients.array() <= 0).all());
 }
 
 bool CandidateLaw::has_place() const {
@@ -126,7 +137,9 @@ std::string CandidateLaw::shape_name(int term) const {
 VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
   std::vector<double> numbers;
   if (has_place()) numbers.push_back(site_.arc_length);
-  if (has_point()) numbers.insert(numbers.end(), {fixed_point_[0], fixed_point_[1]});
+  if (has_point())
+    numbers.insert(numbers.end(), {numbers_.fixed_point[0], numbers_.fixed_point[1]});
+  if (has_lag()) numbers.push_back(numbers_.lag);
   for (const int term : form)
     if (!shape_name(term).empty())
       numbers.push_back(grammar_.terms[static_cast<std::size_t>(term)].shape);
@@ -136,7 +149,7 @@ VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
 VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
   VectorXd steps = kNumberStep * numbers(form).cwiseAbs();
   if (has_point()) steps.segment(has_place(), 2).setConstant(kNumberStep * half_);
-  Index next = has_place() + 2 * has_point();
+  Index next = has_place() + 2 * has_point() + has_lag();
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
     if (shape_name(term) == kEdge) steps[next] = kNumberStep;
@@ -150,9 +163,11 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
   CandidateLaw other = *this;
   Index next = 0;
   if (has_place()) other.site_.arc_length = numbers[next++];
-  if (has_point()) other.fixed_point_ = numbers.segment<2>(next), next += 2;
-  bool possible =
-      numbers.allFinite() && (!has_place() || (other.site_.arc_length > 0 && other.has_place()));
+  if (has_point()) other.numbers_.fixed_point = numbers.segment<2>(next), next += 2;
+  if (has_lag()) other.numbers_.lag = numbers[next++];
+  bool possible = numbers.allFinite() &&
+                  (!has_place() || (other.site_.arc_length > 0 && other.has_place())) &&
+                  (!has_lag() || other.numbers_.lag > kLeastLag);
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
     const double shape = numbers[next++];
@@ -191,13 +206,18 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                             const MatrixXd& covariance) const {
   const LawNames names = names_of(site_, variable_);
   Formula formula;
-  formula.dissipation = dissipative();
+  using Kind = Formula::Kind;
+  formula.variable_unit = names.variable_unit;
+  formula.kind = variable_ == LawVariable::kAcceleration ? Kind::kMass
+                 : has_lag()                             ? Kind::kRelaxing
+                 : against()                             ? Kind::kDissipation
+                                                         : Kind::kPotential;
   const auto add_amplitude = [&](const std::string& name, int power, Index i) {
     const double scale = std::pow(half_, power), value = -coefficients[i] / scale;
     const double bound = kBound * std::abs(value);
     formula.constants.push_back({name, unit_over(names, power), value,
                                  std::sqrt(std::max(0.0, covariance(i, i))) / scale, true,
-                                 dissipative() ? 0.0 : -bound, bound});
+                                 against() ? 0.0 : -bound, bound});
   };
   const auto kind_of = [&](std::size_t j) {
     return grammar_.terms[static_cast<std::size_t>(form[j])].kind;
@@ -213,9 +233,10 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   const auto add_point = [&] {
     if (!has_point()) return;
     for (const int k : {0, 1})
-      formula.constants.push_back({k ? "point_down" : "point_side", "m", fixed_point_[k],
+      formula.constants.push_back({k ? "point_down" : "point_side", "m", numbers_.fixed_point[k],
                                    deviation_of(has_place() + k), false,
-                                   fixed_point_[k] - 2 * half_, fixed_point_[k] + 2 * half_});
+                                   numbers_.fixed_point[k] - 2 * half_,
+                                   numbers_.fixed_point[k] + 2 * half_});
   };
   if (form.size() == 2 && kind_of(0) == TermKind::kConstant && kind_of(1) == TermKind::kLinear &&
       coefficients[1] != 0) {
@@ -243,7 +264,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
   char knot = 'a';  // names that end with a number are those of one joint or link
-  Index shapes = has_place() + 2 * has_point();
+  Index shapes = has_place() + 2 * has_point() + has_lag();
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
@@ -266,6 +287,14 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                  edge ? shape + 2 * half_ : shape * kMostShapeChange});
   }
   add_point();
+  if (has_lag()) {
+    formula.constants.push_back({"lag", "s", numbers_.lag, deviation_of(has_place()), false,
+                                 numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
+    formula.energy = names.symbols;
+  }
+  if (formula.kind == Kind::kMass)
+    formula.energy =
+        fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition));
   formula.text =
       fmt::format("{} = -{}", names.force, form.size() == 1 ? terms : fmt::format("({})", terms));
   fix("middle", middle_);
@@ -277,19 +306,26 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
 }
 
 std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& chain,
-                                        const std::vector<VectorXd>& visited) {
+                                        const std::vector<LawMotion>& visited) {
   std::vector<CandidateLaw> candidates;
-  for (const LawVariable variable : variables_of(site.kind)) {
+  const auto add = [&](LawVariable variable, const CandidateLaw::Numbers& numbers) {
+    candidates.emplace_back(site, variable, chain, visited, numbers);
+  };
+  for (const LawVariable variable : variables_of(site, chain.lengths.sum())) {
+    if (relaxing_of(variable)) {
+      for (const double lag : kLags) add(variable, {.lag = lag});
+      continue;
+    }
     if (variable != LawVariable::kDistance) {
-      candidates.emplace_back(site, variable, chain, visited);
+      add(variable, {});
       continue;
     }
     std::vector<Vector2d> positions;
-    positions.reserve(visited.size());
-    for (const VectorXd& state : visited)
-      positions.emplace_back(
-          place_kinematics(state, chain.coordinates, chain.lengths, site.arc_length)
-              .motion.head<2>());
+    for (const LawMotion& motion : visited)
+      for (Index k = 0; k < motion.state.cols(); ++k)
+        positions.emplace_back(
+            place_kinematics(motion.state.col(k), chain.coordinates, chain.lengths, site.arc_length)
+                .motion.head<2>());
     Vector2d least = positions.front(), most = least;
     for (const Vector2d& at : positions) {
       least = least.cwiseMin(at);
@@ -302,8 +338,7 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
       double reach = 0;
       for (const Vector2d& at : positions) reach = std::max(reach, (at - middle).dot(direction));
       for (const double beyond : kBeyond)
-        candidates.emplace_back(site, variable, chain, visited,
-                                middle + (reach + beyond * chain.lengths.sum()) * direction);
+        add(variable, {.fixed_point = middle + (reach + beyond * chain.lengths.sum()) * direction});
     }
   }
   return candidates;

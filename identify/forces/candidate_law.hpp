@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/forces/law_memory.hpp"
 #include "identify/forces/law_terms.hpp"
 #include "identify/forces/law_variable.hpp"
 
@@ -16,34 +17,39 @@ namespace catena {
 /// angle, of a distance and of velocities from 0.
 class CandidateLaw {
  public:
-  /// `visited`: states (q, v, z). `fixed_point`: m, for the distance.
+  /// What a variable has besides its site.
+  struct Numbers {
+    Eigen::Vector2d fixed_point = Eigen::Vector2d::Zero();  ///< m, of the distance
+    double lag = 0;                                         ///< s, where it relaxes
+  };
+  /// `visited`: the motions that the law is to explain.
   CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
-               const std::vector<Eigen::VectorXd>& visited,
-               const Eigen::Vector2d& fixed_point = Eigen::Vector2d::Zero());
+               const std::vector<LawMotion>& visited, const Numbers& numbers);
 
   const LawSite& site() const { return site_; }
-  bool dissipative() const {
-    return !has_potential(variable_);
-  }  ///< the force is against a velocity
+  /// The force is against a velocity, an acceleration or a stretch that relaxes: no coefficient is positive.
+  bool against() const { return !has_potential(variable_); }
+  /// What the force looks at besides the state of its time.
+  LawMemory memory() const { return {site_, variable_, numbers_.lag}; }
   Eigen::Index terms() const { return static_cast<Eigen::Index>(grammar_.terms.size()); }
   /// Sets of terms that make a formula, simplest first.
   const std::vector<std::vector<int>>& forms() const { return grammar_.forms; }
 
-  /// Numbers that a formula has: coefficients, shapes, the fixed point.
+  /// Numbers that a formula has: coefficients, shapes, the fixed point, the lag.
   double constants(const std::vector<int>& form) const;
 
-  /// Generalised forces on the angles of the links, links x terms of the form.
+  /// Generalised forces on the angles of the links, links x terms of the form. `state`: (q, v, z), and the memory.
   Eigen::MatrixXd force(const Eigen::VectorXd& state, const std::vector<int>& form) const;
   /// Of all terms.
   Eigen::MatrixXd force(const Eigen::VectorXd& state) const;
 
   /// Whether these coefficients make a law: every term is there (least squares give 0 to one that the
   /// others imitate; then a form without it says the same), and it can give no energy: it has a
-  /// potential, or every term is against the velocity.
+  /// potential, every term is against the velocity, or it is a mass or a spring before a dashpot, none negative.
   bool admits(const Eigen::VectorXd& coefficients) const;
 
   /// Numbers that the force of a formula is not linear in: the arc length of a place inside of the cable, m; the
-  /// fixed point, side and down, m; the shape of every term that has one, in units of the half width.
+  /// fixed point, side and down, m; the lag, s; the shape of every term that has one, in units of the half width.
   Eigen::VectorXd numbers(const std::vector<int>& form) const;
   /// Changes of these over which the force is close to linear.
   Eigen::VectorXd steps(const std::vector<int>& form) const;
@@ -68,11 +74,13 @@ class CandidateLaw {
   struct Formula {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
-    bool dissipation = false;  ///< `energy` is one, else a potential
-    bool curve = false;        ///< straight pieces between knots: no formula fits
-    /// The integral of -force over the variable in the language of effects (docs/effects.md). A
-    /// place is `offset` past the middle of a link.
+    /// What follows declares a potential, a dissipation, a mass or a spring before a dashpot (law_effect.cpp).
+    enum class Kind { kPotential, kDissipation, kMass, kRelaxing } kind = Kind::kPotential;
+    bool curve = false;  ///< straight pieces between knots: no formula fits
+    /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
+    /// mass; of a spring before a dashpot the rate of its length. A place is `offset` past the middle of a link.
     std::string energy;
+    std::string variable_unit;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };
   /// `covariance`: of the coefficients and the numbers.
@@ -82,19 +90,20 @@ class CandidateLaw {
  private:
   bool has_place() const;
   bool has_point() const { return variable_ == LawVariable::kDistance; }
+  bool has_lag() const { return relaxing_of(variable_).has_value(); }
   std::string shape_name(int term) const;
 
   LawSite site_;
   LawVariable variable_;
   LawChain chain_;
-  Eigen::Vector2d fixed_point_;
+  Numbers numbers_;
   LawGrammar grammar_;
   double middle_ = 0, half_ = 1;
 };
 
 /// Candidates at a site, each with every variable. For the distance of a place, fixed points around
-/// what it visits.
+/// what it visits; for what relaxes, some lags.
 std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& chain,
-                                        const std::vector<Eigen::VectorXd>& visited);
+                                        const std::vector<LawMotion>& visited);
 
 }  // namespace catena

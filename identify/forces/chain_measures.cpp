@@ -14,7 +14,8 @@ ChainMeasures::ChainMeasures(const Problem& problem, const VectorXd& x, int expe
   length = lengths.sum();
   const double mass = p.segment(model.parameter_index("mass_1"), model.links()).sum() +
                       p[model.parameter_index("load_mass")];
-  weight = mass * p[model.parameter_index("gravity")];
+  gravity = p[model.parameter_index("gravity")];
+  weight = mass * gravity;
 }
 
 }  // namespace catena

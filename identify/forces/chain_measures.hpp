@@ -11,6 +11,7 @@ namespace catena {
 struct ChainMeasures {
   Eigen::VectorXd lengths;        ///< of the links, m
   double length = 0, weight = 0;  ///< m; N, with the load
+  double gravity = 0;             ///< m/s^2
 
   /// At the values `x` of the problem's unknowns, of one of its experiments.
   ChainMeasures(const Problem& problem, const Eigen::VectorXd& x, int experiment);

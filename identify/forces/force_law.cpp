@@ -179,9 +179,7 @@ class LawSearch {
         numbers_(numbers),
         linear_(std::move(linear)),
         chain_(chain) {
-    std::vector<VectorXd> visited;
-    for (const ForcePath& path : paths_.paths())
-      for (Index k = 0; k < path.state.cols(); ++k) visited.emplace_back(path.state.col(k));
+    const std::vector<LawMotion> visited = motions();
     for (const LawSite& site : sites)
       for (CandidateLaw& candidate : candidates_at(site, chain_, visited))
         candidates_.push_back(std::move(candidate));
@@ -234,13 +232,16 @@ class LawSearch {
              (end == begin || columns + candidates_[end].terms() <= kColumnsAtOnce))
         columns += candidates_[end++].terms();
       std::vector<NodeForces> forces;
-      for (const ForcePath& path : paths_.paths()) {
+      for (const LawMotion& motion : motions()) {
+        const auto nodes = static_cast<std::size_t>(motion.state.cols());
         NodeForces& of_recording = forces.emplace_back();
-        for (Index k = 0; k < path.state.cols(); ++k) {
-          MatrixXd& at = of_recording.columns.emplace_back(links(), columns);
-          Index column = 0;
-          for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms())
-            at.middleCols(column, candidates_[c].terms()) = candidates_[c].force(path.state.col(k));
+        of_recording.columns.assign(nodes, MatrixXd(links(), columns));
+        Index column = 0;
+        for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
+          const MatrixXd states = candidates_[c].memory().along(motion, chain_);
+          for (std::size_t k = 0; k < nodes; ++k)
+            of_recording.columns[k].middleCols(column, candidates_[c].terms()) =
+                candidates_[c].force(states.col(static_cast<Index>(k)));
         }
       }
       MatrixXd responses = law_part(linear_, forces, half).forces;
@@ -299,8 +300,8 @@ class LawSearch {
       const VectorXd steps = fitted.law.steps(fitted.form);
       VectorXd wide(fitted.coefficients.size() + steps.size());
       wide << kWide * fitted.coefficients.cwiseAbs(), kWide * steps;
-      const LinearProblem closed =
-          with_law(linear_, forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
+      const LinearProblem closed = with_law(
+          with_memory(fitted.law), forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
       paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
       std::vector<MatrixXd> taken;
       for (const NodeForces& of : forces_of(fitted.law, fitted.form, fitted.coefficients)) {
@@ -332,6 +333,22 @@ class LawSearch {
 
   Index links() const { return chain_.lengths.size(); }
 
+  std::vector<LawMotion> motions() const {
+    std::vector<LawMotion> motions;
+    for (std::size_t r = 0; r < paths_.paths().size(); ++r)
+      motions.push_back({paths_.paths()[r].state, paths_.times(r)});
+    return motions;
+  }
+
+  /// The linear problem with what a law remembers behind the states.
+  LinearProblem with_memory(const CandidateLaw& law) const {
+    LinearProblem linear = linear_;
+    const std::vector<LawMotion> along = motions();
+    for (std::size_t r = 0; r < along.size(); ++r)
+      linear.recordings[r] = law.memory().added_to(linear_.recordings[r], along[r], chain_);
+    return linear;
+  }
+
   /// The terms of a form about the motion found. With coefficients also how the law's force changes with
   /// each of its numbers, and how it follows the state.
   std::vector<NodeForces> forces_of(const CandidateLaw& law, const std::vector<int>& form,
@@ -345,10 +362,14 @@ class LawSearch {
     for (Index i = 0; known && i < numbers.size(); ++i)
       beside.push_back(
           law.with(form, numbers + steps[i] * VectorXd::Unit(numbers.size(), i)).value_or(law));
-    for (const ForcePath& path : paths_.paths()) {
+    for (const LawMotion& motion : motions()) {
       NodeForces& of_recording = forces.emplace_back();
-      for (Index k = 0; k < path.state.cols(); ++k) {
-        VectorXd state = path.state.col(k);
+      const MatrixXd states = law.memory().along(motion, chain_);
+      std::vector<MatrixXd> states_beside;
+      for (const CandidateLaw& other : beside)
+        states_beside.push_back(other.memory().along(motion, chain_));
+      for (Index k = 0; k < states.cols(); ++k) {
+        VectorXd state = states.col(k);
         MatrixXd& columns =
             of_recording.columns.emplace_back(links(), terms + static_cast<Index>(beside.size()));
         columns.leftCols(terms) = law.force(state, form);
@@ -357,7 +378,8 @@ class LawSearch {
         for (std::size_t i = 0; i < beside.size(); ++i) {
           const auto number = static_cast<Index>(i);
           columns.col(terms + number) =
-              (beside[i].force(state, form) * coefficients - here) / steps[number];
+              (beside[i].force(states_beside[i].col(k), form) * coefficients - here) /
+              steps[number];
         }
         constexpr double kDifference = 1e-7;  // rad, rad/s
         MatrixXd& by_state =
@@ -369,8 +391,8 @@ class LawSearch {
           state[i] = value;
         };
         for (Index i = 0; i < links(); ++i) differentiate(i);
-        for (Index i = 0; law.dissipative() && i < links(); ++i)
-          differentiate(chain_.coordinates + i);
+        for (Index i = 0; law.against() && i < links(); ++i) differentiate(chain_.coordinates + i);
+        for (Index i = motion.state.rows(); i < state.size(); ++i) differentiate(i);
       }
     }
     return forces;
@@ -385,7 +407,8 @@ class LawSearch {
     VectorXd coefficients = std::move(first);
     for (int loop = 0; loop <= (numbers > 0 ? kMostLoops : kClosedLoops); ++loop) {
       const bool open = coefficients.size() == 0;
-      const LawPart part = law_part(linear_, forces_of(law, form, coefficients), FrameHalf::kBoth);
+      const LawPart part =
+          law_part(with_memory(law), forces_of(law, form, coefficients), FrameHalf::kBoth);
       MatrixXd columns(part.value.size(), part.forces.cols() + 1);
       columns << part.forces, part.value;
       const MatrixXd left = without_nuisance(part, columns);

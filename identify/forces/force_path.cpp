@@ -298,7 +298,7 @@ double ForcePaths::move(const LinearProblem& linear, const Smoothed& smoothed) {
                  .squaredNorm();
       count += static_cast<double>(seen.value.size());
     }
-    path.state += to.state;
+    path.state += to.state.topRows(path.state.rows());
     path.force = to.force;
     const std::vector<Index> own = unknowns_.own(path.experiment);
     for (std::size_t j = 0; j < own.size(); ++j)

@@ -87,7 +87,7 @@ class ForcePaths {
   std::optional<Smoothed> settle(std::vector<double>& variance, bool with_time_scale);
 
   /// Moves motion and unknowns to what was smoothed about them; `linear` may have more shared
-  /// parameters behind those of the problem. The forces are those smoothed, none where none acted.
+  /// parameters behind those of the problem, and more states. The forces are those smoothed, none where none acted.
   /// Returns the root mean square change of what the sensors would see, in standard deviations.
   double move(const LinearProblem& linear, const Smoothed& smoothed);
 

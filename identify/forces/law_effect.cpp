@@ -55,11 +55,15 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
       "variable in the first half of the frames, it explained {:.0f} % of what a force can explain "
       "in the second; of random forces {:.2g} did as well.",
       title, formula.text, law.candidates, 100 * law.confirmed, law.chance);
-  const char* const curve =
-      formula.curve ? " No formula fits: the law is a curve of straight pieces between knots." : "";
+  using Kind = CandidateLaw::Formula::Kind;
+  const char* const more =
+      formula.curve ? " No formula fits: the law is a curve of straight pieces between knots."
+      : formula.kind == Kind::kRelaxing ? " What relaxes is a spring before a dashpot (Maxwell): "
+                                          "its length z follows z' = rate - z/lag."
+                                        : "";
   std::string text =
       fmt::format("format = 1\nkind = \"effect\"\nid = \"{}\"\ntitle = {}\ndescription = {}\n", id,
-                  toml_quoted("Discovered: " + title), toml_quoted(words + curve));
+                  toml_quoted("Discovered: " + title), toml_quoted(words + more));
 
   const auto parameter = [&](const CandidateLaw::Constant& of) {
     text += fmt::format("\n[parameters.{}]\nunit = \"{}\"\nlower = {}\nupper = {}\n{} = {}\n",
@@ -88,10 +92,27 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     define("here", fmt::format("(tanh((offset + {0}/2)/width) - tanh((offset - {0}/2)/width))/2",
                                where.gate));
   }
-  text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}({})\"\n",
-                      formula.dissipation ? "dissipation" : "potential", where.at,
-                      where.per_length ? "per = \"length\"\n" : "", where.gate ? "here*" : "",
-                      where.factor, formula.energy);
+  const char* const gate = where.gate ? "here*" : "";
+  const auto declare = [&](const char* table, const std::string& value) {
+    text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}\"\n", table, where.at,
+                        where.per_length ? "per = \"length\"\n" : "", gate, value);
+  };
+  if (formula.kind == Kind::kRelaxing) {
+    text += fmt::format(
+        "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
+        "rate = \"{3} - {0}_stretch/lag\"\n",
+        id, formula.variable_unit, where.at, formula.energy);
+    text += fmt::format(
+        "\n[[force]]\nat = \"{}\"\nalong = \"{}\"\nvalue = \"-{}{}spring*{}_stretch\"\n", where.at,
+        formula.energy, gate, where.factor, id);
+    return text;
+  }
+  if (formula.kind == Kind::kMass)
+    declare("kinetic",
+            fmt::format("point_mass*(({})^2 + ({})^2)/2", symbols_of(LawVariable::kSideVelocity),
+                        symbols_of(LawVariable::kDownVelocity)));
+  declare(formula.kind == Kind::kDissipation ? "dissipation" : "potential",
+          fmt::format("{}({})", where.factor, formula.energy));
   return text;
 }
 

@@ -57,6 +57,8 @@ double value_of(const LawTerm& term, double u) {
       return 1;
     case TermKind::kLinear:
     case TermKind::kViscous:
+    case TermKind::kInertia:
+    case TermKind::kRelaxing:
       return u;
     case TermKind::kQuadratic:
       return u * u;
@@ -133,6 +135,9 @@ const LawTermText& text_of(TermKind kind) {
       {TermKind::kFalling,
        {"linear", "saturation", 1, "linear x {x}/(1 + ({x}/saturation)^2)",
         "linear*saturation^2*log(1 + ({q})/saturation^2)/2"}},
+      // What these do is no energy of the variable: law_effect.cpp.
+      {TermKind::kInertia, {"point_mass", nullptr, 1, "point_mass x ({x})", ""}},
+      {TermKind::kRelaxing, {"spring", nullptr, 1, "spring x {x}", ""}},
   };
   for (const auto& row : kTexts)
     if (row.kind == kind) return row.text;
@@ -206,6 +211,16 @@ const LawGrammar& velocity_grammar() {
     forms.push_back({sign, {TermKind::kFalling, 0.2}});
     return grammar(forms);
   }();
+  return kGrammar;
+}
+
+const LawGrammar& inertia_grammar() {
+  static const LawGrammar kGrammar = grammar({{{TermKind::kInertia}}});
+  return kGrammar;
+}
+
+const LawGrammar& relaxing_grammar() {
+  static const LawGrammar kGrammar = grammar({{{TermKind::kRelaxing}}});
   return kGrammar;
 }
 

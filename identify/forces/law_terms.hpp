@@ -29,6 +29,9 @@ enum class TermKind {
   kCube,
   kSaturating,  ///< viscous far below the shape, constant far above
   kFalling,     ///< viscous far below the shape, falling above: an eddy brake, Stribeck's friction
+  // against an acceleration, against a stretch that relaxes
+  kInertia,
+  kRelaxing,
 };
 
 /// One term of a law: a function of the variable's distance from a middle, in units of a half width,
@@ -68,5 +71,7 @@ const LawGrammar& position_grammar();
 const LawGrammar& distance_grammar();
 const LawGrammar& angle_grammar();
 const LawGrammar& velocity_grammar();
+const LawGrammar& inertia_grammar();
+const LawGrammar& relaxing_grammar();
 
 }  // namespace catena

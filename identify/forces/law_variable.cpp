@@ -27,6 +27,12 @@ constexpr NamesOfVariable kNames[] = {
     {LawVariable::kDownPosition, true, "down force", "down position", "m",
      "down + offset*cos(angle)"},
     {LawVariable::kDistance, true, "force away from a fixed point", "distance from it", "m", ""},
+    {LawVariable::kAcceleration, false, "force of a mass", "acceleration less gravity", "m/s^2",
+     ""},
+    {LawVariable::kRelaxingSidePosition, false, "side force", "relaxing side position", "m",
+     "velocity_side"},
+    {LawVariable::kRelaxingDownPosition, false, "down force", "relaxing down position", "m",
+     "velocity_down"},
     {LawVariable::kSideVelocity, false, "side force", "side velocity", "m/s",
      "velocity_side + offset*cos(angle)*rate"},
     {LawVariable::kDownVelocity, false, "down force", "down velocity", "m/s",
@@ -39,8 +45,12 @@ constexpr NamesOfVariable kNames[] = {
     {LawVariable::kLinkRate, false, "moment", "rate of the cable's turning", "rad/s", "rate"},
     {LawVariable::kJointAngle, true, "moment", "joint angle", "rad", "joint_angle"},
     {LawVariable::kJointRate, false, "moment", "joint rate", "rad/s", "joint_rate"},
+    {LawVariable::kRelaxingJointAngle, false, "moment", "relaxing joint angle", "rad",
+     "joint_rate"},
     {LawVariable::kCurvature, true, "bending moment", "curvature", "1/m", "joint_angle/spacing"},
     {LawVariable::kCurvatureRate, false, "bending moment", "rate of curvature", "1/(m s)",
+     "joint_rate/spacing"},
+    {LawVariable::kRelaxingCurvature, false, "bending moment", "relaxing curvature", "1/m",
      "joint_rate/spacing"},
 };
 
@@ -88,6 +98,23 @@ OfPlace of_place(LawVariable variable, const PlaceMotion& motion, const Vector2d
 
 bool has_potential(LawVariable variable) { return row_of(variable).potential; }
 
+std::optional<LawVariable> relaxing_of(LawVariable variable) {
+  switch (variable) {
+    case LawVariable::kRelaxingSidePosition:
+      return LawVariable::kSidePosition;
+    case LawVariable::kRelaxingDownPosition:
+      return LawVariable::kDownPosition;
+    case LawVariable::kRelaxingJointAngle:
+      return LawVariable::kJointAngle;
+    case LawVariable::kRelaxingCurvature:
+      return LawVariable::kCurvature;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::string symbols_of(LawVariable variable) { return row_of(variable).symbols; }
+
 LawNames names_of(const LawSite& site, LawVariable variable) {
   const NamesOfVariable& row = row_of(variable);
   const bool moment = site.kind == SiteKind::kJoint || site.kind == SiteKind::kJoints;
@@ -102,9 +129,10 @@ LawNames names_of(const LawSite& site, LawVariable variable) {
                  {}};
   if (site.kind == SiteKind::kJoint && site.joint == 0) {
     names.force = "torque at the support";
-    names.variable = variable == LawVariable::kJointAngle ? "angle of link 1" : "rate of link 1";
+    names.variable = variable == LawVariable::kJointAngle           ? "angle of link 1"
+                     : variable == LawVariable::kRelaxingJointAngle ? "relaxing angle of link 1"
+                                                                    : "rate of link 1";
   }
-  const auto symbols_of = [](LawVariable of) { return std::string(row_of(of).symbols); };
   if (site.kind == SiteKind::kCable)  // at the middle of a link there is no offset
     names.symbols = variable == LawVariable::kSideVelocity     ? "velocity_side"
                     : variable == LawVariable::kDownVelocity   ? "velocity_down"
@@ -147,6 +175,25 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   const VectorXd& lengths = chain.lengths;
   const Index links = lengths.size();
   std::vector<LawElement> elements;
+  if (const std::optional<LawVariable> relaxing = relaxing_of(variable)) {
+    elements = law_elements(site, *relaxing, fixed_point, chain, state);
+    const auto count = static_cast<Index>(elements.size());
+    for (Index i = 0; i < count; ++i)
+      elements[static_cast<std::size_t>(i)].value = state[state.size() - count + i];
+    return elements;
+  }
+  if (variable == LawVariable::kAcceleration) {
+    const PlaceKinematics place =
+        place_kinematics(state, chain.coordinates, lengths, site.arc_length);
+    const auto& side = place.by_angles.row(0);
+    const auto& down = place.by_angles.row(1);
+    const VectorXd faster = state.tail(links);
+    const Eigen::RowVectorXd turning =
+        state.segment(chain.coordinates, links).cwiseAbs2().transpose();
+    elements.push_back({side.dot(faster) + turning.dot(down), side.transpose(), 1});
+    elements.push_back({down.dot(faster) - turning.dot(side) - chain.gravity, down.transpose(), 1});
+    return elements;
+  }
   const auto add_joint = [&](Index joint, double spacing, double weight) {
     const Index of = has_potential(variable) ? 0 : chain.coordinates;
     LawElement& element = elements.emplace_back();
@@ -204,21 +251,31 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   return elements;
 }
 
-std::vector<LawVariable> variables_of(SiteKind kind) {
-  switch (kind) {
-    case SiteKind::kPlace:
-      return {LawVariable::kSidePosition,   LawVariable::kDownPosition,
-              LawVariable::kSideVelocity,   LawVariable::kDownVelocity,
-              LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity,
-              LawVariable::kSpeed,          LawVariable::kDistance};
+std::vector<LawVariable> variables_of(const LawSite& site, double length) {
+  switch (site.kind) {
+    case SiteKind::kPlace: {
+      std::vector<LawVariable> variables = {
+          LawVariable::kSidePosition,   LawVariable::kDownPosition,
+          LawVariable::kSideVelocity,   LawVariable::kDownVelocity,
+          LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity,
+          LawVariable::kSpeed,          LawVariable::kDistance};
+      // A mass at the end is a heavier load, which effects have; these remember nothing of places inside.
+      if (at_end(site.arc_length, length))
+        variables.insert(variables.end(),
+                         {LawVariable::kRelaxingSidePosition, LawVariable::kRelaxingDownPosition});
+      else
+        variables.push_back(LawVariable::kAcceleration);
+      return variables;
+    }
     case SiteKind::kJoint:
-      return {LawVariable::kJointAngle, LawVariable::kJointRate};
+      return {LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle};
     case SiteKind::kCable:
       return {LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity,
               LawVariable::kSpeed,          LawVariable::kSideVelocity,
               LawVariable::kDownVelocity,   LawVariable::kLinkRate};
     case SiteKind::kJoints:
-      return {LawVariable::kCurvature, LawVariable::kCurvatureRate};
+      return {LawVariable::kCurvature, LawVariable::kCurvatureRate,
+              LawVariable::kRelaxingCurvature};
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,11 @@ enum class LawVariable {
   // of a place
   kSidePosition,
   kDownPosition,
-  kDistance,  ///< from a fixed point
+  kDistance,      ///< from a fixed point
+  kAcceleration,  ///< less that of gravity, as a vector
+  // of the end of the cable
+  kRelaxingSidePosition,
+  kRelaxingDownPosition,
   // of a place, or of every piece of the cable
   kSideVelocity,
   kDownVelocity,
@@ -39,13 +44,19 @@ enum class LawVariable {
   // of a joint
   kJointAngle,
   kJointRate,
+  kRelaxingJointAngle,
   // of every joint
   kCurvature,
   kCurvatureRate,
+  kRelaxingCurvature,
 };
 
-/// Whether a force of the variable has a potential; else it is against a velocity.
+/// Whether a force of the variable has a potential of the shape alone; else it is against a velocity, an
+/// acceleration or a stretch that relaxes.
 bool has_potential(LawVariable variable);
+
+/// The position or angle x that a relaxing variable z follows, z' = x' - z / lag; nothing for others.
+std::optional<LawVariable> relaxing_of(LawVariable variable);
 
 /// The names of a variable and of the force that goes with it.
 struct LawNames {
@@ -55,11 +66,14 @@ struct LawNames {
 };
 LawNames names_of(const LawSite& site, LawVariable variable);
 
+/// A variable of a place in the language of effects, `offset` past the middle of a link.
+std::string symbols_of(LawVariable variable);
+
 /// " at arc length 1.08 m", " along the cable", or nothing for the support.
 std::string site_in_words(const LawSite& site);
 
-/// The variable at one piece of a site: its value, its derivative by the angles (by their rates
-/// where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint).
+/// The variable at one piece of a site, or one component of it: its value, its derivative by the angles (by their
+/// rates where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint).
 struct LawElement {
   double value = 0;
   Eigen::VectorXd gradient;
@@ -71,14 +85,16 @@ struct LawElement {
 struct LawChain {
   Eigen::VectorXd lengths;
   Eigen::Index coordinates = 0;
+  double gravity = 0;  ///< m/s^2
 };
 
-/// `state`: (q, v, z). `fixed_point`: side and down, m, for the distance.
+/// `state`: (q, v, z), and behind it what the variable remembers (law_memory.hpp). `fixed_point`: side and down, m, for
+/// the distance.
 std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
                                      const Eigen::Vector2d& fixed_point, const LawChain& chain,
                                      const Eigen::VectorXd& state);
 
-/// Variables of a kind of site.
-std::vector<LawVariable> variables_of(SiteKind kind);
+/// Variables of a site on a cable of this length, m.
+std::vector<LawVariable> variables_of(const LawSite& site, double length);
 
 }  // namespace catena

@@ -207,9 +207,9 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
   }
-  missing.law =
-      law_of_force(missing.one_place ? paths : with_all,
-                   {chain.lengths, problem.model().coordinates()}, sites_of(missing, chain));
+  missing.law = law_of_force(missing.one_place ? paths : with_all,
+                             {chain.lengths, problem.model().coordinates(), chain.gravity},
+                             sites_of(missing, chain));
   return true;
 }
 

@@ -25,7 +25,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kLength = 0.4;  // m
+constexpr double kLength = 0.4, kGravity = 9.81;  // m, m/s^2
+constexpr double kStretch = 0.3;                  // of everything that relaxes, m, rad or 1/m
 /// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
 /// joint the effect is the mean of both links, whose directions differ.
 constexpr double kInside = 0.8 * kLength;
@@ -53,10 +54,11 @@ struct MadeLaw {
 /// Every variable of every kind of site with a formula of two terms where it has one, and the first
 /// variable of each grammar with every kind of term. No coefficient gives energy.
 std::vector<MadeLaw> laws_of_all_pairs() {
-  std::vector<VectorXd> visited;
+  LawMotion visited{MatrixXd(4, 4), {0, 0.2, 0.4, 0.6}};
+  Index node = 0;
   for (const double at : {-1.0, -0.4, 0.3, 0.9})
-    visited.push_back(state_of(2, at, -0.5 * at, 2 * at, -3 * at));
-  const LawChain chain{lengths_of(2), 2};
+    visited.state.col(node++) = state_of(2, at, -0.5 * at, 2 * at, -3 * at);
+  const LawChain chain{lengths_of(2), 2, kGravity};
   std::vector<MadeLaw> laws;
   std::set<std::vector<std::vector<int>>> grammars;  // by their forms
   for (const LawSite& site :
@@ -64,7 +66,7 @@ std::vector<MadeLaw> laws_of_all_pairs() {
         LawSite{SiteKind::kJoint, 0, 0}, LawSite{SiteKind::kJoint, 0.5 * kLength, 1},
         LawSite{SiteKind::kCable}, LawSite{SiteKind::kJoints}}) {
     std::set<std::string> variables;
-    for (const CandidateLaw& law : candidates_at(site, chain, visited)) {
+    for (const CandidateLaw& law : candidates_at(site, chain, {visited})) {
       if (!variables.insert(law.variable_name()).second) continue;  // another fixed point
       const bool every_term = grammars.insert(law.forms()).second;
       const bool has_two = std::any_of(law.forms().begin(), law.forms().end(),
@@ -92,9 +94,16 @@ std::vector<MadeLaw> laws_of_all_pairs() {
   return laws;
 }
 
+VectorXd accelerations_of(int links) { return VectorXd::LinSpaced(links, 2, -5); }
+
 /// The generalised force of a law at a state.
-VectorXd force_of(const MadeLaw& made, const VectorXd& state, int links) {
-  const CandidateLaw law = links == 2 ? made.law : made.law.on({lengths_of(links), links});
+VectorXd force_of(const MadeLaw& made, const VectorXd& at, int links) {
+  VectorXd state(at.size() + links);
+  state << at, made.found.formula.kind == CandidateLaw::Formula::Kind::kMass
+                   ? accelerations_of(links)
+                   : VectorXd::Constant(links, kStretch);
+  const CandidateLaw law =
+      links == 2 ? made.law : made.law.on({lengths_of(links), links, kGravity});
   return law.force(state, made.form) * made.coefficients;
 }
 
@@ -124,7 +133,7 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
     const std::string name = fmt::format("\"{}.toml\", ", id);
     all += name;
     if (laws[i].of_any_links) inside += name;
-    if (!laws[i].law.dissipative()) continue;
+    if (!laws[i].law.against()) continue;
     for (const EffectParameter& parameter : read_effect(file).parameters)
       CHECK(parameter.lower >= 0);
   }
@@ -142,12 +151,13 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
     // A one-sided spring acts in one of them at least.
     const VectorXd states[] = {state_of(links, 0.3, -0.7, 1.1, -1.8),
                                state_of(links, -1, 0.45, 0.7, 0.9)};
-    const VectorXd none = VectorXd::Zero(links);
+    const VectorXd faster = accelerations_of(links);
+    const VectorXd stretches = VectorXd::Constant(model.states(), kStretch);
     const auto residual = [&](const VectorXd& state, const VectorXd& parameters) {
       VectorXd r(links);
-      model.residual(
-          {0, state.data(), state.data() + links, none.data(), nullptr, nullptr, parameters.data()},
-          r.data());
+      model.residual({0, state.data(), state.data() + links, faster.data(), stretches.data(),
+                      nullptr, parameters.data()},
+                     r.data());
       return r;
     };
     for (std::size_t i = 0; i < laws.size(); ++i) {
@@ -173,13 +183,15 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
 }
 
 TEST_CASE("a law against a velocity that drives it is refused, term by term") {
-  const LawChain chain{lengths_of(2), 2};
-  const std::vector<VectorXd> visited = {state_of(2, 0.1, 0, 0.1, 0), state_of(2, 1, 0, 1, 0)};
+  const LawChain chain{lengths_of(2), 2, kGravity};
+  LawMotion motion{MatrixXd(4, 2), {0, 1}};
+  motion.state << state_of(2, 0.1, 0, 0.1, 0), state_of(2, 1, 0, 1, 0);
+  const std::vector<LawMotion> visited = {motion};
   const LawSite place{SiteKind::kPlace, kInside};
-  const CandidateLaw drag(place, LawVariable::kSpeed, chain, visited);
+  const CandidateLaw drag(place, LawVariable::kSpeed, chain, visited, {});
   CHECK(drag.admits(Eigen::Vector2d(-0.3, -0.1)));
   CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0.1)));
   CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0)));  // a term that the other one imitates
-  CHECK(CandidateLaw(place, LawVariable::kSidePosition, chain, visited)
+  CHECK(CandidateLaw(place, LawVariable::kSidePosition, chain, visited, {})
             .admits(Eigen::Vector2d(0.3, 0.1)));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/identify/forces/hidden_force.hpp"
@@ -290,6 +291,60 @@ TEST_CASE("a force that follows the velocity and drives it is no law") {
   CHECK(found.at_best.at(0).rows == std::vector<std::string>{"side", "down"});
   REQUIRE(found.law.has_value());
   CHECK_FALSE(found.law->found);
+}
+
+TEST_CASE("a mass at a place: it pulls down, and lags behind") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  film.camera.markers = 12;
+  truth::Hidden hidden;
+  hidden.insect = 0.02;  // kg
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "acceleration less gravity");
+  CHECK(std::abs(found.law->place - testing::true_place(film)) < 3 * found.law->place_deviation);
+  REQUIRE(found.law->formula.constants.size() == 1);
+  check_constant(found.law->formula.constants[0], hidden.insect, "kg");
+}
+
+TEST_CASE("a spring before a dashpot in a joint: its stiffness and its lag") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.maxwell = 0.3;      // N m/rad
+  hidden.maxwell_lag = 0.3;  // s
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "relaxing joint angle");
+  CHECK(found.law->site.joint == 3);
+  const auto& constants = found.law->formula.constants;
+  REQUIRE(constants.size() == 2);
+  const double truth[] = {hidden.maxwell, hidden.maxwell_lag};
+  for (const std::size_t i : {0, 1}) {
+    CAPTURE(constants[i].value);
+    CAPTURE(constants[i].deviation);
+    CHECK(std::abs(constants[i].value - truth[i]) < 3 * constants[i].deviation);
+    CHECK(constants[i].deviation < 0.1 * truth[i]);
+  }
+}
+
+TEST_CASE("a viscous joint and an elastic one remember nothing") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden viscous, elastic;
+  viscous.brake = 0.1;  // N m s/rad
+  viscous.brake_rate = 1e3;
+  elastic.joint_stop = 0.2;  // N m/rad
+  elastic.joint_gap = 0;
+  for (const auto& [hidden, variable] :
+       {std::pair{viscous, "joint rate"}, std::pair{elastic, "joint angle"}}) {
+    const MissingForce found = force_in(testing::film(film, hidden));
+    REQUIRE(found.law.has_value());
+    REQUIRE(found.law->found);
+    CHECK(found.law->variable == variable);
+  }
 }
 
 TEST_CASE("a force in time that follows no law has none") {
