@@ -61,6 +61,11 @@ def draw(figure, columns):
     for series in figure["series"]:
         k = 0 if series["colour"] <= 0 else 1 + (series["colour"] - 1) % 6
         mark = series["mark"]
+        if mark == "bars":
+            axis.barh(column(columns, series["y"]), column(columns, series["x"]), height=0.3, edgecolor=COLOURS[k],
+                      color=(COLOURS[k], 0.8 if k % 2 else 0.25), label=series["name"])  # fmt: skip
+            named.add(series["name"])
+            continue
         axis.plot(column(columns, series["x"]), column(columns, series["y"]), color=COLOURS[k],
                   linestyle="" if mark == "points" else DASHES[k],
                   marker="" if mark == "line" else MARKERS[k], markersize=4, fillstyle="none",

@@ -46,6 +46,9 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
     look_ahead_and_back(state);
   conclude(state, the_case);
   discover(state, the_case);
+  state.found.predictions = prediction_errors(
+      state.found.final, without_laws(state, state.found.final, state.found.effects),
+      state.found.noise, context);
   context.stop_if_asked();
   return std::move(state.found);
 }

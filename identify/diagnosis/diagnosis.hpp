@@ -8,6 +8,7 @@
 #include "identify/diagnosis/explanation.hpp"
 #include "identify/diagnosis/gap_test.hpp"
 #include "identify/diagnosis/links.hpp"
+#include "identify/diagnosis/prediction_errors.hpp"
 #include "identify/diagnosis/shares.hpp"
 #include "identify/forces/missing_force.hpp"
 
@@ -69,6 +70,7 @@ struct Diagnosis {
   std::vector<Alternative> runners_up;    ///< refitted and decided against
   FittedModel final;
   GapTest final_fit, final_held_out;
+  PredictionErrors predictions;  ///< of the final model
   std::vector<FinalParameter> parameters;
   double equality = 0;  ///< largest relative difference to the case's model at the neutral values
   double seconds = 0;

@@ -8,6 +8,7 @@
 
 #include "common/whole_file.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 #include "identify/results/result_file.hpp"
 #include "identify/results/result_writer.hpp"
 
@@ -29,6 +30,10 @@ std::string model_name(const Stage& stage) {
   for (std::size_t i = 0; i < stage.effects.size(); ++i)
     name += (i ? ", " : " ") + stage.effects[i];
   return name + fmt::format(", {} links", stage.links);
+}
+
+std::string in_milli(double rms) {
+  return std::isnan(rms) ? "-" : fmt::format("{:.4g}", 1e3 * rms);
 }
 
 /// Root mean square; NaN where nothing was held out.
@@ -196,11 +201,8 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
                       "held out", "sealed", "/ noise");
   const auto row = [&](const std::string& name, const GapTest& fit, const GapTest& held,
                        const FittedModel& model) {
-    const auto size = [](double rms) {
-      return std::isnan(rms) ? std::string("-") : fmt::format("{:.4g}", 1e3 * rms);
-    };
-    text += fmt::format("{:44} {:>9} {:>9} {:>9} {:>9.3g}\n", name, size(fit.rms),
-                        size(rms_of(held)), size(sealed_rms(model)), fit.ratio());
+    text += fmt::format("{:44} {:>9} {:>9} {:>9} {:>9.3g}\n", name, in_milli(fit.rms),
+                        in_milli(rms_of(held)), in_milli(sealed_rms(model)), fit.ratio());
   };
   for (const Stage& stage : d.stages) {
     std::string change =
@@ -215,6 +217,21 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
   if (!d.effects.empty())
     row("the new model, compiled and refitted", d.final_fit, d.final_held_out, d.final);
   text += fmt::format("{:44} {:>9.4g}\n", "noise", 1e3 * d.final_fit.noise);
+  const PredictionErrors& predictions = d.predictions;
+  if (predictions.known()) {
+    const auto ends = [&](const std::string& name, const auto& end) {
+      text += fmt::format("{:44} {:>9} {:>9} {:>9}\n", name, "",
+                          in_milli(end(predictions.held_out)), in_milli(end(predictions.sealed)));
+    };
+    ends("expected of the predictions, at least", [](const PredictionError& of) { return of.low; });
+    ends(fmt::format("at most ({:.0f} %)", 100 * kThresholds.prediction_level),
+         [](const PredictionError& of) { return of.high; });
+    if (predictions.held_out.explained > 0 || predictions.sealed.explained > 0)
+      ends(fmt::format("at most, laws {:.0f} % off there", 100 * kThresholds.law_error),
+           [](const PredictionError& of) { return of.high_with_errors_of_laws(); });
+  }
+  for (const std::string& words : words_of(predictions, d.final_fit.rms, unit))
+    text += "  " + words + "\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
 
   if (!d.shares.empty()) {
@@ -351,6 +368,12 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
     add_share(effect.effect, effect.fitted, effect.held_out);
   if (!d.shares.empty()) add_share("left", d.shares.left_fitted, d.shares.left_held_out);
   result.certain = d.certain;
+  for (const auto& [part, error] :
+       {std::pair("validate", &d.predictions.held_out), std::pair("sealed", &d.predictions.sealed)})
+    if (!std::isnan(error->observed))
+      result.predictions.push_back(
+          {part, error->observed, {error->low, error->high}, error->high_with_errors_of_laws()});
+  result.of_predictions = words_of(d.predictions, d.final_fit.rms, milli_unit_of(d));
   const auto others = [](const std::vector<Alternative>& list) {
     std::vector<results::OtherEffect> entries;
     for (const Alternative& other : list)

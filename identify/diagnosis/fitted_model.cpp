@@ -35,8 +35,7 @@ Problem only_start_of(const Problem& problem, const VectorXd& x, int experiment)
   return Problem(std::move(the_case), problem.model(), {std::move(recording)});
 }
 
-/// What only validates and may start anywhere starts as fits it best, everything else as in x: how
-/// a window begins says nothing of the model.
+/// What starts as it fits, everything else as in x: how a window begins says nothing of the model.
 std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Problem> problem,
                                                     const VectorXd& x,
                                                     const LeastSquares& least_squares,
@@ -47,9 +46,7 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
   bool changed = false;
   for (std::size_t e = 0; e < problem->experiments().size(); ++e) {
     const Experiment& experiment = problem->experiments()[e];
-    const InitialSpec& initial = experiment.initial;
-    if (experiment.fitted() || !(initial.free || (!initial.at_rest && initial.velocity_free)))
-      continue;
+    if (!starts_as_it_fits(experiment)) continue;
     const Problem alone = only_start_of(*problem, x, static_cast<int>(e));
     const FitResult result = least_squares(alone, options);
     if (result.status == FitStatus::kFailed || result.x.size() == 0) continue;
@@ -62,6 +59,11 @@ std::shared_ptr<const Problem> with_held_out_starts(std::shared_ptr<const Proble
 }
 
 }  // namespace
+
+bool starts_as_it_fits(const Experiment& experiment) {
+  const InitialSpec& initial = experiment.initial;
+  return !experiment.fitted() && (initial.free || (!initial.at_rest && initial.velocity_free));
+}
 
 FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
                    const LeastSquares& least_squares, const std::atomic<bool>* stop) {

@@ -26,8 +26,11 @@ struct FittedModel {
   std::vector<Eigen::MatrixXd> predicted;  ///< per experiment, all frames
 };
 
-/// Simulates the whole of every experiment at x. An experiment that only validates and whose start
-/// is free (a window held out) has the start that fits it best, everything else as in x.
+/// Whether an experiment only validates and its start is free (a window held out).
+bool starts_as_it_fits(const Experiment& experiment);
+
+/// Simulates the whole of every experiment at x. One that starts as it fits has the start that fits it best,
+/// everything else as in x.
 FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& x,
                    const LeastSquares& least_squares, const std::atomic<bool>* stop);
 

@@ -34,7 +34,7 @@ double excess(const VectorXd& residuals) {
 /// The spectrum of what is left beyond white noise: each frequency times the share of its power that
 /// noise would not have. As many frequencies as `frames` need.
 MatrixXd spectrum_beyond_noise(const MatrixXd& left, Index frames) {
-  const MatrixXd spectrum = cosine_spectrum(left);
+  MatrixXd spectrum = cosine_spectrum(left);
   double of_noise = 0;  // power of white noise per frequency: frames were lost, and zeros added
   for (const double value : left.reshaped()) of_noise += !std::isnan(value);
   of_noise /= static_cast<double>(spectrum.rows());
@@ -48,13 +48,8 @@ MatrixXd spectrum_beyond_noise(const MatrixXd& left, Index frames) {
     share[j] = std::sqrt(std::max(0.0, 1 - of_noise / power));
   }
   if (share.isZero()) share.setOnes();
-  const Index rows = cosine_spectrum(MatrixXd::Zero(1, frames)).rows();
-  MatrixXd longer(rows, spectrum.cols());
-  for (Index j = 0; j < rows; ++j) {
-    const Index i = j * spectrum.rows() / rows;  // the same frequency
-    longer.row(j) = share[i] * spectrum.row(i);
-  }
-  return longer;
+  spectrum.array().colwise() *= share.array();
+  return stretched(spectrum, frames);
 }
 
 /// What laws get wrong in one experiment, drawn with mean square 1.

@@ -98,6 +98,15 @@ struct DiagnosisThresholds {
   /// Over noise: the error that two models share at least, for no law is exact: as `law_error`.
   double shared_error = 0.1;
 
+  // What does a prediction leave? (prediction_errors.cpp)
+
+  /// Of the interval of what is left where nothing was fitted: as for every other interval. 39 recordings are
+  /// drawn, the fewest of which the least and the largest are its ends. Chosen before any outcome was seen.
+  double prediction_level = 0.95;
+  /// RMS over the RMS where it was fitted, from which on a prediction that the interval holds is said not to be
+  /// determined: 15 of 16 parts of its square are then none of what the fitted part leaves. Chosen like the level.
+  double undetermined = 4;
+
   // How many links? (links.cpp)
 
   /// Predicted change over misfit, from which on more links are fitted: the square, 2 %, bounds

@@ -89,6 +89,13 @@ MatrixXd cosine_spectrum(const MatrixXd& series) {
   return spectrum;
 }
 
+MatrixXd stretched(const MatrixXd& spectrum, Index frames) {
+  MatrixXd longer(fast_length(frames), spectrum.cols());
+  for (Index j = 0; j < longer.rows(); ++j)
+    longer.row(j) = spectrum.row(j * spectrum.rows() / longer.rows());
+  return longer;
+}
+
 MatrixXd random_series(const MatrixXd& spectrum, Index frames, std::mt19937_64& random) {
   MatrixXd drawn = MatrixXd::Zero(spectrum.rows(), spectrum.cols());
   for (Index j = 0; j < drawn.rows(); ++j) {

@@ -14,6 +14,9 @@ double normal_number(std::mt19937_64& random);
 /// There may be more frequencies than frames, so that the transform is fast.
 Eigen::MatrixXd cosine_spectrum(const Eigen::MatrixXd& series);
 
+/// As many frequencies as a series of so many frames has, each with the row of `spectrum` at the same frequency.
+Eigen::MatrixXd stretched(const Eigen::MatrixXd& spectrum, Eigen::Index frames);
+
 /// A random series of the same power at every frequency, and with the same correlations between its
 /// channels, but with other phases: a Gaussian process that has the spectrum, averaged over
 /// neighbouring frequencies. With such series a test asks whether one goes with something else by

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "identify/report/report_figures.hpp"
 #include "identify/report/residuals.hpp"
@@ -61,43 +62,94 @@ void add_gap(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   add_diagnosis_figure(figures, "gap", std::move(figure));
 }
 
-/// One row for each share, its interval as a line; the held-out part a little below.
+/// A bar for what is left in each part that was not fitted, and what was expected as lines.
+void add_predictions(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
+  if (diagnosis.predictions.empty()) return;
+  Figure figure;
+  figure.title = "Predictions of the final model";
+  figure.caption =
+      "Root mean square of what is left where nothing was fitted, and what noise, the misfit of "
+      "the fitted part and the errors of the fitted unknowns let one expect. Laws that are a "
+      "tenth off there may leave more.";
+  figure.x = {"gap", milli(diagnosis.unit)};
+  figure.y.label = "";
+  figure.y_downwards = true;
+  Series left{"left", {}, {}, Mark::kBars, 1};
+  Series expected{"expected, interval of 95 %", {}, {}, Mark::kLine, 0};
+  Series of_laws{"with laws a tenth off", {}, {}, Mark::kLine, 2};
+  for (const PredictionError& prediction : diagnosis.predictions) {
+    figure.y.categories.push_back(prediction.part == "sealed" ? "sealed" : "held out");
+    const auto row = static_cast<double>(figure.y.categories.size());
+    left.x.push_back(1e3 * prediction.observed);
+    left.y.push_back(row);
+    const auto& [low, high] = prediction.expected;
+    for (const auto& [line, from, to] :
+         {std::tuple{&expected, low, high},
+          std::tuple{&of_laws, high, prediction.with_errors_of_laws}}) {
+      if (!(from < to)) continue;
+      for (const double end : {from, to, kAbsent}) {
+        line->x.push_back(1e3 * end);
+        line->y.push_back(row);
+      }
+    }
+  }
+  figure.rules = {{true, 0, ""}};
+  for (Series* series : {&left, &expected, &of_laws})
+    if (!series->x.empty()) figure.series.push_back(std::move(*series));
+  add_diagnosis_figure(figures, "predictions", std::move(figure));
+}
+
+/// "Root mean square without effects: 44.4 mrad fitted, 313 mrad held out; with them: ..."
+std::string sizes_in_words(const Diagnosis& diagnosis) {
+  const Round* without = nullptr;
+  for (const Round& round : diagnosis.rounds)
+    if (round.effects.empty()) without = &round;
+  if (without == nullptr) return "";
+  const auto size = [&](const Gap& gap) {
+    std::string words = fmt::format("{:.3g} {} fitted", 1e3 * gap.fit, milli(diagnosis.unit));
+    if (!std::isnan(gap.validate))
+      words += fmt::format(", {:.3g} {} held out", 1e3 * gap.validate, milli(diagnosis.unit));
+    return words;
+  };
+  return fmt::format(" Root mean square without effects: {}; with them: {}.", size(without->gap),
+                     size(diagnosis.rounds.back().gap));
+}
+
+/// A bar for each share, its interval as a line; that of the held-out part below.
 void add_shares(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   if (diagnosis.shares.empty()) return;
-  constexpr double kApart = 0.12;
   Figure figure;
   figure.title = "Shares of the misfit";
   figure.caption =
       "What each effect explains of the squared misfit that the model without effects leaves, "
-      "averaged over the orders in which effects may be added, and what is left with all of them. "
-      "The lines are intervals of 95 %.";
+      "averaged over the orders in which effects may be added, and what is left with all of them." +
+      sizes_in_words(diagnosis);
   figure.x = {"share", "%"};
   figure.y.label = "";
   figure.y_downwards = true;
-  Series fitted{"fitted part", {}, {}, Mark::kPoints, 1};
-  Series held_out{"held out", {}, {}, Mark::kPoints, 2};
-  Series fitted_lines{"interval, fitted part", {}, {}, Mark::kLine, 1};
-  Series held_out_lines{"interval, held out", {}, {}, Mark::kLine, 2};
-  const auto draw = [](Series& points, Series& lines, double row, double share,
-                       const std::optional<Interval>& interval) {
-    points.x.push_back(100 * share);
-    points.y.push_back(row);
+  Series fitted{"fitted part", {}, {}, Mark::kBars, 1};
+  Series held_out{"held out", {}, {}, Mark::kBars, 2};
+  Series intervals{"interval of 95 %", {}, {}, Mark::kLine, 0};
+  const auto draw = [&](Series& bars, double row, double share,
+                        const std::optional<Interval>& interval) {
+    bars.x.push_back(100 * share);
+    bars.y.push_back(row);
     if (!interval) return;
     for (const double end : {interval->low, interval->high, kAbsent}) {
-      lines.x.push_back(100 * end);
-      lines.y.push_back(row);
+      intervals.x.push_back(100 * end);
+      intervals.y.push_back(row);
     }
   };
   for (std::size_t i = 0; i < diagnosis.shares.size(); ++i) {
     const Share& share = diagnosis.shares[i];
     const double row = static_cast<double>(i + 1);
     figure.y.categories.push_back(share.name);
-    draw(fitted, fitted_lines, row - kApart, share.fit, share.fit_interval);
+    draw(fitted, row - kBarThickness / 2, share.fit, share.fit_interval);
     if (share.validate_interval)
-      draw(held_out, held_out_lines, row + kApart, share.validate, share.validate_interval);
+      draw(held_out, row + kBarThickness / 2, share.validate, share.validate_interval);
   }
   figure.rules = {{true, 0, ""}, {true, 100, ""}};
-  for (Series* series : {&fitted, &fitted_lines, &held_out, &held_out_lines})
+  for (Series* series : {&fitted, &held_out, &intervals})
     if (!series->x.empty()) figure.series.push_back(std::move(*series));
   add_diagnosis_figure(figures, "shares", std::move(figure));
 }
@@ -401,6 +453,7 @@ void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& fi
 
 void add_diagnosis_figures(const Diagnosis& diagnosis, std::vector<ReportFigure>& figures) {
   add_gap(diagnosis, figures);
+  add_predictions(diagnosis, figures);
   add_shares(diagnosis, figures);
   add_before_after(diagnosis, figures);
   add_scores(diagnosis, figures);

@@ -22,7 +22,10 @@ struct Axis {
   std::vector<Tick> ticks = {};  ///< if given, in place of round numbers; all are in sight
 };
 
-enum class Mark { kLine, kPoints, kLineWithPoints };
+/// kBars: lying ones, from x = 0, for a y axis with categories.
+enum class Mark { kLine, kPoints, kLineWithPoints, kBars };
+inline constexpr double kBarThickness =
+    0.3;  // of a row; web/source/marks.js and scripts/figures.py have it, too
 
 /// Points (x[i], y[i]), in units of the axes. NaN interrupts a line.
 struct Series {

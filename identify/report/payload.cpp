@@ -68,6 +68,8 @@ const char* word(Mark mark) {
       return "points";
     case Mark::kLineWithPoints:
       return "lineWithPoints";
+    case Mark::kBars:
+      return "bars";
   }
   return "line";
 }

@@ -192,6 +192,26 @@ Html undecided_html(const Diagnosis& diagnosis) {
   return html;
 }
 
+/// How far predictions are off, and how far they had to be expected to be.
+Html predictions_html(const Diagnosis& diagnosis) {
+  if (diagnosis.predictions.empty()) return {};
+  std::vector<Cells> rows = {
+      {"Part", "Predicted off by", "Expected (95 %)", "At most, laws a tenth off there"}};
+  for (const PredictionError& prediction : diagnosis.predictions) {
+    const auto& [low, high] = prediction.expected;
+    rows.push_back({prediction.part == "sealed" ? "sealed" : "held out",
+                    length(prediction.observed, diagnosis.unit),
+                    length(low, diagnosis.unit) + "\u00a0…\u00a0" + length(high, diagnosis.unit),
+                    length(prediction.with_errors_of_laws, diagnosis.unit)});
+  }
+  return table(
+             "Predictions of the final model: what is left, and what noise, the misfit of the "
+             "fitted part and "
+             "the errors of the fitted unknowns let one expect",
+             rows) +
+         list("What the predictions say", diagnosis.of_predictions);
+}
+
 /// How many links were needed, and what more of them would change.
 Html links_html(const Diagnosis& diagnosis) {
   if (!diagnosis.links) return {};
@@ -385,6 +405,7 @@ Html diagnosis_section(const Diagnosis& diagnosis) {
         std::isnan(diagnosis.noise) ? "" : "; noise " + length(diagnosis.noise, diagnosis.unit);
     html += table("Gap, round by round" + level, rows);
   }
+  html += predictions_html(diagnosis);
   html += links_html(diagnosis);
   html += members_html(diagnosis);
   if (!std::isnan(diagnosis.equality_at_neutral) && !diagnosis.effects.empty())

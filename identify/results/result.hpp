@@ -373,6 +373,14 @@ struct Share {
   std::optional<Interval> validate_interval;
 };
 
+/// How far a prediction is off, root mean square, and the interval of what was expected, 95 %.
+struct PredictionError {
+  std::string part;  ///< "validate" or "sealed"
+  double observed = kAbsent;
+  Interval expected;
+  double with_errors_of_laws = kAbsent;  ///< its upper end, if laws are a tenth off there
+};
+
 struct Diagnosis {
   std::string title;
   Named versions;
@@ -390,7 +398,9 @@ struct Diagnosis {
   std::vector<EffectEntry> effects;  ///< of the final model
   std::vector<FinalEstimate> parameters;
   std::vector<Share> shares;
-  Words certain;  ///< effects that stand whatever else is missing
+  std::vector<PredictionError> predictions;
+  Words of_predictions;  ///< what these say, where they say something
+  Words certain;         ///< effects that stand whatever else is missing
   Words members;
   std::vector<OtherEffect> undecided, forms, runners_up;
   std::string experiment_that_tells;

@@ -292,6 +292,8 @@ void fields(auto& archive, Is<Share> auto& share) {
   archive.optional("validate_interval", share.validate_interval);
 }
 
+CATENA_FIELDS(PredictionError, part, observed, expected, with_errors_of_laws)
+
 void fields(auto& archive, Is<FinalEstimate> auto& estimate) {
   archive("name", estimate.name);
   archive("unit", estimate.unit);
@@ -359,6 +361,8 @@ void fields(auto& archive, Is<Diagnosis> auto& diagnosis) {
   archive("effects", diagnosis.effects);
   archive("parameters", diagnosis.parameters);
   archive.optional("shares", diagnosis.shares);
+  archive.optional("predictions", diagnosis.predictions);
+  archive.optional("of_predictions", diagnosis.of_predictions);
   archive.optional("certain", diagnosis.certain);
   archive("members", diagnosis.members);
   archive("undecided", diagnosis.undecided);

@@ -256,9 +256,10 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
             {"shapes", "frames", "position_angle", "residuals", "error_over_time", "residual_map",
              "spectrum_angle", "autocorrelation", "quantiles"}},
         Row{made_diagnosis(),
-            with(seen, {"gap", "shares", "scores", "before_after_error", "before_after_position",
-                        "residual_map_before", "residual_map_after", "before_after_spectrum",
-                        "missing_force_side", "missing_force_bands_side"})}}) {
+            with(seen,
+                 {"gap", "predictions", "shares", "scores", "before_after_error",
+                  "before_after_position", "residual_map_before", "residual_map_after",
+                  "before_after_spectrum", "missing_force_side", "missing_force_bands_side"})}}) {
     const auto figures = report_figures(read(row.result));
     CHECK(families(figures) == row.families);
     std::set<std::string> ids;
@@ -270,6 +271,33 @@ TEST_CASE("every figure that the data allow, each drawable under its own name") 
       CHECK_FALSE(entry.figure.x.label.empty());
     }
   }
+}
+
+TEST_CASE("shares and predictions are bars, their intervals are lines") {
+  const auto figures = report_figures(read(made_diagnosis()));
+  const auto series_of = [&](const std::string& family) {
+    const auto found = std::find_if(figures.begin(), figures.end(), [&](const ReportFigure& each) {
+      return each.family == family;
+    });
+    REQUIRE(found != figures.end());
+    return found->figure.series;
+  };
+  const auto shares = series_of("shares");
+  REQUIRE(shares.size() == 3);
+  CHECK(shares[0].mark == Mark::kBars);
+  CHECK(shares[0].x == std::vector<double>{84, 16});
+  CHECK(shares[1].mark == Mark::kBars);
+  CHECK(shares[1].x == std::vector<double>{80, 20});
+  CHECK(shares[2].mark == Mark::kLine);
+  CHECK(shares[2].x.size() == 12);  // two ends and a gap, of two shares in two parts
+  CHECK(shares[2].x[3] == 70);
+  CHECK(shares[2].y[3] == shares[1].y[0]);
+  const auto predictions = series_of("predictions");
+  REQUIRE(predictions.size() == 3);
+  CHECK(predictions[0].mark == Mark::kBars);
+  CHECK(predictions[0].x == std::vector<double>{1.3, 12});
+  CHECK(predictions[1].x[4] == 2);
+  CHECK(predictions[2].x[4] == 6);
 }
 
 TEST_CASE("a diagnosis names results in its folder only") {

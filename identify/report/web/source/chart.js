@@ -76,7 +76,7 @@ export class Chart {
     for (const series of this.shown) {
       const places = series.x.map((at, k) => (usable(figure.x, at) && usable(figure.y, series.y[k])
         ? [area.x(at), area.y(series.y[k])] : null));
-      area.inside.append(...marksOf(series, places));
+      area.inside.append(...marksOf(series, places, {zero: area.x(0), row: Math.abs(area.y(2) - area.y(1))}));
     }
     area.inside.append(...figure.rules.flatMap((rule) => drawnRule(rule, area)));
     if (heading) {

@@ -12,8 +12,10 @@ const corners = {
 };
 
 const indexOf = (colour) => (colour <= 0 ? 0 : 1 + ((colour - 1) % 6));
-export const hasLine = (series) => series.mark !== 'points';
-export const hasPoints = (series) => series.mark !== 'line';
+const hasBars = (series) => series.mark === 'bars';
+export const hasLine = (series) => series.mark !== 'points' && !hasBars(series);
+export const hasPoints = (series) => series.mark !== 'line' && !hasBars(series);
+const barThickness = 0.3;  // of a row; as in figure.hpp
 export const strokeOf = (colour) => `var(--c${indexOf(colour)})`;
 
 /** The value of a colour of the style sheet, in the theme that is shown. */
@@ -39,11 +41,14 @@ export function markerPath(colour, [x, y], r) {
   return `M${corners[index].map(([dx, dy]) => at(dx, dy)).join('L')}Z`;
 }
 
-/** Line and markers of a series through the places. */
-export function marksOf(series, places, radius = 3) {
+/** Line and markers of a series through the places; or its bars, from `zero` on, in rows `row` px high. */
+export function marksOf(series, places, {radius = 3, zero = 0, row = 0} = {}) {
   const stroke = {fill: 'none', stroke: strokeOf(series.colour)};
   const seen = places.filter((at) => at !== null);
+  const half = barThickness * row / 2;
   return [
+    ...(hasBars(series) ? [svg('path', {...stroke, fill: strokeOf(series.colour), 'fill-opacity': series.colour % 2 ? 0.8 : 0.25,
+      d: seen.map(([x, y]) => `M${zero.toFixed(1)} ${(y - half).toFixed(1)}H${x.toFixed(1)}v${(2 * half).toFixed(1)}H${zero.toFixed(1)}Z`).join('')})] : []),
     ...(hasLine(series) ? [svg('path', {...stroke, 'stroke-width': 1.6, 'stroke-linejoin': 'round',
       'stroke-dasharray': dashes[indexOf(series.colour)] || null, d: linePath(places)})] : []),
     ...(hasPoints(series) ? [svg('path', {...stroke, 'stroke-width': 1.2,
@@ -54,6 +59,7 @@ export function marksOf(series, places, radius = 3) {
 /** A small drawing that shows how a series is drawn. */
 export function sampleOf(series) {
   const ends = hasLine(series) ? marksOf({...series, mark: 'line'}, [[0, 6], [30, 6]]) : [];
-  const middle = hasPoints(series) ? marksOf({...series, mark: 'points'}, [[15, 6]], 3.5) : [];
-  return svg('svg', {class: 'sample', width: 30, height: 12, 'aria-hidden': 'true'}, ...ends, ...middle);
+  const middle = hasPoints(series) ? marksOf({...series, mark: 'points'}, [[15, 6]], {radius: 3.5}) : [];
+  const bar = hasBars(series) ? marksOf(series, [[28, 6]], {zero: 2, row: 8 / barThickness}) : [];
+  return svg('svg', {class: 'sample', width: 30, height: 12, 'aria-hidden': 'true'}, ...ends, ...middle, ...bar);
 }

@@ -225,6 +225,19 @@ await attempt('charts over time zoom together, show values and move the player',
   await page.close();
 });
 
+await attempt('shares: bars as long as their values, from zero', async () => {
+  const page = await open('diagnosis');
+  await page.locator('#figure-shares').scrollIntoViewIfNeeded();
+  await page.waitForSelector('#figure-shares .chart > svg');
+  const bars = await page.locator('#figure-shares .chart > svg > [clip-path] path[fill-opacity]').evaluateAll((all) =>
+    all.map((path) => [...path.getAttribute('d').matchAll(/M(\S+) \S+H(\S+?)v(\S+?)H/g)].map(([, zero, end, high]) => [end - zero, Number(high)])));
+  assert.deepEqual(bars.map((one) => one.length), [2, 2]);
+  const [[drag, left], [later]] = bars;
+  assert(Math.abs(left[0] / drag[0] - 16 / 84) < 0.01 && Math.abs(later[0] / drag[0] - 80 / 84) < 0.01, `${bars}`);
+  assert(drag[1] > 10, 'too thin');
+  await page.close();
+});
+
 await attempt('heat map: values under the cursor', async () => {
   const page = await open('identification');
   await seeAll(page);

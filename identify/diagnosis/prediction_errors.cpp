@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "identify/diagnosis/prediction_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "common/parallel.hpp"
+#include "identify/diagnosis/remainder.hpp"
+#include "identify/diagnosis/stacking.hpp"
+#include "identify/diagnosis/thresholds.hpp"
+#include "identify/fit/estimated_noise.hpp"
+#include "identify/noise/cosine_spectrum.hpp"
+#include "identify/problem/evaluation.hpp"
+#include "linear_algebra/decompositions.hpp"
+
+namespace catena {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::uint64_t kSeedOfPredictions = 5;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Errors like those that the model leaves where it was fitted, in one experiment, at all of its frames.
+class FittedErrors {
+ public:
+  /// `left`: channels x frames of a fitted part; `stretch`: of the size, for what the unknowns took of it.
+  FittedErrors(const MatrixXd& left, Index frames, double stretch)
+      : frames_(frames), spectrum_(stretched(cosine_spectrum(left), frames)) {
+    double squares = 0, count = 0;
+    for (const double value : left.reshaped()) {
+      if (std::isnan(value)) continue;
+      squares += value * value;
+      count += 1;
+    }
+    const double size = std::sqrt(squares / std::max(1.0, count));
+    const double of_spectrum = spectrum_.norm() / std::sqrt(static_cast<double>(spectrum_.size()));
+    if (of_spectrum > 0) spectrum_ *= stretch * size / of_spectrum;
+  }
+  MatrixXd draw(std::mt19937_64& random) const { return random_series(spectrum_, frames_, random); }
+
+ private:
+  Index frames_;
+  MatrixXd spectrum_;
+};
+
+/// Of every experiment; one without a fitted part errs like one of as many channels, or like the first.
+std::vector<FittedErrors> fitted_errors(const FittedModel& model, double stretch) {
+  std::vector<FittedErrors> errors;
+  for (std::size_t e = 0; e < model.predicted.size(); ++e) {
+    const MatrixXd* left = &model.fit_residual[e];
+    for (const MatrixXd& other : model.fit_residual)
+      if (left->cols() == 0 && other.cols() > 0 && other.rows() == model.predicted[e].rows())
+        left = &other;
+    errors.emplace_back(*left, model.predicted[e].cols(), stretch);
+  }
+  return errors;
+}
+
+/// The change of the unknowns that explains an error best, least squares. Those that would go beyond their bounds
+/// stay at them, and the others are found again.
+class BoundedFit {
+ public:
+  /// `along`: derivatives of the errors by the unknowns.
+  BoundedFit(const Problem& problem, const VectorXd& x, const MatrixXd& along)
+      : scale_(along.colwise().norm().transpose()), low_(x.size()), high_(x.size()) {
+    for (double& size : scale_)
+      if (size == 0) size = 1;
+    const MatrixXd scaled = along * scale_.cwiseInverse().asDiagonal();
+    constexpr double kAccuracyOfDerivatives = 1e-6;
+    range_ = orthonormal_basis(scaled, kAccuracyOfDerivatives);
+    triangle_ = range_.transpose() * scaled;
+    for (Index j = 0; j < x.size(); ++j) {
+      const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+      low_[j] = std::min(0.0, unknown.lower - x[j]) * scale_[j];
+      high_[j] = std::max(0.0, unknown.upper - x[j]) * scale_[j];
+    }
+  }
+
+  VectorXd operator()(const VectorXd& error) const {
+    const VectorXd right = range_.transpose() * error;
+    VectorXd change = VectorXd::Zero(scale_.size());
+    std::vector<Index> free(static_cast<std::size_t>(change.size()));
+    std::iota(free.begin(), free.end(), Index{0});
+    const auto beyond = [&](Index j) { return change[j] < low_[j] || change[j] > high_[j]; };
+    while (!free.empty()) {
+      change(free).setZero();
+      const VectorXd rest = right - triangle_ * change;
+      change(free) = least_squares(MatrixXd(triangle_(Eigen::all, free)), rest);
+      if (std::erase_if(free, beyond) == 0) break;
+      change = change.cwiseMax(low_).cwiseMin(high_);
+    }
+    return change.cwiseQuotient(scale_);
+  }
+
+  /// The sum of squares that is left of an error without bounds.
+  double left(const VectorXd& error) const {
+    return error.squaredNorm() - (range_.transpose() * error).squaredNorm();
+  }
+
+ private:
+  VectorXd scale_, low_, high_;
+  MatrixXd range_, triangle_;
+};
+
+/// Sums of the squares of errors where something was measured, by part.
+struct Squares {
+  double held_out = 0, sealed = 0, held_out_count = 0, sealed_count = 0;
+};
+
+/// `error`: of every experiment, channels x frames.
+Squares squares_of(const FittedModel& model, const std::vector<MatrixXd>& error) {
+  Squares sum;
+  for (std::size_t e = 0; e < error.size(); ++e) {
+    const Experiment& experiment = model.problem->experiments()[e];
+    if (starts_as_it_fits(experiment)) continue;
+    const MatrixXd& measured = experiment.recording.measured;
+    const MatrixXd& sealed = experiment.recording.sealed;
+    const Index first = model.fit_residual[e].cols();
+    for (Index k = first; k < error[e].cols(); ++k)
+      for (Index c = 0; c < error[e].rows(); ++c) {
+        const double square = error[e](c, k) * error[e](c, k);
+        if (!std::isnan(measured(c, k))) {
+          sum.held_out += square;
+          sum.held_out_count += 1;
+        } else if (sealed.size() > 0 && !std::isnan(sealed(c, k))) {
+          sum.sealed += square;
+          sum.sealed_count += 1;
+        }
+      }
+  }
+  return sum;
+}
+
+/// What was measured, the sealed part too.
+MatrixXd everything_measured(const Recording& recording) {
+  if (recording.sealed.size() == 0) return recording.measured;
+  return recording.measured.array().isNaN().select(recording.sealed, recording.measured);
+}
+
+/// Of what a model leaves.
+Squares squares_left(const FittedModel& model) {
+  std::vector<MatrixXd> left;
+  for (std::size_t e = 0; e < model.predicted.size(); ++e)
+    left.push_back(model.predicted[e] -
+                   everything_measured(model.problem->experiments()[e].recording));
+  return squares_of(model, left);
+}
+
+/// Recordings that the model itself makes, with errors like those it leaves where it was fitted, fitted again.
+class DrawnFits {
+ public:
+  DrawnFits(const FittedModel& model, const std::vector<NoiseModel>& noise,
+            DiagnosisContext& context)
+      : model_(model),
+        noise_(noise),
+        context_(context),
+        remainder_(remainder_of(model, noise)),
+        linear_(*model.problem, model.x, remainder_.fitted_along) {
+    const auto values = static_cast<double>(stacked_fitted(remainder_.fitted).size());
+    const double freedom = std::max(1.0, values - static_cast<double>(model.x.size()));
+    errors_ = fitted_errors(model, std::sqrt(values / freedom));
+    doubt_of_size_ =
+        std::sqrt(autocorrelation_factor(white_residuals(model, noise)) / (2 * freedom));
+  }
+
+  /// What the model that is fitted to such a recording gets wrong of it, channels x frames of every experiment;
+  /// infinite where no simulation succeeds.
+  std::vector<MatrixXd> error(std::size_t draw) const {
+    std::mt19937_64 random(kSeedOfPredictions + draw);
+    std::vector<MatrixXd> error;
+    const double size = std::exp(doubt_of_size_ * normal_number(random));
+    for (const FittedErrors& each : errors_) error.push_back(size * each.draw(random));
+    VectorXd drawn = white(error);
+    for (double& prior : drawn.tail(priors())) prior = normal_number(random);
+
+    const VectorXd step = linear_(drawn);
+    Evaluation moved = evaluated(model_.x + step);
+    const double should_leave = linear_.left(drawn);
+    const double leaves = moved.ok ? white(without(error, moved)).squaredNorm() : kInfinite;
+    // More than derivatives say, by what an error of one standard deviation of each unknown leaves.
+    if (leaves > should_leave + static_cast<double>(model_.x.size()))
+      moved = evaluated(refitted(error, leaves < drawn.squaredNorm() ? step : 0 * step));
+    if (moved.ok) return without(error, moved);
+    for (MatrixXd& each : error) each.setConstant(kInfinite);
+    return error;
+  }
+
+ private:
+  Index priors() const {
+    return remainder_.fitted_along.rows() - stacked_fitted(remainder_.fitted).size();
+  }
+  VectorXd stacked_fitted(const std::vector<MatrixXd>& parts) const {
+    return stacked_where_seen(parts, remainder_.fitted);
+  }
+
+  /// The fitted part, white, and zeros for the priors.
+  VectorXd white(const std::vector<MatrixXd>& error) const {
+    std::vector<MatrixXd> parts(error.size());
+    for (std::size_t e = 0; e < error.size(); ++e)
+      if (const Index fitted = remainder_.fitted[e].cols(); fitted > 0)
+        parts[e] = noise_[e].whitened(error[e].leftCols(fitted));
+    VectorXd stacked = VectorXd::Zero(remainder_.fitted_along.rows());
+    const VectorXd values = stacked_fitted(parts);
+    stacked.head(values.size()) = values;
+    return stacked;
+  }
+
+  Evaluation evaluated(const VectorXd& x) const {
+    return evaluate(*model_.problem, x, true, false, [this] { return !context_.stopped(); });
+  }
+
+  /// How far `moved` is from the model's prediction with this error.
+  std::vector<MatrixXd> without(std::vector<MatrixXd> error, const Evaluation& moved) const {
+    for (std::size_t e = 0; e < error.size(); ++e)
+      error[e] = moved.predictions[e].simulated - model_.predicted[e] - error[e];
+    return error;
+  }
+
+  /// The unknowns, fitted to the model's prediction with this error, beginning at a step from its own.
+  VectorXd refitted(const std::vector<MatrixXd>& error, const VectorXd& step) const {
+    std::vector<Experiment> experiments = model_.problem->experiments();
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      MatrixXd& measured = experiments[e].recording.measured;
+      measured =
+          measured.array().isNaN().select(measured, model_.predicted[e] + error[e]).eval();
+    }
+    const Problem problem(model_.problem->the_case(), model_.problem->model(),
+                          std::move(experiments));
+    FitOptions options;
+    options.start = model_.x + step;
+    options.stop = context_.stop;
+    const FitResult result = context_.least_squares(with_noise(problem, noise_), options);
+    return result.x.size() > 0 ? result.x : model_.x;
+  }
+
+  const FittedModel& model_;
+  const std::vector<NoiseModel>& noise_;
+  DiagnosisContext& context_;
+  Remainder remainder_;
+  BoundedFit linear_;
+  std::vector<FittedErrors> errors_;
+  double doubt_of_size_ = 0;  ///< standard deviation of its logarithm
+};
+
+}  // namespace
+
+double PredictionError::high_with_errors_of_laws() const {
+  return std::hypot(high, kThresholds.law_error * explained);
+}
+
+PredictionErrors prediction_errors(const FittedModel& model, const FittedModel& without_laws,
+                                   const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
+  const Squares left = squares_left(model), left_without_laws = squares_left(without_laws);
+  if (left.held_out_count + left.sealed_count == 0) return {};
+
+  const DrawnFits fits(model, noise, context);
+  const auto draws =
+      static_cast<std::size_t>(std::lround(2 / (1 - kThresholds.prediction_level)) - 1);
+  std::vector<Squares> drawn(draws);
+  context.begin("drawing what predictions may leave", draws);
+  in_parallel(draws, context.threads, [&](std::size_t draw) {
+    drawn[draw] = squares_of(model, fits.error(draw));
+    context.end_task();
+  });
+  context.stop_if_asked();
+  const auto error_of = [&](double Squares::*sum, double count) {
+    if (count == 0) return PredictionError{};
+    std::vector<double> sums;
+    for (const Squares& squares : drawn) sums.push_back(squares.*sum);
+    const auto [least, largest] = std::minmax_element(sums.begin(), sums.end());
+    const double explained = std::max(0.0, left_without_laws.*sum - left.*sum);
+    return PredictionError{std::sqrt(left.*sum / count), std::sqrt(*least / count),
+                           std::sqrt(*largest / count), std::sqrt(explained / count)};
+  };
+  return {error_of(&Squares::held_out, left.held_out_count),
+          error_of(&Squares::sealed, left.sealed_count)};
+}
+
+std::vector<std::string> words_of(const PredictionErrors& errors, double fitted,
+                                  const std::string& milli_unit) {
+  std::vector<std::string> words;
+  for (const auto& [part, error] :
+       {std::pair("The part held out", &errors.held_out), std::pair("The sealed part", &errors.sealed)}) {
+    const bool expected = error->observed <= error->high;
+    const bool of_laws = !expected && error->observed <= error->high_with_errors_of_laws();
+    const bool far = error->observed > kThresholds.undetermined * fitted;
+    if (std::isnan(error->observed) || (!far && (expected || of_laws))) continue;
+    std::string sentence = fmt::format(
+        "{} is predicted {:.3g} {} off; {:.3g} to {:.3g} {} are expected ({:.0f} %)", part,
+        1e3 * error->observed, milli_unit, 1e3 * error->low, 1e3 * error->high, milli_unit,
+        100 * kThresholds.prediction_level);
+    if (of_laws)
+      sentence += fmt::format(
+          ", but laws that are {:.2g} % off there leave as much",
+          100 * std::sqrt(std::pow(error->observed, 2) - std::pow(error->high, 2)) / error->explained);
+    words.push_back(sentence + (expected || of_laws ? ": the fitted part does not determine this motion."
+                                                    : ": the model lacks something there."));
+  }
+  return words;
+}
+
+}  // namespace catena
