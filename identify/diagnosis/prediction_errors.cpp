@@ -230,8 +230,7 @@ class DrawnFits {
     std::vector<Experiment> experiments = model_.problem->experiments();
     for (std::size_t e = 0; e < experiments.size(); ++e) {
       MatrixXd& measured = experiments[e].recording.measured;
-      measured =
-          measured.array().isNaN().select(measured, model_.predicted[e] + error[e]).eval();
+      measured = measured.array().isNaN().select(measured, model_.predicted[e] + error[e]).eval();
     }
     const Problem problem(model_.problem->the_case(), model_.problem->model(),
                           std::move(experiments));
@@ -258,7 +257,8 @@ double PredictionError::high_with_errors_of_laws() const {
 }
 
 PredictionErrors prediction_errors(const FittedModel& model, const FittedModel& without_laws,
-                                   const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
+                                   const std::vector<NoiseModel>& noise,
+                                   DiagnosisContext& context) {
   const Squares left = squares_left(model), left_without_laws = squares_left(without_laws);
   if (left.held_out_count + left.sealed_count == 0) return {};
 
@@ -288,22 +288,24 @@ PredictionErrors prediction_errors(const FittedModel& model, const FittedModel& 
 std::vector<std::string> words_of(const PredictionErrors& errors, double fitted,
                                   const std::string& milli_unit) {
   std::vector<std::string> words;
-  for (const auto& [part, error] :
-       {std::pair("The part held out", &errors.held_out), std::pair("The sealed part", &errors.sealed)}) {
+  for (const auto& [part, error] : {std::pair("The part held out", &errors.held_out),
+                                    std::pair("The sealed part", &errors.sealed)}) {
     const bool expected = error->observed <= error->high;
     const bool of_laws = !expected && error->observed <= error->high_with_errors_of_laws();
     const bool far = error->observed > kThresholds.undetermined * fitted;
     if (std::isnan(error->observed) || (!far && (expected || of_laws))) continue;
-    std::string sentence = fmt::format(
-        "{} is predicted {:.3g} {} off; {:.3g} to {:.3g} {} are expected ({:.0f} %)", part,
-        1e3 * error->observed, milli_unit, 1e3 * error->low, 1e3 * error->high, milli_unit,
-        100 * kThresholds.prediction_level);
+    std::string sentence =
+        fmt::format("{} is predicted {:.3g} {} off; {:.3g} to {:.3g} {} are expected ({:.0f} %)",
+                    part, 1e3 * error->observed, milli_unit, 1e3 * error->low, 1e3 * error->high,
+                    milli_unit, 100 * kThresholds.prediction_level);
     if (of_laws)
-      sentence += fmt::format(
-          ", but laws that are {:.2g} % off there leave as much",
-          100 * std::sqrt(std::pow(error->observed, 2) - std::pow(error->high, 2)) / error->explained);
-    words.push_back(sentence + (expected || of_laws ? ": the fitted part does not determine this motion."
-                                                    : ": the model lacks something there."));
+      sentence +=
+          fmt::format(", but laws that are {:.2g} % off there leave as much",
+                      100 * std::sqrt(std::pow(error->observed, 2) - std::pow(error->high, 2)) /
+                          error->explained);
+    words.push_back(sentence + (expected || of_laws
+                                    ? ": the fitted part does not determine this motion."
+                                    : ": the model lacks something there."));
   }
   return words;
 }

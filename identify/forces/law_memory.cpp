@@ -127,8 +127,7 @@ LinearRecording LawMemory::added_to(const LinearRecording& recording, const LawM
   below(out.start_by_parameter, MatrixXd::Zero(more, recording.start_by_parameter.cols()));
   for (std::size_t k = 0; k < out.steps.size(); ++k) {
     const LinearRecording::Step& before = recording.steps[k];
-    const Followed next =
-        followed_by(*this, chain, motion.state.col(static_cast<Index>(k) + 1));
+    const Followed next = followed_by(*this, chain, motion.state.col(static_cast<Index>(k) + 1));
     const MemoryStep by = step_of(*this, before.duration);
     LinearRecording::Step& step = out.steps[k];
     step.by_state.setZero(states + more, states + more);

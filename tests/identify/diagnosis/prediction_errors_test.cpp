@@ -35,15 +35,14 @@ FittedModel fitted_to(const Film& film, unsigned seed) {
   Case the_case = testing::sections(film.section);
   testing::add_experiment(the_case, "run");
   const Model model = Model::built_in(2);
-  Recording recording = testing::with_truth(the_case, model,
-                                            testing::empty_markers({1.0}, film.frames, kStep));
+  Recording recording =
+      testing::with_truth(the_case, model, testing::empty_markers({1.0}, film.frames, kStep));
 
   std::mt19937_64 random(seed);
   Eigen::Vector2d noise = Eigen::Vector2d::Zero();
   for (Index k = 0; k < film.frames; ++k) {
     const double fresh = k == 0 ? 1 : std::sqrt(1 - film.correlation * film.correlation);
-    for (double& value : noise)
-      value = film.correlation * value + fresh * normal_number(random);
+    for (double& value : noise) value = film.correlation * value + fresh * normal_number(random);
     recording.measured.col(k) += kNoise * noise;
   }
   recording.fit_frames = film.fitted;
@@ -107,14 +106,16 @@ TEST_CASE("what a right model leaves where nothing was fitted lies in the interv
   }
 }
 
-TEST_CASE("a short fitted part does not determine the motion, and the interval is as wide as that") {
+TEST_CASE(
+    "a short fitted part does not determine the motion, and the interval is as wide as that") {
   const FittedModel model = fitted_to({.fitted = 8}, 1);
   const PredictionErrors errors = errors_of(model);
   CHECK(errors.sealed.high > 10 * kNoise);
   const auto words = words_of({{}, {10 * kNoise, kNoise, 20 * kNoise}}, kNoise, "mm");
   REQUIRE(words.size() == 1);
   CHECK(words[0] ==
-        "The sealed part is predicted 10 mm off; 1 to 20 mm are expected (95 %): the fitted part does "
+        "The sealed part is predicted 10 mm off; 1 to 20 mm are expected (95 %): the fitted part "
+        "does "
         "not determine this motion.");
 }
 
@@ -191,7 +192,9 @@ TEST_CASE("laws a tenth off explain more, in the part where they explain somethi
     without_laws.predicted[0].rightCols(kSealed).array() += of_laws;
     const PredictionErrors errors = errors_of(model, without_laws);
     CHECK(errors.held_out.explained == 0);
-    CHECK(errors.sealed.explained == doctest::Approx(of_laws).epsilon(0.1));
+    // What is left is one shift to the side, against the other one.
+    const double explained = std::sqrt(of_laws * (of_laws - 5e-3));
+    CHECK(errors.sealed.explained == doctest::Approx(explained).epsilon(0.05).scale(0));
     CHECK(errors.sealed.high == errors_of(model).sealed.high);
     const bool enough = of_laws > 40e-3;
     CHECK((errors.sealed.observed <= errors.sealed.high_with_errors_of_laws()) == enough);
