@@ -403,7 +403,8 @@ void Integrator::explain(int flag, double reached, SensitiveSimulation& result) 
               ? "the equations give no finite number"
               : "the equations give no finite number (a joint folded by half a turn, straight up "
                 "at the support, bends in no direction of space; start beside that; a clamp whose "
-                "direction is zero has none)";
+                "direction is zero has none; beside what is far too stiff, heavy or strongly "
+                "damped the rest is lost)";
       break;
     case Status::kSingular:
       what = "the mass or Newton matrix loses its pivot";

@@ -111,7 +111,8 @@ void compare_in_space(const catena_model& table, const RandomPoint& point, Compa
     const Real size = std::sqrt(dot(q[i], q[i])), size_rate = dot(q[i], v[i]) / size;
     const Real stretching = dot(q[i], a[i]) + dot(v[i], v[i]);
     const Real size_acceleration = (stretching - size_rate * size_rate) / size;
-    const Real inertia = chain.inertia[i] + chain.mass[i] * chain.length[i] * chain.length[i] / 4;
+    const Real inertia =
+        16 * chain.inertia[i] + 4 * chain.mass[i] * chain.length[i] * chain.length[i];
     for (std::size_t c = 0; c < 3; ++c) {
       unit[i][c] = q[i][c] / size;
       rate[i][c] = (v[i][c] - unit[i][c] * size_rate) / size;

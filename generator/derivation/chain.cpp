@@ -16,6 +16,12 @@ namespace {
 
 const ex kHalf = numeric(1, 2);
 
+// In space the length of q has this many times (I + m l^2/4) (d|q|^2/dt)^2 of kinetic energy, which moves
+// nothing else. Moments of turned links push along q where factors of the Newton matrix are old: with 1/8
+// Newton's iteration fails in one of eight steps of 1000 links. With 8 it fails in none of them, but twice as often
+// in chains of 3 links (docs/performance.md).
+const ex kInertiaOfLength = 2;
+
 std::string rate_family(const std::string& family) {
   if (family.ends_with("_momentum")) return family + "_rate";
   const std::string velocity = "_velocity";
@@ -296,7 +302,8 @@ void Chain::add_chain_terms() {
           kHalf * mass_[k] * speed_squared(at(centre_, k)) + kHalf * inertia_[k] * turning(k);
       if (!in_plane()) {
         const ex rate = time_.of(direction_square_[k]);
-        energy += (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate / 8;
+        energy +=
+            kInertiaOfLength * (inertia_[k] + mass_[k] * length_[k] * length_[k] / 4) * rate * rate;
       }
       // One part of the energy a link: sums over links become loops.
       add_kinetic("kinetic", energy);

@@ -124,7 +124,7 @@ class RatiosOfJoints : public GiNaC::map_function {
 };
 
 // From the generalised forces f of the unit vectors to the equations of q, s = 1 / |q|:
-//     r = s f - s^3 (f . q) q + (I + m l^2 / 4) (q . qddot + |qdot|^2) q
+//     r = s f - s^3 (f . q) q + 16 (I + m l^2 / 4) (q . qddot + |qdot|^2) q
 Proof projection(int links) {
   Chain chain(chain_in_space(), links);
   std::set<std::string> kept = kept_families({"_force"});
@@ -148,7 +148,7 @@ Proof projection(int links) {
       along += f(axis) * q(axis);
       radial += q(axis) * qddot(axis) + qdot(axis) * qdot(axis);
     }
-    radial *= own("inertia") + own("mass") * GiNaC::pow(own("length"), 2) / 4;
+    radial *= 16 * own("inertia") + 4 * own("mass") * GiNaC::pow(own("length"), 2);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto row = axis * static_cast<std::size_t>(links) + static_cast<std::size_t>(i) - 1;
       comparison.entry(place(i - 1) + " " + kAxes[axis],

@@ -49,7 +49,7 @@ TEST_CASE("extreme chains in space move as in the plane, or the status says what
        [](Chain& c) { c.stiffness = 1e6, c.duration = 1e-3, c.relative_tolerance = 1e-11; }, ""},
       {"stiffness 1e6, damped", [](Chain& c) { c.stiffness = 1e6, c.damping = 1e5; }, ""},
       {"stiffness 1e12", [](Chain& c) { c.stiffness = 1e12; }, "less stiff"},
-      {"stiffness 1e48", [](Chain& c) { c.stiffness = 1e48; }, "pivot"},
+      {"stiffness 1e48", [](Chain& c) { c.stiffness = 1e48; }, "stiff"},  // of a pivot or a number
       {"no damping", [](Chain& c) { c.damping = 0; }, ""},
       {"damping 1e6", [](Chain& c) { c.damping = 1e6; }, ""},
       {"no load", [](Chain& c) { c.load = 0; }, ""},
