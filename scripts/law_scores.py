@@ -41,7 +41,7 @@ class Law:
         self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
         self.potential = "potential" in law
         self.at = None
-        if "state" in law:  # it remembers: no function of the state of its time
+        if "force" in law:  # it remembers or depends on the time: no function of the state
             return
         energy = law["potential" if self.potential else "dissipation"][0]
         one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))

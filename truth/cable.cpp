@@ -124,6 +124,7 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
     const double x = (t - h.kick_time) / 0.02;
     if (std::abs(x) < 1) force.side += h.kick / 0.02 * 0.5 * (1 + std::cos(std::numbers::pi * x));
   }
+  force.side += h.push / (1 + std::exp(-2 * (t - h.push_time) / 0.2));
   for (int j = 0; h.gusts != 0 && j < 5; ++j)  // 0.3 to 2.3 Hz
     force.side += h.gusts * std::sin(2 * std::numbers::pi * (0.3 + 0.5 * j) * t +
                                      (j + 1) * (j + 1) * h.gusts_turn);

@@ -60,6 +60,8 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"magnet.depth", &Hidden::magnet_depth},
       {"kick.impulse", &Hidden::kick},
       {"kick.time", &Hidden::kick_time},
+      {"push.force", &Hidden::push},
+      {"push.time", &Hidden::push_time},
       {"gusts.size", &Hidden::gusts},
       {"gusts.turn", &Hidden::gusts_turn},
       {"stop.stiffness", &Hidden::stop},

@@ -53,9 +53,10 @@ struct Hidden {
   double place_drag = 0;                    // kg/m, at mid-cable
   double magnet = 0, magnet_depth = 0.1;    // N m^2, m below the rest point
   double kick = 0, kick_time = 1.5;         // N s sideways at mid-cable, s
-  double gusts = 0, gusts_turn = 0;         // N sideways at mid-cable, rad; five oscillations
-  double stop = 0, stop_side = 0.3;         // N/m, m; pushes mid-cable back beyond it
-  double string = 0, string_slack = 0.6;    // N/m, m; from mid-cable to a hook, taut when longer
+  double push = 0, push_time = 1.5;       // N sideways at mid-cable, begins within 0.5 s of that, s
+  double gusts = 0, gusts_turn = 0;       // N sideways at mid-cable, rad; five oscillations
+  double stop = 0, stop_side = 0.3;       // N/m, m; pushes mid-cable back beyond it
+  double string = 0, string_slack = 0.6;  // N/m, m; from mid-cable to a hook, taut when longer
   double string_side = -0.3, string_down = 0.6;  // m, of the hook
   double brake = 0, brake_rate = 2;              // N m s/rad, rad/s; eddy brake in mid-joint
   double joint_stop = 0, joint_gap = 0.1;        // N m/rad, rad; play of mid-joint

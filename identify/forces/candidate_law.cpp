@@ -91,18 +91,22 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
   grammar_ = variable == LawVariable::kAcceleration ? inertia_grammar()
              : has_lag()                            ? relaxing_grammar()
+             : has_time()                           ? time_grammar(least, most)
              : against()                            ? velocity_grammar()
              : angle                                ? angle_grammar()
              : has_point()                          ? distance_grammar()
                                                     : position_grammar();
+  if (has_time()) return;  // in s
   if (!against() && !angle && !has_point()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
   double count = 2 * has_point() + has_lag();
-  for (const int term : form)
-    count += text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).shape ? 2 : 1;
+  for (const int term : form) {
+    const LawTermText& text = text_of(grammar_.terms[static_cast<std::size_t>(term)].kind);
+    count += 1 + (text.shape != nullptr) + text.moment;
+  }
   return count;
 }
 
@@ -134,15 +138,21 @@ std::string CandidateLaw::shape_name(int term) const {
   return name ? name : "";
 }
 
+bool CandidateLaw::has_moment(int term) const {
+  return text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).moment;
+}
+
 VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
   std::vector<double> numbers;
   if (has_place()) numbers.push_back(site_.arc_length);
   if (has_point())
     numbers.insert(numbers.end(), {numbers_.fixed_point[0], numbers_.fixed_point[1]});
   if (has_lag()) numbers.push_back(numbers_.lag);
-  for (const int term : form)
-    if (!shape_name(term).empty())
-      numbers.push_back(grammar_.terms[static_cast<std::size_t>(term)].shape);
+  for (const int place : form) {
+    const LawTerm& term = grammar_.terms[static_cast<std::size_t>(place)];
+    if (text_of(term.kind).shape) numbers.push_back(term.shape);
+    if (text_of(term.kind).moment) numbers.push_back(term.moment);
+  }
   return VectorXd::Map(numbers.data(), static_cast<Index>(numbers.size()));
 }
 
@@ -154,6 +164,7 @@ VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
     if (shape_name(term).empty()) continue;
     if (shape_name(term) == kEdge) steps[next] = kNumberStep;
     ++next;
+    if (has_moment(term)) steps[next] = steps[next - 1], ++next;
   }
   return steps;
 }
@@ -173,6 +184,8 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
     const double shape = numbers[next++];
     other.grammar_.terms[static_cast<std::size_t>(term)].shape = shape;
     possible = possible && (shape_name(term) == kEdge || shape > kLeastShape);
+    if (has_moment(term))
+      other.grammar_.terms[static_cast<std::size_t>(term)].moment = numbers[next++];
   }
   if (!possible) return std::nullopt;
   return other;
@@ -210,10 +223,12 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   formula.variable_unit = names.variable_unit;
   formula.kind = variable_ == LawVariable::kAcceleration ? Kind::kMass
                  : has_lag()                             ? Kind::kRelaxing
+                 : has_time()                            ? Kind::kTime
                  : against()                             ? Kind::kDissipation
                                                          : Kind::kPotential;
   const auto add_amplitude = [&](const std::string& name, int power, Index i) {
-    const double scale = std::pow(half_, power), value = -coefficients[i] / scale;
+    const double scale = std::pow(half_, power);
+    const double value = (has_time() ? 1 : -1) * coefficients[i] / scale;
     const double bound = kBound * std::abs(value);
     formula.constants.push_back({name, unit_over(names, power), value,
                                  std::sqrt(std::max(0.0, covariance(i, i))) / scale, true,
@@ -285,18 +300,22 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                  half_ * deviation_of(shapes++), false,
                                  edge ? shape - 2 * half_ : shape / kMostShapeChange,
                                  edge ? shape + 2 * half_ : shape * kMostShapeChange});
+    if (!text.moment) continue;
+    const double reach = kMostShapeChange * shape;
+    formula.constants.push_back({"moment", "s", term.moment, deviation_of(shapes++), false,
+                                 term.moment - reach, term.moment + reach});
   }
   add_point();
   if (has_lag()) {
     formula.constants.push_back({"lag", "s", numbers_.lag, deviation_of(has_place()), false,
                                  numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
-    formula.energy = names.symbols;
   }
+  if (has_lag() || has_time()) formula.along = names.symbols;
   if (formula.kind == Kind::kMass)
     formula.energy =
         fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition));
-  formula.text =
-      fmt::format("{} = -{}", names.force, form.size() == 1 ? terms : fmt::format("({})", terms));
+  formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
+                             form.size() == 1 ? terms : fmt::format("({})", terms));
   fix("middle", middle_);
   fix("step", kSignWidth * half_);
   fix("edge_width", kEdgeWidth * half_);
@@ -341,6 +360,14 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
         add(variable, {.fixed_point = middle + (reach + beyond * chain.lengths.sum()) * direction});
     }
   }
+  return candidates;
+}
+
+std::vector<CandidateLaw> candidates_of_time(const LawSite& site, const LawChain& chain,
+                                             const std::vector<LawMotion>& visited) {
+  std::vector<CandidateLaw> candidates;
+  for (const LawVariable variable : times_of(site))
+    candidates.emplace_back(site, variable, chain, visited, CandidateLaw::Numbers{});
   return candidates;
 }
 

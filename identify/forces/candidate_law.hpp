@@ -49,7 +49,8 @@ class CandidateLaw {
   bool admits(const Eigen::VectorXd& coefficients) const;
 
   /// Numbers that the force of a formula is not linear in: the arc length of a place inside of the cable, m; the
-  /// fixed point, side and down, m; the lag, s; the shape of every term that has one, in units of the half width.
+  /// fixed point, side and down, m; the lag, s; the shape of every term that has one, in units of the half width (s
+  /// of the time), and its moment, s.
   Eigen::VectorXd numbers(const std::vector<int>& form) const;
   /// Changes of these over which the force is close to linear.
   Eigen::VectorXd steps(const std::vector<int>& form) const;
@@ -74,12 +75,15 @@ class CandidateLaw {
   struct Formula {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
-    /// What follows declares a potential, a dissipation, a mass or a spring before a dashpot (law_effect.cpp).
-    enum class Kind { kPotential, kDissipation, kMass, kRelaxing } kind = Kind::kPotential;
+    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot or a force in time
+    /// (law_effect.cpp).
+    enum class Kind { kPotential, kDissipation, kMass, kRelaxing, kTime } kind = Kind::kPotential;
     bool curve = false;  ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
-    /// mass; of a spring before a dashpot the rate of its length. A place is `offset` past the middle of a link.
+    /// mass; of the time the force. A place is `offset` past the middle of a link.
     std::string energy;
+    std::string
+        along;  ///< the velocity or rate along which a spring before a dashpot or a force in time acts
     std::string variable_unit;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };
@@ -91,7 +95,9 @@ class CandidateLaw {
   bool has_place() const;
   bool has_point() const { return variable_ == LawVariable::kDistance; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }
+  bool has_time() const { return timed_of(variable_).has_value(); }
   std::string shape_name(int term) const;
+  bool has_moment(int term) const;
 
   LawSite site_;
   LawVariable variable_;
@@ -105,5 +111,8 @@ class CandidateLaw {
 /// what it visits; for what relaxes, some lags.
 std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& chain,
                                         const std::vector<LawMotion>& visited);
+/// Forces that depend on nothing but the time.
+std::vector<CandidateLaw> candidates_of_time(const LawSite& site, const LawChain& chain,
+                                             const std::vector<LawMotion>& visited);
 
 }  // namespace catena

@@ -169,21 +169,50 @@ std::string with_constants(const CandidateLaw::Formula& formula) {
   return words;
 }
 
+/// The motions found.
+std::vector<LawMotion> motions_of(const ForcePaths& paths) {
+  std::vector<LawMotion> motions;
+  for (std::size_t r = 0; r < paths.paths().size(); ++r)
+    motions.push_back({paths.paths()[r].state, paths.times(r)});
+  return motions;
+}
+
+/// What a law is chosen and confirmed by: both halves of the frames, or every other point that is seen. A law of the
+/// time says nothing of other times.
+enum class Split { kFrames, kPoints };
+
+/// The problem where one half of the points is seen.
+LinearProblem of_points(const ForcePaths& paths, const LinearProblem& linear, FrameHalf half) {
+  LinearProblem out = linear;
+  for (std::size_t r = 0; r < out.recordings.size(); ++r) {
+    const auto values = paths.seen_values(r);
+    for (std::size_t node = 0; node < values.size(); ++node) {
+      std::vector<Index> rows;
+      for (std::size_t i = 0; i < values[node].size(); ++i) {
+        const int point = paths.recording(r).channels[values[node][i].channel].point;
+        if ((point % 2 == 1) == (half == FrameHalf::kSecond)) rows.push_back(static_cast<Index>(i));
+      }
+      LinearRecording::Seen& seen = out.recordings[r].seen[node];
+      seen = {seen.value(rows).eval(), seen.by_state(rows, Eigen::all).eval(),
+              seen.by_parameter(rows, Eigen::all).eval()};
+    }
+  }
+  return out;
+}
+
 class LawSearch {
  public:
   /// `random`: of each recording. `linear`: with a torque on every link as its forces.
-  LawSearch(ForcePaths& paths, std::vector<NodeForces> random, std::mt19937_64& numbers,
-            LinearProblem linear, const LawChain& chain, const std::vector<LawSite>& sites)
+  LawSearch(ForcePaths& paths, const std::vector<NodeForces>& random, std::mt19937_64& numbers,
+            LinearProblem linear, const LawChain& chain, std::vector<CandidateLaw> candidates,
+            Split split)
       : paths_(paths),
-        random_(std::move(random)),
+        random_(random),
         numbers_(numbers),
         linear_(std::move(linear)),
-        chain_(chain) {
-    const std::vector<LawMotion> visited = motions();
-    for (const LawSite& site : sites)
-      for (CandidateLaw& candidate : candidates_at(site, chain_, visited))
-        candidates_.push_back(std::move(candidate));
-  }
+        chain_(chain),
+        candidates_(std::move(candidates)),
+        split_(split) {}
 
   ForceLaw run() {
     ForceLaw law;
@@ -198,6 +227,8 @@ class LawSearch {
       as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
                                   static_cast<double>(second.seen)) >= law.confirmed;
     law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomSeries);
+    if (split_ == Split::kPoints) law.chance *= 2;  // another search has been done before
+    law.by_points = split_ == Split::kPoints;
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
     if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
     return law;
@@ -212,7 +243,10 @@ class LawSearch {
 
   LawTrials trials(FrameHalf half) {
     LawTrials trials;
-    const LawPart part = law_part(linear_, random_, half);
+    const LinearProblem linear =
+        split_ == Split::kPoints ? of_points(paths_, linear_, half) : linear_;
+    const FrameHalf frames = split_ == Split::kPoints ? FrameHalf::kBoth : half;
+    const LawPart part = law_part(linear, random_, frames);
     const MatrixXd basis = orthonormal_basis(part.nuisance, 1e-12);
     const auto project = [&](MatrixXd& columns) {
       const MatrixXd along = basis.transpose() * columns;
@@ -232,7 +266,7 @@ class LawSearch {
              (end == begin || columns + candidates_[end].terms() <= kColumnsAtOnce))
         columns += candidates_[end++].terms();
       std::vector<NodeForces> forces;
-      for (const LawMotion& motion : motions()) {
+      for (const LawMotion& motion : motions_of(paths_)) {
         const auto nodes = static_cast<std::size_t>(motion.state.cols());
         NodeForces& of_recording = forces.emplace_back();
         of_recording.columns.assign(nodes, MatrixXd(links(), columns));
@@ -244,7 +278,7 @@ class LawSearch {
                 candidates_[c].force(states.col(static_cast<Index>(k)));
         }
       }
-      MatrixXd responses = law_part(linear_, forces, half).forces;
+      MatrixXd responses = law_part(linear, forces, frames).forces;
       project(responses);
       Index column = 0;
       for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
@@ -323,27 +357,21 @@ class LawSearch {
   /// Squared residuals that the free force leaves, in standard deviations.
   double left_by_force(FrameHalf half) const {
     double sum = 0;
-    for (const LinearRecording& recording : linear_.recordings)
+    const bool points = split_ == Split::kPoints;
+    const LinearProblem linear = points ? of_points(paths_, linear_, half) : linear_;
+    for (const LinearRecording& recording : linear.recordings)
       for (std::size_t k = 0; k < recording.seen.size(); ++k)
-        if (half == FrameHalf::kBoth ||
-            (half == FrameHalf::kSecond) == (k >= recording.seen.size() / 2))
+        if (points || (half == FrameHalf::kSecond) == (k >= recording.seen.size() / 2))
           sum += recording.seen[k].value.squaredNorm();
     return sum;
   }
 
   Index links() const { return chain_.lengths.size(); }
 
-  std::vector<LawMotion> motions() const {
-    std::vector<LawMotion> motions;
-    for (std::size_t r = 0; r < paths_.paths().size(); ++r)
-      motions.push_back({paths_.paths()[r].state, paths_.times(r)});
-    return motions;
-  }
-
   /// The linear problem with what a law remembers behind the states.
   LinearProblem with_memory(const CandidateLaw& law) const {
     LinearProblem linear = linear_;
-    const std::vector<LawMotion> along = motions();
+    const std::vector<LawMotion> along = motions_of(paths_);
     for (std::size_t r = 0; r < along.size(); ++r)
       linear.recordings[r] = law.memory().added_to(linear_.recordings[r], along[r], chain_);
     return linear;
@@ -362,7 +390,7 @@ class LawSearch {
     for (Index i = 0; known && i < numbers.size(); ++i)
       beside.push_back(
           law.with(form, numbers + steps[i] * VectorXd::Unit(numbers.size(), i)).value_or(law));
-    for (const LawMotion& motion : motions()) {
+    for (const LawMotion& motion : motions_of(paths_)) {
       NodeForces& of_recording = forces.emplace_back();
       const MatrixXd states = law.memory().along(motion, chain_);
       std::vector<MatrixXd> states_beside;
@@ -488,11 +516,12 @@ class LawSearch {
   }
 
   ForcePaths& paths_;
-  std::vector<NodeForces> random_;
+  const std::vector<NodeForces>& random_;
   std::mt19937_64& numbers_;
   LinearProblem linear_;
   const LawChain& chain_;
   std::vector<CandidateLaw> candidates_;
+  Split split_;
 };
 
 std::string chance_words(double value) {
@@ -502,9 +531,9 @@ std::string chance_words(double value) {
 
 void describe_law(ForceLaw& law) {
   const std::string tested = fmt::format(
-      "chosen of {} in the first part of the frames, it explains {:.0f} % of what a force can "
-      "explain in the second ({})",
-      law.candidates, 100 * std::max(0.0, law.confirmed), chance_words(law.chance));
+      "chosen of {} in {}, it explains {:.0f} % of what a force can explain in the second ({})",
+      law.candidates, law.chosen_in(), 100 * std::max(0.0, law.confirmed),
+      chance_words(law.chance));
   if (law.found) {
     law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
     law.words.push_back(tested);
@@ -524,7 +553,8 @@ void describe_law(ForceLaw& law) {
 }  // namespace
 
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const std::vector<LawSite>& sites) {
+                                     const std::vector<LawSite>& sites,
+                                     const std::optional<LawSite>& pushed) {
   std::mt19937_64 numbers(kLawSeed);
   std::vector<NodeForces> random;
   for (const ForcePath& path : paths.paths())
@@ -535,8 +565,20 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   paths.act(std::move(torques));
   std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
+  const std::vector<LawMotion> visited = motions_of(paths);
+  std::vector<CandidateLaw> candidates, of_time;
+  for (const LawSite& site : sites)
+    for (CandidateLaw& candidate : candidates_at(site, chain, visited))
+      candidates.push_back(std::move(candidate));
   ForceLaw law =
-      LawSearch(paths, std::move(random), numbers, std::move(*linear), chain, sites).run();
+      LawSearch(paths, random, numbers, *linear, chain, std::move(candidates), Split::kFrames)
+          .run();
+  if (!law.found && pushed) {
+    const ForceLaw timed = LawSearch(paths, random, numbers, std::move(*linear), chain,
+                                     candidates_of_time(*pushed, chain, visited), Split::kPoints)
+                               .run();
+    if (timed.found) law = timed;
+  }
   describe_law(law);
   return law;
 }

@@ -40,6 +40,11 @@ struct ForceLaw {
   double place = 0;               ///< m, arc length of the place or joint, if the law is right
   double place_deviation = 0;     ///< m
   int candidates = 0;
+  bool by_points =
+      false;  ///< chosen by every other point that is seen and confirmed by the rest: a law of the time
+  const char* chosen_in() const {
+    return by_points ? "one half of the points" : "the first part of the frames";
+  }
   /// What the law, chosen and fitted in the first part of the frames, explains in the second, of what
   /// the free force explains: 1 is all.
   double confirmed = 0;
@@ -51,8 +56,10 @@ struct ForceLaw {
 };
 
 /// `paths`: settled with forces; other patterns act on it afterwards. `sites`: where a law may act.
+/// `pushed`: the one place of the force, where a law of the time may act, too.
 /// Nothing where the motion cannot be followed.
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const std::vector<LawSite>& sites);
+                                     const std::vector<LawSite>& sites,
+                                     const std::optional<LawSite>& pushed);
 
 }  // namespace catena

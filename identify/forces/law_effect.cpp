@@ -52,9 +52,10 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
                                         load ? " at the load" : site_in_words(law.site));
   const std::string words = fmt::format(
       "Found in recordings, declared by nobody: {}; {}. Chosen of {} pairs of a force and a "
-      "variable in the first half of the frames, it explained {:.0f} % of what a force can explain "
-      "in the second; of random forces {:.2g} did as well.",
-      title, formula.text, law.candidates, 100 * law.confirmed, law.chance);
+      "variable in {}, it explained {:.0f} % of what a force can explain in the second; of random "
+      "forces {:.2g} did "
+      "as well.",
+      title, formula.text, law.candidates, law.chosen_in(), 100 * law.confirmed, law.chance);
   using Kind = CandidateLaw::Formula::Kind;
   const char* const more =
       formula.curve ? " No formula fits: the law is a curve of straight pieces between knots."
@@ -78,7 +79,7 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
   std::vector<CandidateLaw::Constant> fixed = formula.fixed;
   if (where.gate) fixed.push_back({"width", "m", kStepWidth});
   if (where.gate && !point) fixed.push_back({kLawPlace, "m", law.place});
-  if (load && formula.energy.find("offset") != std::string::npos)
+  if (load && (formula.energy + formula.along).find("offset") != std::string::npos)
     fixed.push_back({"offset", "m", 0});
   for (const CandidateLaw::Constant& constant : fixed)
     text += fmt::format("\n[constants.{}]\nvalue = {}\nunit = \"{}\"\n", constant.name,
@@ -97,14 +98,17 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}\"\n", table, where.at,
                         where.per_length ? "per = \"length\"\n" : "", gate, value);
   };
-  if (formula.kind == Kind::kRelaxing) {
-    text += fmt::format(
-        "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
-        "rate = \"{3} - {0}_stretch/lag\"\n",
-        id, formula.variable_unit, where.at, formula.energy);
-    text += fmt::format(
-        "\n[[force]]\nat = \"{}\"\nalong = \"{}\"\nvalue = \"-{}{}spring*{}_stretch\"\n", where.at,
-        formula.energy, gate, where.factor, id);
+  if (!formula.along.empty()) {
+    if (formula.kind == Kind::kRelaxing)
+      text += fmt::format(
+          "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
+          "rate = \"{3} - {0}_stretch/lag\"\n",
+          id, formula.variable_unit, where.at, formula.along);
+    const std::string value = formula.kind == Kind::kTime
+                                  ? formula.energy
+                                  : fmt::format("(-{}spring*{}_stretch)", where.factor, id);
+    text += fmt::format("\n[[force]]\nat = \"{}\"\nalong = \"{}\"\nvalue = \"{}{}\"\n", where.at,
+                        formula.along, gate, value);
     return text;
   }
   if (formula.kind == Kind::kMass)

@@ -22,6 +22,7 @@ struct MemoryStep {
 };
 
 MemoryStep step_of(const LawMemory& memory, double duration) {
+  if (timed_of(memory.variable)) return {};  // the time does not follow the motion
   if (memory.variable == LawVariable::kAcceleration) return {-kKept, (1 + kKept) / duration};
   const double kept = std::exp(-duration / memory.lag);
   return {kept, memory.lag / duration * (1 - kept)};  // x goes straight
@@ -40,6 +41,9 @@ Followed followed_by(const LawMemory& memory, const LawChain& chain, const Vecto
     followed.value = state.segment(chain.coordinates, links);
     followed.by_state.setZero(links, state.size());
     followed.by_state.middleCols(chain.coordinates, links).setIdentity();
+  } else if (timed_of(memory.variable)) {
+    followed.value.setZero(1);
+    followed.by_state.setZero(1, state.size());
   } else if (const auto relaxing = relaxing_of(memory.variable)) {
     const auto elements = law_elements(memory.site, *relaxing, Vector2d::Zero(), chain, state);
     const auto count = static_cast<Index>(elements.size());
@@ -99,6 +103,10 @@ MatrixXd LawMemory::along(const LawMotion& motion, const LawChain& chain) const 
   if (variable == LawVariable::kAcceleration) {
     out.bottomRows(followed.rows()) =
         accelerations(motion.state.topRows(followed.rows()), followed, motion.time);
+    return out;
+  }
+  if (timed_of(variable)) {
+    out.bottomRows(1) = Eigen::RowVectorXd::Map(motion.time.data(), nodes);
     return out;
   }
   VectorXd stretch = VectorXd::Zero(followed.rows());

@@ -16,8 +16,8 @@ struct LawMotion {
 };
 
 /// What a law looks at besides the state of its time: the accelerations of the angles, or how far each piece of its
-/// site has been stretched, where a stretch z of the position or angle x relaxes, z' = x' - z / lag. Of other
-/// variables nothing.
+/// site has been stretched, where a stretch z of the position or angle x relaxes, z' = x' - z / lag; or the time
+/// itself. Of other variables nothing.
 struct LawMemory {
   LawSite site;
   LawVariable variable = LawVariable::kSidePosition;

@@ -32,6 +32,9 @@ enum class TermKind {
   // against an acceleration, against a stretch that relaxes
   kInertia,
   kRelaxing,
+  // against the time
+  kPulse,  ///< a bell as wide as the shape around the moment
+  kOnset,  ///< begins at the moment, over the shape
 };
 
 /// One term of a law: a function of the variable's distance from a middle, in units of a half width,
@@ -39,7 +42,8 @@ enum class TermKind {
 /// half^power.
 struct LawTerm {
   TermKind kind = TermKind::kLinear;
-  double shape = 0;  ///< in units of the half width; 0: it has none
+  double shape = 0;   ///< in units of the half width, s of the time; 0: it has none
+  double moment = 0;  ///< s, of terms that have one
 };
 
 double value_of(const LawTerm& term, double u);
@@ -54,7 +58,8 @@ inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
 struct LawTermText {
   const char *amplitude, *shape;
   int power = 0;
-  const char *words, *energy;
+  const char *words, *energy;  ///< of the time: its force instead
+  bool moment = false;         ///< whether it has one
 };
 const LawTermText& text_of(TermKind kind);
 
@@ -73,5 +78,7 @@ const LawGrammar& angle_grammar();
 const LawGrammar& velocity_grammar();
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
+/// Between these times, s.
+LawGrammar time_grammar(double begin, double end);
 
 }  // namespace catena

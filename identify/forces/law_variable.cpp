@@ -52,6 +52,11 @@ constexpr NamesOfVariable kNames[] = {
      "joint_rate/spacing"},
     {LawVariable::kRelaxingCurvature, false, "bending moment", "relaxing curvature", "1/m",
      "joint_rate/spacing"},
+    {LawVariable::kTimeOfSideForce, true, "side force", "time", "s",
+     "velocity_side + offset*cos(angle)*rate"},
+    {LawVariable::kTimeOfDownForce, true, "down force", "time", "s",
+     "velocity_down - offset*sin(angle)*rate"},
+    {LawVariable::kTimeOfMoment, true, "moment", "time", "s", "joint_rate"},
 };
 
 const NamesOfVariable& row_of(LawVariable variable) {
@@ -115,6 +120,19 @@ std::optional<LawVariable> relaxing_of(LawVariable variable) {
 
 std::string symbols_of(LawVariable variable) { return row_of(variable).symbols; }
 
+std::optional<LawVariable> timed_of(LawVariable variable) {
+  switch (variable) {
+    case LawVariable::kTimeOfSideForce:
+      return LawVariable::kSidePosition;
+    case LawVariable::kTimeOfDownForce:
+      return LawVariable::kDownPosition;
+    case LawVariable::kTimeOfMoment:
+      return LawVariable::kJointAngle;
+    default:
+      return std::nullopt;
+  }
+}
+
 LawNames names_of(const LawSite& site, LawVariable variable) {
   const NamesOfVariable& row = row_of(variable);
   const bool moment = site.kind == SiteKind::kJoint || site.kind == SiteKind::kJoints;
@@ -129,7 +147,8 @@ LawNames names_of(const LawSite& site, LawVariable variable) {
                  {}};
   if (site.kind == SiteKind::kJoint && site.joint == 0) {
     names.force = "torque at the support";
-    names.variable = variable == LawVariable::kJointAngle           ? "angle of link 1"
+    names.variable = timed_of(variable)                             ? names.variable
+                     : variable == LawVariable::kJointAngle         ? "angle of link 1"
                      : variable == LawVariable::kRelaxingJointAngle ? "relaxing angle of link 1"
                                                                     : "rate of link 1";
   }
@@ -175,8 +194,9 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   const VectorXd& lengths = chain.lengths;
   const Index links = lengths.size();
   std::vector<LawElement> elements;
-  if (const std::optional<LawVariable> relaxing = relaxing_of(variable)) {
-    elements = law_elements(site, *relaxing, fixed_point, chain, state);
+  const std::optional<LawVariable> relaxing = relaxing_of(variable), timed = timed_of(variable);
+  if (relaxing || timed) {
+    elements = law_elements(site, relaxing ? *relaxing : *timed, fixed_point, chain, state);
     const auto count = static_cast<Index>(elements.size());
     for (Index i = 0; i < count; ++i)
       elements[static_cast<std::size_t>(i)].value = state[state.size() - count + i];
@@ -276,6 +296,19 @@ std::vector<LawVariable> variables_of(const LawSite& site, double length) {
     case SiteKind::kJoints:
       return {LawVariable::kCurvature, LawVariable::kCurvatureRate,
               LawVariable::kRelaxingCurvature};
+  }
+  return {};
+}
+
+std::vector<LawVariable> times_of(const LawSite& site) {
+  switch (site.kind) {
+    case SiteKind::kPlace:
+      return {LawVariable::kTimeOfSideForce, LawVariable::kTimeOfDownForce};
+    case SiteKind::kJoint:
+      return {LawVariable::kTimeOfMoment};
+    case SiteKind::kCable:
+    case SiteKind::kJoints:
+      break;
   }
   return {};
 }

@@ -49,6 +49,10 @@ enum class LawVariable {
   kCurvature,
   kCurvatureRate,
   kRelaxingCurvature,
+  // of a place, or of a joint
+  kTimeOfSideForce,
+  kTimeOfDownForce,
+  kTimeOfMoment,
 };
 
 /// Whether a force of the variable has a potential of the shape alone; else it is against a velocity, an
@@ -57,6 +61,9 @@ bool has_potential(LawVariable variable);
 
 /// The position or angle x that a relaxing variable z follows, z' = x' - z / lag; nothing for others.
 std::optional<LawVariable> relaxing_of(LawVariable variable);
+
+/// The position or angle along which a force acts that depends on the time; nothing for others.
+std::optional<LawVariable> timed_of(LawVariable variable);
 
 /// The names of a variable and of the force that goes with it.
 struct LawNames {
@@ -94,7 +101,10 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
                                      const Eigen::Vector2d& fixed_point, const LawChain& chain,
                                      const Eigen::VectorXd& state);
 
-/// Variables of a site on a cable of this length, m.
+/// Variables of a site on a cable of this length, m, but for the time.
 std::vector<LawVariable> variables_of(const LawSite& site, double length);
+
+/// The time, of each direction in which the site may be pushed.
+std::vector<LawVariable> times_of(const LawSite& site);
 
 }  // namespace catena

@@ -207,9 +207,13 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
   }
+  std::optional<LawSite> pushed;
+  if (missing.one_place)
+    pushed = moment ? LawSite{SiteKind::kJoint, missing.best->arc_length, missing.best->joint}
+                    : LawSite{SiteKind::kPlace, missing.best->arc_length};
   missing.law = law_of_force(missing.one_place ? paths : with_all,
                              {chain.lengths, problem.model().coordinates(), chain.gravity},
-                             sites_of(missing, chain));
+                             sites_of(missing, chain), pushed);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description/effect.hpp"
@@ -26,6 +27,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLength = 0.4, kGravity = 9.81;  // m, m/s^2
+constexpr double kTime = 0.05;                    // s
 constexpr double kStretch = 0.3;                  // of everything that relaxes, m, rad or 1/m
 /// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
 /// joint the effect is the mean of both links, whose directions differ.
@@ -66,8 +68,12 @@ std::vector<MadeLaw> laws_of_all_pairs() {
         LawSite{SiteKind::kJoint, 0, 0}, LawSite{SiteKind::kJoint, 0.5 * kLength, 1},
         LawSite{SiteKind::kCable}, LawSite{SiteKind::kJoints}}) {
     std::set<std::string> variables;
-    for (const CandidateLaw& law : candidates_at(site, chain, {visited})) {
-      if (!variables.insert(law.variable_name()).second) continue;  // another fixed point
+    std::vector<CandidateLaw> candidates = candidates_at(site, chain, {visited});
+    for (CandidateLaw& law : candidates_of_time(site, chain, {visited}))
+      candidates.push_back(std::move(law));
+    for (const CandidateLaw& law : candidates) {
+      if (!variables.insert(law.force_name() + law.variable_name()).second)
+        continue;  // another fixed point
       const bool every_term = grammars.insert(law.forms()).second;
       const bool has_two = std::any_of(law.forms().begin(), law.forms().end(),
                                        [](const auto& form) { return form.size() == 2; });
@@ -99,9 +105,11 @@ VectorXd accelerations_of(int links) { return VectorXd::LinSpaced(links, 2, -5);
 /// The generalised force of a law at a state.
 VectorXd force_of(const MadeLaw& made, const VectorXd& at, int links) {
   VectorXd state(at.size() + links);
-  state << at, made.found.formula.kind == CandidateLaw::Formula::Kind::kMass
-                   ? accelerations_of(links)
-                   : VectorXd::Constant(links, kStretch);
+  using Kind = CandidateLaw::Formula::Kind;
+  const Kind kind = made.found.formula.kind;
+  VectorXd beside = accelerations_of(links);
+  if (kind != Kind::kMass) beside.setConstant(kind == Kind::kTime ? kTime : kStretch);
+  state << at, beside;
   const CandidateLaw law =
       links == 2 ? made.law : made.law.on({lengths_of(links), links, kGravity});
   return law.force(state, made.form) * made.coefficients;
@@ -155,7 +163,7 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
     const VectorXd stretches = VectorXd::Constant(model.states(), kStretch);
     const auto residual = [&](const VectorXd& state, const VectorXd& parameters) {
       VectorXd r(links);
-      model.residual({0, state.data(), state.data() + links, faster.data(), stretches.data(),
+      model.residual({kTime, state.data(), state.data() + links, faster.data(), stretches.data(),
                       nullptr, parameters.data()},
                      r.data());
       return r;

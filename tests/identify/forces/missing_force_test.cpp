@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -344,6 +345,46 @@ TEST_CASE("a viscous joint and an elastic one remember nothing") {
     REQUIRE(found.law.has_value());
     REQUIRE(found.law->found);
     CHECK(found.law->variable == variable);
+  }
+}
+
+TEST_CASE("a kick is a pulse in time: when, and with how much of an impulse") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.kick = 0.05;  // N s
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "time");
+  CHECK(found.law->by_points);
+  const auto& constants = found.law->formula.constants;
+  REQUIRE(constants.size() == 3);
+  CHECK(constants[1].name == "duration");
+  CHECK(constants[2].value == doctest::Approx(hidden.kick_time).epsilon(0.02));
+  // The integral of a bell is sqrt(2 pi) amplitude width.
+  CHECK(std::sqrt(2 * std::numbers::pi) * constants[0].value * constants[1].value ==
+        doctest::Approx(hidden.kick).epsilon(0.1));
+}
+
+TEST_CASE("a push that begins and stays: when, how fast, how strong") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.push = 0.2;  // N
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "time");
+  CHECK(found.law->formula.text ==
+        "side force = amplitude x (1 + tanh((time - moment)/duration))/2");
+  const double truth[] = {hidden.push, 0.2, hidden.push_time};  // 0.2 s: truth/cable.cpp
+  for (const std::size_t i : {0, 1, 2}) {
+    const CandidateLaw::Constant& constant = found.law->formula.constants.at(i);
+    CAPTURE(constant.name);
+    CAPTURE(constant.value);
+    CHECK(std::abs(constant.value - truth[i]) < 3 * constant.deviation);
+    CHECK(constant.deviation < 0.1 * truth[i]);
   }
 }
 
