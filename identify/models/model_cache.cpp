@@ -26,13 +26,32 @@ constexpr const char* kLibrary = "model.so";
 constexpr const char* kChecksum = "model.so.sha256";
 constexpr const char* kWork = "catena-work-";  // no user names a folder so: it is removed
 
-/// Whether an entry holds what was written when it was made.
+/// Whether nobody else made or may write a file or folder. A link may lead to what others made.
+bool is_ours(const fs::path& path, mode_t kind) {
+  struct stat status = {};
+  return lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind &&
+         status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+/// Whether an entry holds what this user wrote when it was made. Whoever could write the library could write the
+/// checksum beside it, too.
 bool is_whole(const fs::path& entry) {
   try {
-    return bytes_of_file(entry / kChecksum) == sha256_of_file(entry / kLibrary) + "\n";
+    return is_ours(entry, S_IFDIR) && is_ours(entry / kChecksum, S_IFREG) &&
+           is_ours(entry / kLibrary, S_IFREG) &&
+           bytes_of_file(entry / kChecksum) == sha256_of_file(entry / kLibrary) + "\n";
   } catch (const fs::filesystem_error&) {
     return false;  // it will be made again
   }
+}
+
+/// Makes a folder, and those above it that are missing, for this user alone, whatever the umask. False with errno.
+bool make_private(const fs::path& folder) {
+  std::error_code error;
+  if (folder.has_parent_path() && !fs::exists(folder.parent_path(), error) &&
+      !make_private(folder.parent_path()))
+    return false;
+  return mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST;
 }
 
 /// Puts a file or folder on the disk before it gets its name: a crash leaves no half entry.
@@ -135,7 +154,7 @@ ModelCache::ModelCache(const fs::path& folder) : folder_(fs::absolute(folder)) {
 std::optional<Model> ModelCache::find(const std::string& key) const {
   const fs::path entry = folder_ / key;
   std::error_code error;
-  if (!fs::exists(entry, error)) return {};
+  if (!fs::exists(fs::symlink_status(entry, error))) return {};
   if (!is_whole(entry)) {
     fs::remove_all(entry, error);
     return {};
@@ -145,9 +164,7 @@ std::optional<Model> ModelCache::find(const std::string& key) const {
 }
 
 WorkFolder ModelCache::work_folder() const {
-  std::error_code error;
-  fs::create_directories(folder_.parent_path(), error);
-  if (mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST)
+  if (!make_private(folder_))
     throw ModelError(folder_.string() + ": the cache of models cannot be made: " +
                      std::strerror(errno) + "; set CATENA_CACHE to a folder of yours");
   require_trusted(folder_);
@@ -163,10 +180,15 @@ Model ModelCache::keep(const std::string& key, const fs::path& made) const {
   const fs::path entry = folder_ / key;
   Model::load(made / kLibrary);  // what cannot be used never gets into the cache
   write_whole_file(made / kChecksum, sha256_of_file(made / kLibrary) + "\n");
-  for (const char* file : {kLibrary, kChecksum}) synchronise(made / file);
-  synchronise(made);
   std::error_code error;
-  if (fs::exists(entry, error) && !is_whole(entry)) fs::remove_all(entry, error);
+  fs::permissions(made, fs::perms::owner_all, error);
+  for (const char* file : {kLibrary, kChecksum}) {
+    fs::permissions(made / file, fs::perms::owner_read | fs::perms::owner_write, error);
+    synchronise(made / file);
+  }
+  synchronise(made);
+  if (fs::exists(fs::symlink_status(entry, error)) && !is_whole(entry))
+    fs::remove_all(entry, error);
   fs::rename(made, entry, error);
   if (error && !is_whole(entry))
     throw ModelError(entry.string() + ": cannot be written: " + error.message());

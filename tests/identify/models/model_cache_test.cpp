@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -63,6 +64,29 @@ TEST_CASE("a damaged entry is made again") {
          fs::remove_all(entry);
          fs::create_directory(entry);
        }},
+      {"others may write the entry", [&] { fs::permissions(filled.entry(), fs::perms::all); }},
+      {"others may write the library", [&] { fs::permissions(library, fs::perms::all); }},
+      {"the group may write the checksum",
+       [&] {
+         fs::permissions(filled.entry() / "model.so.sha256", fs::perms::group_write,
+                         fs::perm_options::add);
+       }},
+      {"the library is a link",
+       [&] {
+         const fs::path elsewhere = filled.folder.path() / "model.so";
+         fs::rename(library, elsewhere);
+         fs::create_symlink(elsewhere, library);
+       }},
+      {"the entry is a link",
+       [&] {
+         const fs::path entry = filled.entry(), elsewhere = filled.folder.path() / "entry";
+         fs::rename(entry, elsewhere);
+         fs::create_directory_symlink(elsewhere, entry);
+       }},
+      {"another user's library",  // where this runs as root; else it is made again as a missing one
+       [&] {
+         if (chown(library.c_str(), 65534, 65534) != 0) fs::remove(library);
+       }},
   };
   int made = 1;
   for (const Row& row : rows) {
@@ -102,6 +126,22 @@ TEST_CASE("code is loaded only from a folder of this user alone") {
       CHECK_THROWS_AS(filled.provide(), ModelError);
   }
   CHECK(filled.made == 1);
+}
+
+TEST_CASE("what a lax umask would open is for this user alone") {
+  const mode_t before = umask(0);
+  Filled filled;
+  const fs::path above = filled.folder.path() / "missing" / "cache";
+  filled.options.cache_directory = above;
+  filled.provide();
+  umask(before);
+  CHECK(filled.made == 2);
+  filled.provide();
+  CHECK(filled.made == 2);  // the entry was found
+  for (const fs::path& path :
+       {above.parent_path(), above, filled.entry(), filled.entry() / "model.so"})
+    CHECK((fs::status(path).permissions() & (fs::perms::group_all | fs::perms::others_all)) ==
+          fs::perms::none);
 }
 
 TEST_CASE("without HOME the cache is not in the temporary folder") {
