@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 #include "identify/report/figure.hpp"
@@ -42,6 +45,21 @@ void require_no_result(const std::filesystem::path& folder) {
           folder.string(), name));
 }
 
+/// A file in the page's place is replaced only if it is such a page, or empty.
+void require_report(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error))
+    return;
+  std::string beginning(std::size_t{1} << 12, '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  if (beginning.find("catena report</title>") == std::string::npos)
+    throw InputError(
+        fmt::format("--output: {} is no report of catena, so it is not replaced; give another "
+                    "name, or remove it",
+                    file.string()));
+}
+
 /// The numbers of every figure, whole or not at all; files of others are not replaced.
 void write_csv(const Document& document, const std::vector<ReportFigure>& figures,
                const std::filesystem::path& folder) {
@@ -60,6 +78,7 @@ void write_csv(const Document& document, const std::vector<ReportFigure>& figure
 }  // namespace
 
 Written write_report(const Document& document, const ReportFiles& files) {
+  if (!files.html.empty()) require_report(files.html);
   const std::vector<ReportFigure> figures = report_figures(document);
   Written written;
   written.figures = figures.size();

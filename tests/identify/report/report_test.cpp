@@ -588,6 +588,14 @@ TEST_CASE("files: one CSV for each figure, and the parameters") {
     return said;
   };
   CHECK(refusal("mine", "parameters.csv").find("was not written by catena") != std::string::npos);
+  const std::filesystem::path page = folder.path() / "deep/report.html",
+                              mine = folder.path() / "mine.csv";
+  CHECK_NOTHROW(write_report(document, {page, {}}));
+  std::ofstream(mine) << "t,x1,y1\n";
+  CHECK(failure([&] {
+          write_report(document, {mine, {}});
+        }).find("is no report of catena") != std::string::npos);
+  CHECK(testing::text_of(mine) == "t,x1,y1\n");
   CHECK(refusal("result", "result.json").find("give another folder") != std::string::npos);
 }
 
