@@ -109,10 +109,12 @@ double products_in(const ex& e) {
   if (!GiNaC::is_a<GiNaC::power>(e) || !GiNaC::is_a<GiNaC::add>(e.op(0)) ||
       !e.op(1).info(GiNaC::info_flags::integer))
     return 1;
-  // (a_1 + ... + a_k)^n has (n + k - 1 over n) terms, each of them a product of k powers.
+  // (a_1 + ... + a_k)^n has (n + k - 1 over n) terms, each of them a product of up to k powers, two of which are as
+  // much work as one product.
   const double terms = products_in(e.op(0));
   const double times = std::abs(GiNaC::ex_to<numeric>(e.op(1)).to_double());
-  return std::exp(std::lgamma(times + terms) - std::lgamma(times + 1) - std::lgamma(terms));
+  return std::max(1.0, std::min(terms, times) / 2) *
+         std::exp(std::lgamma(times + terms) - std::lgamma(times + 1) - std::lgamma(terms));
 }
 
 }  // namespace catena::checking

@@ -321,16 +321,17 @@ class Parser {
   }
 
   Expression unary() {
+    if (!sees("+") && !sees("-")) return power();
     const Depth depth(*this);
-    const Location at = next().at;
-    if (accept("+")) return unary();
-    if (accept("-")) return {Expression::Kind::kNegate, at, "", one(unary())};
-    return power();
+    const Token sign = take();
+    if (sign.text == "+") return unary();
+    return {Expression::Kind::kNegate, sign.at, "", one(unary())};
   }
 
   Expression power() {
     Expression base = primary();
     if (!sees("^")) return base;
+    const Depth depth(*this);
     const Token sign = take();
     return binary(sign, std::move(base), unary());
   }

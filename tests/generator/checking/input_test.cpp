@@ -123,6 +123,7 @@ TEST_CASE("what is too long for algebra is evaluated, or left undecided") {
       {nested + " = x", Verdict::kDifferent, false},
       {nested + "*((x + y)^2 - x^2 - 2*x*y - y^2) = 0", Verdict::kEqual, true},
       {fractions + " = x", Verdict::kDifferent, false},
+      {"(x + y + x*y + x^2 + y^3 + 1)^60 = x", Verdict::kDifferent, false},
       {"sin(" + fractions + ") = 2", Verdict::kDifferent, false},
       {"(((((x + 1)^90 + 1)^90 + 1)^90 + 1)^90 + 1)^90 = x", Verdict::kUndecided, false},
       {"exp(exp(exp(exp(10^9)))) = x", Verdict::kUndecided, false},
@@ -138,6 +139,19 @@ TEST_CASE("what is too long for algebra is evaluated, or left undecided") {
     CHECK(result.of("it").verdict == row.verdict);
     CHECK(result.of("it").by_evaluation == row.by_evaluation);
   }
+}
+
+TEST_CASE("parentheses, signs and powers are nested as deep as the limit says") {
+  const auto said = [](const char* open, const char* close, int depth) {
+    std::string text = "x";
+    for (int i = 0; i < depth; ++i) text = open + text + close;
+    return checked("symbols x\nidentity \"it\": " + text + " = x").of("it").verdict;
+  };
+  CHECK(said("(", ")", 198) == Verdict::kEqual);  // beside the block and the expression around them
+  CHECK(said("-", "", 198) == Verdict::kEqual);
+  CHECK_THROWS_AS(said("(", ")", 200), InputError);
+  CHECK_THROWS_AS(said("-", "", 200), InputError);
+  CHECK_THROWS_AS(said("1^", "", 200), InputError);
 }
 
 TEST_CASE("long sums neither exhaust the stack nor take long") {
