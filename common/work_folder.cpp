@@ -8,6 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "common/in_quotes.hpp"
+#include "common/input_error.hpp"
+
 namespace catena {
 namespace {
 
@@ -44,6 +47,16 @@ FolderLock::FolderLock(const fs::path& folder) {
 
 FolderLock::~FolderLock() {
   if (file_ >= 0) close(file_);
+}
+
+fs::path temporary_folder() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (!error) return folder;
+  const char* chosen = std::getenv("TMPDIR");
+  throw InputError(
+      (chosen ? "TMPDIR = " + in_quotes(chosen) : std::string("the temporary folder")) + ": " +
+      error.message() + "; set TMPDIR to a folder that can be written");
 }
 
 WorkFolder::WorkFolder(const fs::path& parent, const std::string& prefix) {

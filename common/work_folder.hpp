@@ -23,6 +23,10 @@ class FolderLock {
   bool held_ = false, taken_ = false;
 };
 
+/// The folder for temporary files, of the environment variable TMPDIR or the system's. Throws InputError where there
+/// is none.
+std::filesystem::path temporary_folder();
+
 /// A new folder for unfinished work, removed with the object. It is locked meanwhile: what killed
 /// processes left is told from it.
 class WorkFolder {

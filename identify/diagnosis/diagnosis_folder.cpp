@@ -12,7 +12,7 @@ namespace catena {
 
 namespace fs = std::filesystem;
 
-WorkFolder scratch_folder() { return WorkFolder(fs::temp_directory_path(), "catena-diagnose-"); }
+WorkFolder scratch_folder() { return WorkFolder(temporary_folder(), "catena-diagnose-"); }
 
 namespace {
 

@@ -80,8 +80,8 @@ class BoundedFit {
     triangle_ = range_.transpose() * scaled;
     for (Index j = 0; j < x.size(); ++j) {
       const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
-      low_[j] = std::min(0.0, unknown.lower - x[j]) * scale_[j];
-      high_[j] = std::max(0.0, unknown.upper - x[j]) * scale_[j];
+      low_[j] = std::min(0.0, unknown.least - x[j]) * scale_[j];
+      high_[j] = std::max(0.0, unknown.most - x[j]) * scale_[j];
     }
   }
 

@@ -83,7 +83,7 @@ ProcessResult run(const std::vector<std::string>& command, const std::string& pu
 std::string run_derivation(const fs::path& derive, const Description& description, int links,
                            const std::vector<std::string>& options, const std::string& purpose,
                            const std::atomic<bool>* stop = nullptr) {
-  const WorkFolder copies(fs::temp_directory_path(), "catena-derive-");
+  const WorkFolder copies(temporary_folder(), "catena-derive-");
   std::vector<std::string> command = {derive.string(), "derive", "--links", std::to_string(links)};
   command.insert(command.end(), options.begin(), options.end());
   std::map<std::string, std::string> originals;
@@ -219,6 +219,8 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       "; a C++ compiler is needed for models that are not built in (set CXX to name one)";
   const ProcessResult compiled = run(command, purpose, hint, options.stop);
   if (compiled.exit_status != 0) fail(compiled, compiler, purpose, hint);
+  if (!fs::exists(sources / "model.so"))
+    throw ModelError(purpose + ": " + compiler + " ended with status 0, but made no model" + hint);
   return cache.keep(key, sources);
 }
 

@@ -13,6 +13,7 @@
 #include "common/whole_file.hpp"
 #include "identify/program/progress.hpp"
 #include "identify/results/csv_tables.hpp"
+#include "identify/results/energy_remark.hpp"
 
 namespace catena {
 namespace {
@@ -95,6 +96,11 @@ void show_warnings(const Problem& problem, const CommonOptions& options) {
   if (options.quiet) return;
   for (const std::string& warning : problem.warnings())
     std::cerr << "catena: warning: " << warning << "\n";
+}
+
+void warn_of_energy(const Simulation& simulation) {
+  if (const std::string words = energy_remark(simulation); !words.empty())
+    std::cerr << "warning: " << words << "\n";
 }
 
 std::filesystem::path output_folder(const CommonOptions& options) {

@@ -51,6 +51,9 @@ Model model_of(const Case& the_case, const CommonOptions& options);
 /// nothing if quiet.
 void show_warnings(const Problem& problem, const CommonOptions& options);
 
+/// Says on standard error where the energy balance of a simulation is off.
+void warn_of_energy(const Simulation& simulation);
+
 std::filesystem::path output_folder(const CommonOptions& options);
 
 /// Files of a result under their names.

@@ -247,7 +247,7 @@ int identify_case(const IdentifyOptions& options) {
   if (!part.is_merge()) require_yes(options.yes, "the identification", estimate);
   OutputFolder output(part.folder(), names);
   std::optional<WorkFolder> scratch;  // the log of a merge holds nothing new
-  if (part.is_merge()) scratch.emplace(std::filesystem::temp_directory_path(), "catena-merge-");
+  if (part.is_merge()) scratch.emplace(temporary_folder(), "catena-merge-");
   ProgressLine line(!options.quiet);
   RunLog log((scratch ? scratch->path() : output.path()) / "run.log", run_key(*asked),
              static_cast<Eigen::Index>(asked->unknowns().size()), options.resume || part.is_shard(),
@@ -287,6 +287,7 @@ int identify_case(const IdentifyOptions& options) {
     found.motions.push_back(motion_of(problem, found.fit.x, e));
   const std::string result = identification_result_text(problem, found);
   write_output(output, files_of(problem, found, output.path(), result));
+  for (const Motion& motion : found.motions) warn_of_energy(motion.simulation);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json) {
     std::cout << parameter_table(problem, found.fit, found.uncertainty) << "\n"

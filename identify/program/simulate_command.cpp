@@ -78,7 +78,7 @@ int simulate_alone(const Problem& problem, const CommonOptions& options) {
   files.emplace_back("result.json", result);
   add_motion_files(problem, -1, motion, files);
   write_output(output, files);
-  std::cerr << energy_warning(motion.simulation);
+  warn_of_energy(motion.simulation);
   if (options.json) std::cout << result;
   if (!options.quiet && !options.json)
     std::cout << simulation_table(motion) << "written to " << output_folder(options).string()
@@ -113,7 +113,7 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
     forecast.require_yes("the simulation");
     if (!succeeded(motions.back().simulation, experiment.spec.name))
       return report_interruption("nothing was written");
-    std::cerr << energy_warning(motions.back().simulation);
+    warn_of_energy(motions.back().simulation);
     add_motion_files(problem, e, motions.back(), files);
     before += length_of(experiment);
   }

@@ -61,20 +61,6 @@ std::string simulation_table(const Motion& motion) {
       simulation.energy_imbalance);
 }
 
-std::string energy_warning(const Simulation& simulation) {
-  constexpr double kGreatestShare = 0.01;
-  constexpr double kRounding = 1e-9;  // of a great energy that hardly changes
-  const Eigen::MatrixXd& energy = simulation.trajectory.energy;
-  if (energy.size() == 0) return "";
-  const double changes = (energy.rowwise().maxCoeff() - energy.rowwise().minCoeff()).maxCoeff();
-  const double moved = std::max(changes, kRounding * energy.cwiseAbs().maxCoeff());
-  if (!(simulation.energy_imbalance > kGreatestShare * moved)) return "";
-  return fmt::format(
-      "warning: the energy balance is off by {:.2g} J, {:.0f} % of the {:.2g} J that change form; "
-      "give a smaller relative_tolerance under [simulation]\n",
-      simulation.energy_imbalance, 100 * simulation.energy_imbalance / moved, moved);
-}
-
 std::string gap_table(const Problem& problem, const Evaluation* before, const Evaluation& after) {
   constexpr std::size_t kMostRows = 8;
   if (problem.experiments().size() > kMostRows) return gap_summary(problem, before, after);

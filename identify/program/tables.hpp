@@ -17,10 +17,6 @@ namespace catena {
 /// Steps, energy balance and where the load ended.
 std::string simulation_table(const Motion& motion);
 
-/// A line for standard error where the energy balance is off by more than 1 % of what moved; else
-/// empty.
-std::string energy_warning(const Simulation& simulation);
-
 /// Gap of every experiment and part, after and (if given) before.
 std::string gap_table(const Problem& problem, const Evaluation* before, const Evaluation& after);
 

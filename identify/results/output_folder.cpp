@@ -193,7 +193,7 @@ void OutputFolder::publish(const std::function<void(const fs::path&)>& write) {
     write_all(work_->path());
   } catch (const std::exception& error) {
     const std::string why = error.what();
-    std::string elsewhere = (fs::temp_directory_path() / "catena-result-XXXXXX").string();
+    std::string elsewhere = (temporary_folder() / "catena-result-XXXXXX").string();
     if (!mkdtemp(elsewhere.data())) throw std::runtime_error(why);
     try {
       write_all(elsewhere);

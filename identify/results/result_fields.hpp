@@ -130,7 +130,8 @@ void fields(auto& archive, Is<Experiment> auto& experiment) {
   }
   archive.optional("gap", experiment.gap);
   archive.optional("gap_before", experiment.gap_before);
-  archive.where(experiment.measured.has_value(), "warnings", experiment.warnings);
+  archive.where(experiment.measured || !experiment.warnings.empty(), "warnings",
+                experiment.warnings);
 }
 
 void fields(auto& archive, Is<Parameter> auto& parameter) {

@@ -11,6 +11,7 @@
 #include "identify/cases/case_words.hpp"
 #include "identify/fit/estimated_noise.hpp"
 #include "identify/models/model_provider.hpp"
+#include "identify/results/energy_remark.hpp"
 #include "identify/results/fit_remarks.hpp"
 #include "identify/results/result_file.hpp"
 #include "identify/uncertainty/profile.hpp"
@@ -76,6 +77,8 @@ void put_motion(results::Experiment& experiment, const Problem& problem, const M
     results::Energy& energy = experiment.energy.emplace();
     energy.time = path.time;
     energy.imbalance = simulation.energy_imbalance;
+    if (std::string words = energy_remark(simulation); !words.empty())
+      experiment.warnings.push_back(std::move(words));
     for (int i = 0; i < problem.model().energies(); ++i) {
       const auto& item = problem.model().table().energy_item[i];
       energy.items.push_back({item.name, kKinds[item.kind], row_of(path.energy.row(i))});
@@ -148,6 +151,7 @@ std::vector<results::Experiment> experiments_of(const Problem& problem, const Ei
     const auto fitted = static_cast<std::size_t>(recording.fit_frames);
     if (fitted > 0 && fitted < recording.time.size()) entry.fit_until = recording.time[fitted - 1];
     if (std::isfinite(experiment.spec.sealed_from)) entry.sealed_from = experiment.spec.sealed_from;
+    entry.warnings = recording.warnings;
     put_motion(entry, problem, motions[e]);
     if (problem.model().table().observes) {
       const SeenChain seen = seen_chain(problem, x, index);
@@ -156,7 +160,6 @@ std::vector<results::Experiment> experiments_of(const Problem& problem, const Ei
     entry.measured = measured_of(problem, recording, after.predictions[e].simulated);
     entry.gap = gap_of(gaps, index, unit);
     if (before) entry.gap_before = gap_of(gaps_before, index, unit);
-    entry.warnings = recording.warnings;
   }
   return all;
 }

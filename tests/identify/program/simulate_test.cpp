@@ -133,6 +133,8 @@ TEST_CASE("an energy balance that is lost gives a warning") {
       run_catena({"simulate", loose, "--output", folder.path() / "out", "--quiet"});
   CHECK(run.exit_status == 0);
   CHECK(run.output.find("warning: the energy balance is off by") != std::string::npos);
+  const std::string result = testing::text_of(folder.path() / "out/result.json");
+  CHECK(result.find("the energy balance is off by") != std::string::npos);
 }
 
 TEST_CASE("help fits a screen and shows an example") {
