@@ -59,8 +59,8 @@ Diagnosis diagnosed(double start, double friction, Reported reported) {
   Candidate effect = *context.find("pivot_dry_friction");
   for (CandidateParameter& parameter : effect.parameters)
     if (parameter.name == "pivot_dry_friction.moment") parameter.value = friction;
-  const Recording recording = testing::with_truth(
-      with_effects(the_case, {effect}, true), context.model_with(kEffects, 2), empty_angles());
+  const Recording recording = testing::with_truth(with_effects(the_case, {effect}, true),
+                                                  context.model_with(kEffects, 2), empty_angles());
   std::mt19937_64 random(1);
   std::string text = "time_s,theta_1_rad,theta_2_rad";
   for (Eigen::Index k = 0; k < kFrames; ++k) {
@@ -91,7 +91,8 @@ TEST_CASE("an encoder that errs with its angle is named, with its harmonics") {
   CHECK(found.verdict == DiagnosisVerdict::kNamed);
   CHECK(found.effects == std::vector<std::string>{"encoder_error"});
   CHECK(value_of(found, "encoder_error.sine") == doctest::Approx(0.01).epsilon(0.2).scale(0));
-  CHECK(value_of(found, "encoder_error.second_sine") == doctest::Approx(0.004).epsilon(0.2).scale(0));
+  CHECK(value_of(found, "encoder_error.second_sine") ==
+        doctest::Approx(0.004).epsilon(0.2).scale(0));
 }
 
 TEST_CASE("dry friction of a pivot on encoders is not called an error of the encoder") {
