@@ -231,6 +231,7 @@ class LawSearch {
     law.by_points = split_ == Split::kPoints;
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
     if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
+    if (law.found && split_ == Split::kPoints) law.found = is_between_ends(law);
     return law;
   }
 
@@ -239,6 +240,21 @@ class LawSearch {
     law.force = candidate.force_name();
     law.variable = candidate.variable_name();
     law.site = candidate.site();
+  }
+
+  /// Whether a push was certainly after the first frame and before the last one. At the first one it is a start that
+  /// differs from the one assumed, and no law.
+  bool is_between_ends(const ForceLaw& law) const {
+    constexpr double kQuantile = 1.96;  // 95 %
+    for (const CandidateLaw::Constant& constant : law.formula.constants) {
+      if (constant.name != "moment") continue;
+      const double error = kQuantile * constant.deviation;
+      for (const LawMotion& motion : motions_of(paths_))
+        if (!(constant.value - error > motion.time.front() &&
+              constant.value + error < motion.time.back()))
+          return false;
+    }
+    return true;
   }
 
   LawTrials trials(FrameHalf half) {
