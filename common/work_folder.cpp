@@ -51,7 +51,7 @@ FolderLock::~FolderLock() {
 
 fs::path temporary_folder() {
   std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
+  fs::path folder = fs::temp_directory_path(error);
   if (!error) return folder;
   const char* chosen = std::getenv("TMPDIR");
   throw InputError(

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 
 #include "common/parallel.hpp"
+#include "common/special_values.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/stacking.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -27,7 +27,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr std::uint64_t kSeedOfPredictions = 5;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Errors like those that the model leaves where it was fitted, in one experiment, at all of its frames.
 class FittedErrors {
@@ -275,6 +274,7 @@ PredictionErrors prediction_errors(const FittedModel& model, const FittedModel& 
   const auto error_of = [&](double Squares::*sum, double count) {
     if (count == 0) return PredictionError{};
     std::vector<double> sums;
+    sums.reserve(draws);
     for (const Squares& squares : drawn) sums.push_back(squares.*sum);
     const auto [least, largest] = std::minmax_element(sums.begin(), sums.end());
     const double explained = std::max(0.0, left_without_laws.*sum - left.*sum);

@@ -33,7 +33,7 @@ constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
 /// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit
 /// may find.
-constexpr double kLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
+constexpr double kTriedLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
 
 /// Unit of a force over a power of the variable: "N/m^2", "N s^2/m^2", "N m^2 s".
 std::string unit_over(const LawNames& names, int power) {
@@ -332,7 +332,7 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
   };
   for (const LawVariable variable : variables_of(site, chain.lengths.sum())) {
     if (relaxing_of(variable)) {
-      for (const double lag : kLags) add(variable, {.lag = lag});
+      for (const double lag : kTriedLags) add(variable, {.lag = lag});
       continue;
     }
     if (variable != LawVariable::kDistance) {

@@ -410,6 +410,7 @@ class LawSearch {
       NodeForces& of_recording = forces.emplace_back();
       const MatrixXd states = law.memory().along(motion, chain_);
       std::vector<MatrixXd> states_beside;
+      states_beside.reserve(beside.size());
       for (const CandidateLaw& other : beside)
         states_beside.push_back(other.memory().along(motion, chain_));
       for (Index k = 0; k < states.cols(); ++k) {

@@ -241,13 +241,20 @@ LawGrammar time_grammar(double begin, double end) {
   constexpr double kShortest = 0.03, kWidening = 1.5;  // s, 1
   Forms forms;
   const double span = end - begin;
-  for (double width = kShortest; width < span / 4; width *= kWidening)
-    for (double moment = begin + width; moment < end; moment += width)
-      forms.push_back({{TermKind::kPulse, width, moment}});
-  for (double width = kShortest; width < span / 4; width *= 3)
-    for (double moment = begin + 2 * width; moment < end - 2 * width;
-         moment += std::max(width, span / 40))
-      forms.push_back({{TermKind::kOnset, width, moment}});
+  const auto add = [&](TermKind kind, double width, double first, double last, double step) {
+    for (int k = 0; first + k * step < last; ++k)
+      forms.push_back({{kind, width, first + k * step}});
+  };
+  double width = kShortest;
+  while (width < span / 4) {
+    add(TermKind::kPulse, width, begin + width, end, width);
+    width *= kWidening;
+  }
+  width = kShortest;
+  while (width < span / 4) {
+    add(TermKind::kOnset, width, begin + 2 * width, end - 2 * width, std::max(width, span / 40));
+    width *= 3;
+  }
   return grammar(forms);
 }
 

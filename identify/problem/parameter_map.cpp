@@ -5,19 +5,17 @@
 #include <charconv>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
+#include "common/special_values.hpp"
 #include "common/toml_reader.hpp"
 #include "description/unit.hpp"
 
 namespace catena {
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void fail(const ParameterSpec& parameter, const std::string& problem) {
   throw InputError(parameter.where + ": parameter " + in_quotes(parameter.name) + ": " + problem);

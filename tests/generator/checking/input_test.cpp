@@ -144,7 +144,7 @@ TEST_CASE("what is too long for algebra is evaluated, or left undecided") {
 TEST_CASE("parentheses, signs and powers are nested as deep as the limit says") {
   const auto said = [](const char* open, const char* close, int depth) {
     std::string text = "x";
-    for (int i = 0; i < depth; ++i) text = open + text + close;
+    for (int i = 0; i < depth; ++i) text.insert(0, open).append(close);
     return checked("symbols x\nidentity \"it\": " + text + " = x").of("it").verdict;
   };
   CHECK(said("(", ")", 198) == Verdict::kEqual);  // beside the block and the expression around them
