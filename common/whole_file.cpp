@@ -97,10 +97,11 @@ bool is_utf8(std::string_view text) { return valid_length(text) == text.size(); 
 void require_utf8(std::string_view text, const std::string& what) {
   const std::size_t valid = valid_length(text);
   if (valid == text.size()) return;
+  const bool utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");  // its mark
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(valid), '\n');
   throw InputError(what + ":" + std::to_string(line) +
-                   ": a character is not UTF-8; save the text as UTF-8 (iconv -f latin1 -t "
-                   "utf8 converts it)");
+                   ": a character is not UTF-8; save the text as UTF-8 (iconv -f " +
+                   (utf16 ? "utf16" : "latin1") + " -t utf8 converts it)");
 }
 
 void read_in_parts(const std::filesystem::path& path,

@@ -34,6 +34,9 @@ TEST_CASE("what is not UTF-8 is refused with its line") {
     CHECK(said.find(row.line == 0 ? "" : "f.csv:" + std::to_string(row.line) + ": ") == 0);
     CHECK(said.empty() == (row.line == 0));
   }
+  CHECK(failure([] { require_utf8("\xFF\xFEt", "f"); }).find("iconv -f utf16 ") !=
+        std::string::npos);
+  CHECK(failure([] { require_utf8("\xE4", "f"); }).find("iconv -f latin1 ") != std::string::npos);
 }
 
 TEST_CASE("a file is read whole") {

@@ -74,21 +74,24 @@ TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   const auto the_case = twin.folder.write("fit.toml", slow);
   const std::filesystem::path out = twin.folder.path() / "out";
   const std::string program = tests::build_folder() / "bin" / "catena";
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", out.c_str(), "-q",
-          "--yes", nullptr);
-    _exit(127);
+  for (const int signal : {SIGINT, SIGHUP}) {  // Ctrl-C; a terminal that closes
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(program.c_str(), "catena", "identify", the_case.c_str(), "--output", out.c_str(), "-q",
+            "--yes", nullptr);
+      _exit(127);
+    }
+    usleep(1'500'000);
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+    CHECK(testing::text_of(out / "result.json").find("\"status\": \"interrupted\"") !=
+          std::string::npos);
+    CHECK(read_case(out / "fitted.toml").parameters.size() == 2);
+    std::filesystem::remove_all(out);
   }
-  usleep(1'500'000);
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  REQUIRE(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 130);
-  CHECK(testing::text_of(out / "result.json").find("\"status\": \"interrupted\"") !=
-        std::string::npos);
-  CHECK(read_case(out / "fitted.toml").parameters.size() == 2);
 
   const ProcessResult limited =
       run_catena({"identify", the_case, "--output", out / "limited", "--time-limit", "1.5", "-q"});
