@@ -51,15 +51,16 @@ class FittedErrors {
   MatrixXd spectrum_;
 };
 
-/// Of every experiment; one without a fitted part errs like one of as many channels, or like the first.
-std::vector<FittedErrors> fitted_errors(const FittedModel& model, double stretch) {
+/// Of every experiment. One without a fitted part errs by as many noise levels as the one that it errs like.
+std::vector<FittedErrors> fitted_errors(const FittedModel& model,
+                                        const std::vector<NoiseModel>& noise, double stretch) {
   std::vector<FittedErrors> errors;
   for (std::size_t e = 0; e < model.predicted.size(); ++e) {
-    const MatrixXd* left = &model.fit_residual[e];
-    for (const MatrixXd& other : model.fit_residual)
-      if (left->cols() == 0 && other.cols() > 0 && other.rows() == model.predicted[e].rows())
-        left = &other;
-    errors.emplace_back(*left, model.predicted[e].cols(), stretch);
+    const Index channels = model.predicted[e].rows();
+    const std::size_t other = errs_like(model.fit_residual, e, channels);
+    const double size = noise[e].level > 0 ? noise[e].level / noise[other].level : 1;
+    errors.emplace_back(channels_in_turn(model.fit_residual[other], channels),
+                        model.predicted[e].cols(), stretch * (other == e ? 1 : size));
   }
   return errors;
 }
@@ -166,7 +167,7 @@ class DrawnFits {
         linear_(*model.problem, model.x, remainder_.fitted_along) {
     const auto values = static_cast<double>(stacked_fitted(remainder_.fitted).size());
     const double freedom = std::max(1.0, values - static_cast<double>(model.x.size()));
-    errors_ = fitted_errors(model, std::sqrt(values / freedom));
+    errors_ = fitted_errors(model, noise, std::sqrt(values / freedom));
     doubt_of_size_ =
         std::sqrt(autocorrelation_factor(white_residuals(model, noise)) / (2 * freedom));
   }

@@ -55,7 +55,7 @@ MatrixXd spectrum_beyond_noise(const MatrixXd& left, Index frames) {
 /// What laws get wrong in one experiment, drawn with mean square 1.
 class LawErrors {
  public:
-  /// `left`: of the fitted part of this experiment, or of another one of as many channels.
+  /// `left`: of the fitted part of this experiment, or of the one that it errs like.
   LawErrors(const MatrixXd& left, Index frames)
       : frames_(frames), spectrum_(spectrum_beyond_noise(left, frames)) {
     const double size = spectrum_.norm() / std::sqrt(static_cast<double>(spectrum_.size()));
@@ -71,12 +71,10 @@ class LawErrors {
 std::vector<LawErrors> law_errors(const Remainder& remainder) {
   std::vector<LawErrors> errors;
   for (std::size_t e = 0; e < remainder.fitted.size(); ++e) {
-    const MatrixXd* left = &remainder.fitted[e];
-    for (const MatrixXd& other : remainder.fitted)
-      if (left->cols() == 0 && other.cols() > 0 && other.rows() == remainder.held_out[e].rows())
-        left = &other;
+    const Index channels = std::max(remainder.fitted[e].rows(), remainder.held_out[e].rows());
+    const MatrixXd& left = remainder.fitted[errs_like(remainder.fitted, e, channels)];
     const Index frames = remainder.fitted[e].cols() + remainder.held_out[e].cols();
-    errors.emplace_back(left->cols() > 0 ? *left : remainder.held_out[e], frames);
+    errors.emplace_back(channels_in_turn(left, channels), frames);
   }
   return errors;
 }

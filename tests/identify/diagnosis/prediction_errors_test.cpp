@@ -130,6 +130,33 @@ TEST_CASE("what the model lacks in a part that was not fitted lies above the int
   CHECK(words[0].ends_with("the model lacks something there."));
 }
 
+TEST_CASE("a recording that only validates errs like the fitted one, with more markers, too") {
+  Case the_case = testing::sections(testing::kTwoLinks);
+  testing::add_experiment(the_case, "run");
+  const Model model = Model::built_in(2);
+  const auto film = [&](const std::vector<double>& markers, unsigned seed) {
+    return testing::with_truth(the_case, model, testing::empty_markers(markers, 100, kStep), kNoise,
+                               seed);
+  };
+  const std::vector<NoiseModel> noise{{.level = kNoise}, {.level = kNoise}};
+  for (const std::vector<double>& markers : {std::vector{0.9}, std::vector{0.3, 0.6, 0.9}}) {
+    std::vector<Recording> recordings{film({0.5, 1.0}, 1), film(markers, 2)};
+    Case both = the_case;
+    testing::add_experiment(both, "other");
+    both.experiments[1].use = Use::kValidate;
+    recordings[1].fit_frames = 0;
+    const auto problem = std::make_shared<const Problem>(both, model, std::move(recordings));
+    const FittedModel fitted =
+        fit_model(problem, problem->start(), noise, fit_least_squares, nullptr);
+    const testing::TemporaryFolder folder;
+    DiagnosisContext context(both, {}, folder.path(), fit_least_squares, {});
+    const PredictionErrors errors = prediction_errors(fitted, fitted, noise, context);
+    CHECK(errors.held_out.low < kNoise);
+    CHECK(errors.held_out.high > kNoise);
+    CHECK(errors.held_out.high < 2 * kNoise);
+  }
+}
+
 // One linearised step changes both factors by what only one of them may change, and the motion is another one.
 TEST_CASE("two unknowns of which the data show only the product do not widen the interval") {
   const testing::TemporaryFolder folder;
