@@ -82,7 +82,12 @@ class Check {
       check_angles();
     }
     check_time();
-    if (initial_.at_rest && std::isnan(spec_.window) && std::isnan(spec_.start)) check_start();
+    if (initial_.at_rest && std::isnan(spec_.start)) {
+      if (std::isnan(spec_.window))
+        check_start();
+      else
+        check_starts_of_windows();
+    }
     return std::move(warnings_);
   }
 
@@ -403,14 +408,14 @@ class Check {
     return Vector2d(length_ * recording_.measured(p, k), 0);
   }
 
-  /// The speed of a point in the first `count` frames, from a parabola through them, with twice its
-  /// standard error; m/s. NaN where the point is not seen in all of them.
-  std::pair<double, double> speed_at_start(Index p, Index count) const {
+  /// The speed of a point in the first `count` frames from `first` on, from a parabola through them, with twice
+  /// its standard error; m/s. NaN where the point is not seen in all of them.
+  std::pair<double, double> speed_at_start(Index p, Index first, Index count) const {
     Eigen::MatrixXd powers(count, 3), places(count, place(p, 0).size());
     for (Index k = 0; k < count; ++k) {
-      const double t = time(k) - time(0);
+      const double t = time(first + k) - time(first);
       powers.row(k) << 1, t, t * t;
-      places.row(k) = place(p, k).transpose();
+      places.row(k) = place(p, first + k).transpose();
     }
     if (places.hasNaN()) return {kNotGiven, kNotGiven};
     const Eigen::MatrixXd fitted = least_squares(powers, places);
@@ -420,9 +425,9 @@ class Check {
     return {fitted.row(1).norm(), 2 * std::sqrt(variance * slope)};
   }
 
-  /// The speed of a point from the first frame to the second, with twice its standard error; m/s.
+  /// The speed of a point from frame `first` to the next one, with twice its standard error; m/s.
   /// Third differences show the noise: the motion hardly has any.
-  std::pair<double, double> step_at_start(Index p) const {
+  std::pair<double, double> step_at_start(Index p, Index first) const {
     const double noise =
         quantile(
             over_frames([&](Index k) {
@@ -432,15 +437,16 @@ class Check {
             }),
             0.5) /
         (0.6745 * std::sqrt(20.0));  // the median of a normal number; the sum of squares of 1 3 3 1
-    const double step = time(1) - time(0);
-    return {(place(p, 1) - place(p, 0)).norm() / step, 2 * std::sqrt(2.0) * noise / step};
+    const double step = time(first + 1) - time(first);
+    return {(place(p, first + 1) - place(p, first)).norm() / step,
+            2 * std::sqrt(2.0) * noise / step};
   }
 
-  /// The speed that the fastest point has in the first frame at least, m/s. A stiff cable that is let
+  /// The speed that the fastest point has in frame `first` at least, m/s. A stiff cable that is let
   /// go out of balance moves at many m/s within milliseconds: only the first few frames tell it from
   /// one that moved before. Noise hides the speed in few frames, and more of them show it. So of all
   /// numbers of frames that `resolved` is seen in, m/s, the one counts that admits the least.
-  double speed_at_start(double resolved) const {
+  double speed_at_start(double resolved, Index first = 0) const {
     double fastest = 0;
     for (Index p = 0; p < points(); ++p) {
       double slowest = kNotGiven;
@@ -448,21 +454,41 @@ class Check {
         const auto [value, error] = speed;
         if (error <= resolved) slowest = std::fmin(slowest, value - error);
       };
-      take(step_at_start(p));
-      for (Index count = 5; count <= frames(); count *= 2) {
-        take(speed_at_start(p, count));
-        if (time(count - 1) - time(0) >= 0.05 * period_) break;
+      take(step_at_start(p, first));
+      for (Index count = 5; first + count <= frames(); count *= 2) {
+        take(speed_at_start(p, first, count));
+        if (time(first + count - 1) - time(first) >= 0.05 * period_) break;
       }
       fastest = std::fmax(fastest, slowest);
     }
     return fastest;
   }
 
+  /// A speed that a cable at rest does not seem to have, m/s.
+  double hardly_at_rest() const {
+    return limits_.hardly_at_rest * std::sqrt(cable_.gravity * length_);
+  }
+
+  void check_starts_of_windows() {
+    if (!(cable_.gravity > 0)) return;
+    double end = time(0);
+    for (Index k = 0; k + 1 < frames(); ++k) {
+      if (time(k) < end - 1e-9) continue;
+      end += spec_.window;
+      const double fastest = speed_at_start(hardly_at_rest(), k);
+      if (!(fastest > hardly_at_rest())) continue;
+      warn("window",
+           "the cable moves at " + rounded(fastest) + " m/s or more at " + rounded(time(k)) +
+               " s, but the case lets every window start at rest; let it have a velocity in "
+               "[initial]: velocity = { shape = \"smooth\", terms = 4, free = true }");
+      return;
+    }
+  }
+
   void check_start() {
     if (!(cable_.gravity > 0)) return;
-    const double hardly_at_rest = limits_.hardly_at_rest * std::sqrt(cable_.gravity * length_);
-    const double fastest = speed_at_start(hardly_at_rest);
-    if (fastest > hardly_at_rest) {
+    const double fastest = speed_at_start(hardly_at_rest());
+    if (fastest > hardly_at_rest()) {
       warn("from",
            "the cable moves at " + rounded(fastest) +
                " m/s or more in the first frames, but the case lets it start at rest; begin `from` "

@@ -222,6 +222,13 @@ TEST_CASE("a start that is not the release is named") {
     the_case.initial.at_rest = false;
   };
   CHECK(film.said() == "");
+  film.mistake = [](Case& the_case) { spec_of(the_case).window = 1; };
+  expect(film.said(), {"window: the cable moves at", "at 1 s", "every window start at rest"});
+  film.mistake = [](Case& the_case) {
+    spec_of(the_case).window = 1;
+    the_case.initial.at_rest = false;
+  };
+  CHECK(film.said() == "");
   film = {};
   film.held = 0.8;
   expect(film.said(), {"from: the cable is held until 0.8", "from = 0.8"});
