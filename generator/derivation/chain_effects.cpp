@@ -91,7 +91,8 @@ std::vector<ex> Chain::flow(const Effect& effect, Place place, Link i) {
   return velocity;
 }
 
-// The velocity of the point, and that relative to the fluid, along the link and normal to it.
+// The velocity of the point, and that relative to the fluid, along the link and normal to it; where the link points, and
+// the rate of that.
 void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here) {
   const Link link = place == Place::kLoad ? links_ : i;
   const int index = index_at(place, i);
@@ -99,8 +100,11 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
   for (const ex& component : point_at(place, i)) velocity.push_back(time_.of(component));
   velocity.resize(3), direction.resize(3);
   const char* const axis_names[] = {"side", "down", "across"};
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k) {
     here.known.add(std::string("direction_") + axis_names[k], direction[k], Unit::parse("1"));
+    here.known.add(std::string("direction_rate_") + axis_names[k], time_.of(direction[k]),
+                   Unit::parse("1/s"));
+  }
   // v x e about side, down and across, and e x (v x e)
   const auto add_normal = [&](const std::string& name, const std::string& family,
                               const std::vector<ex>& v, const auto& define) {

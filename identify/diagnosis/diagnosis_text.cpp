@@ -9,6 +9,7 @@
 #include "common/whole_file.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/thresholds.hpp"
+#include "identify/forces/force_pattern.hpp"
 #include "identify/results/result_file.hpp"
 #include "identify/results/result_writer.hpp"
 
@@ -139,10 +140,10 @@ results::MissingForce entry_of(const MissingForce& force) {
   std::vector<std::string> places;
   for (const double s : force.arc_length) places.push_back(fmt::format("{:.3g} m", s));
   for (const MissingForce::History& history : force.everywhere) {
-    entry.densities.push_back(history_entry(history, "side density", "N/m", places, history.side,
-                                            history.side_deviation));
-    entry.densities.push_back(history_entry(history, "down density", "N/m", places, history.down,
-                                            history.down_deviation));
+    for (std::size_t i = 0; i < history.densities.size(); ++i)
+      entry.densities.push_back(
+          history_entry(history, fmt::format("{} density", word_of(static_cast<ForceDirection>(i))),
+                        "N/m", places, history.densities[i].value, history.densities[i].deviation));
     entry.patterns_over_time.push_back(
         history_entry(history, "patterns", "", history.rows, history.size, history.deviation));
   }

@@ -181,10 +181,6 @@ void discover(DiagnosisState& state, const Case& asked) {
       found.verdict == DiagnosisVerdict::kUnexplained || found.verdict == DiagnosisVerdict::kPartly;
   // Where effects close the gap, one cause may have been taken for several of them only.
   if (!gap && found.effects.size() < 2 && !state.options.discover) return;
-  if (found.final.problem->model().in_space()) {
-    if (gap) found.notes.emplace_back("the missing force is estimated in the plane only");
-    return;
-  }
   const Stage last = state.last();
   const MissingForce beside = force_missing_in(state, found.final);
   const bool nothing_taken = !gap && last.effects.empty();

@@ -27,7 +27,7 @@ constexpr double kBound = 1000, kMostShapeChange = 20;
 /// A step of a number, over its size; the least shape that is no edge, in half widths.
 constexpr double kNumberStep = 0.02, kLeastShape = 0.01;
 constexpr const char* kEdge = "edge";
-/// Fixed points of a distance: in so many directions from the middle of what the place visits, so far beyond
+/// Fixed points of a distance: in the plane in so many directions from the middle of what the place visits, so far beyond
 /// that, over the length of the cable.
 constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
@@ -67,6 +67,21 @@ std::string unit_over(const LawNames& names, int power) {
   return numerator + (above.empty() ? "" : " " + above) + (below.empty() ? "" : "/" + below);
 }
 
+/// Directions of length one, evenly spread: in space the corners and the middles of the faces of a cube.
+std::vector<ChainVector> directions_around(bool in_space) {
+  std::vector<ChainVector> directions;
+  for (int k = 0; !in_space && k < kDirections; ++k) {
+    const double turn = 2 * std::numbers::pi * k / kDirections;
+    directions.emplace_back(Vector2d(std::sin(turn), std::cos(turn)));
+  }
+  for (int k = 0; in_space && k < 27; ++k) {
+    const Eigen::Vector3d corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const double zeros = (corner.array() == 0).cast<double>().sum();
+    if (zeros == 0 || zeros == 2) directions.emplace_back(corner.normalized());
+  }
+  return directions;
+}
+
 std::vector<int> all_of(Index count) {
   std::vector<int> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), 0);
@@ -102,7 +117,7 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
-  double count = 2 * has_point() + has_lag();
+  double count = static_cast<double>(of_point()) + has_lag();
   for (const int term : form) {
     const LawTermText& text = text_of(grammar_.terms[static_cast<std::size_t>(term)].kind);
     count += 1 + (text.shape != nullptr) + text.moment;
@@ -111,7 +126,7 @@ double CandidateLaw::constants(const std::vector<int>& form) const {
 }
 
 MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form) const {
-  MatrixXd force = MatrixXd::Zero(chain_.lengths.size(), static_cast<Index>(form.size()));
+  MatrixXd force = MatrixXd::Zero(chain_.turns(), static_cast<Index>(form.size()));
   for (const LawElement& element :
        law_elements(site_, variable_, numbers_.fixed_point, chain_, state)) {
     const double u = (element.value - middle_) / half_;
@@ -145,8 +160,7 @@ bool CandidateLaw::has_moment(int term) const {
 VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
   std::vector<double> numbers;
   if (has_place()) numbers.push_back(site_.arc_length);
-  if (has_point())
-    numbers.insert(numbers.end(), {numbers_.fixed_point[0], numbers_.fixed_point[1]});
+  for (Index k = 0; k < of_point(); ++k) numbers.push_back(numbers_.fixed_point[k]);
   if (has_lag()) numbers.push_back(numbers_.lag);
   for (const int place : form) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(place)];
@@ -158,8 +172,8 @@ VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
 
 VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
   VectorXd steps = kNumberStep * numbers(form).cwiseAbs();
-  if (has_point()) steps.segment(has_place(), 2).setConstant(kNumberStep * half_);
-  Index next = has_place() + 2 * has_point() + has_lag();
+  steps.segment(has_place(), of_point()).setConstant(kNumberStep * half_);
+  Index next = has_place() + of_point() + has_lag();
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
     if (shape_name(term) == kEdge) steps[next] = kNumberStep;
@@ -174,7 +188,7 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
   CandidateLaw other = *this;
   Index next = 0;
   if (has_place()) other.site_.arc_length = numbers[next++];
-  if (has_point()) other.numbers_.fixed_point = numbers.segment<2>(next), next += 2;
+  for (Index k = 0; k < of_point(); ++k) other.numbers_.fixed_point[k] = numbers[next++];
   if (has_lag()) other.numbers_.lag = numbers[next++];
   bool possible = numbers.allFinite() &&
                   (!has_place() || (other.site_.arc_length > 0 && other.has_place())) &&
@@ -211,13 +225,17 @@ CandidateLaw CandidateLaw::on(const LawChain& chain) const {
   return other;
 }
 
-std::string CandidateLaw::force_name() const { return names_of(site_, variable_).force; }
-std::string CandidateLaw::variable_name() const { return names_of(site_, variable_).variable; }
+std::string CandidateLaw::force_name() const {
+  return names_of(site_, variable_, chain_.in_space).force;
+}
+std::string CandidateLaw::variable_name() const {
+  return names_of(site_, variable_, chain_.in_space).variable;
+}
 
 CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                             const VectorXd& coefficients,
                                             const MatrixXd& covariance) const {
-  const LawNames names = names_of(site_, variable_);
+  const LawNames names = names_of(site_, variable_, chain_.in_space);
   Formula formula;
   using Kind = Formula::Kind;
   formula.variable_unit = names.variable_unit;
@@ -246,11 +264,10 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
     return std::sqrt(std::max(0.0, covariance(i, i)));
   };
   const auto add_point = [&] {
-    if (!has_point()) return;
-    for (const int k : {0, 1})
-      formula.constants.push_back({k ? "point_down" : "point_side", "m", numbers_.fixed_point[k],
-                                   deviation_of(has_place() + k), false,
-                                   numbers_.fixed_point[k] - 2 * half_,
+    for (Index k = 0; k < of_point(); ++k)
+      formula.constants.push_back({fmt::format("point_{}", word_of(static_cast<ForceDirection>(k))),
+                                   "m", numbers_.fixed_point[k], deviation_of(has_place() + k),
+                                   false, numbers_.fixed_point[k] - 2 * half_,
                                    numbers_.fixed_point[k] + 2 * half_});
   };
   if (form.size() == 2 && kind_of(0) == TermKind::kConstant && kind_of(1) == TermKind::kLinear &&
@@ -279,7 +296,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
   char knot = 'a';  // names that end with a number are those of one joint or link
-  Index shapes = has_place() + 2 * has_point() + has_lag();
+  Index shapes = has_place() + of_point() + has_lag();
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
@@ -313,7 +330,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   if (has_lag() || has_time()) formula.along = names.symbols;
   if (formula.kind == Kind::kMass)
     formula.energy =
-        fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition));
+        fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition, false));
   formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
                              form.size() == 1 ? terms : fmt::format("({})", terms));
   fix("middle", middle_);
@@ -330,7 +347,7 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
   const auto add = [&](LawVariable variable, const CandidateLaw::Numbers& numbers) {
     candidates.emplace_back(site, variable, chain, visited, numbers);
   };
-  for (const LawVariable variable : variables_of(site, chain.lengths.sum())) {
+  for (const LawVariable variable : variables_of(site, chain)) {
     if (relaxing_of(variable)) {
       for (const double lag : kTriedLags) add(variable, {.lag = lag});
       continue;
@@ -339,23 +356,21 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
       add(variable, {});
       continue;
     }
-    std::vector<Vector2d> positions;
+    std::vector<ChainVector> positions;
     for (const LawMotion& motion : visited)
       for (Index k = 0; k < motion.state.cols(); ++k)
-        positions.emplace_back(
-            place_kinematics(motion.state.col(k), chain.coordinates, chain.lengths, site.arc_length)
-                .motion.head<2>());
-    Vector2d least = positions.front(), most = least;
-    for (const Vector2d& at : positions) {
+        positions.push_back(
+            place_kinematics(motion.state.col(k), chain.coordinates, chain, site.arc_length)
+                .motion.position);
+    ChainVector least = positions.front(), most = least;
+    for (const ChainVector& at : positions) {
       least = least.cwiseMin(at);
       most = most.cwiseMax(at);
     }
-    const Vector2d middle = 0.5 * (least + most);
-    for (int k = 0; k < kDirections; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kDirections;
-      const Vector2d direction(std::sin(turn), std::cos(turn));
+    const ChainVector middle = 0.5 * (least + most);
+    for (const ChainVector& direction : directions_around(chain.in_space)) {
       double reach = 0;
-      for (const Vector2d& at : positions) reach = std::max(reach, (at - middle).dot(direction));
+      for (const ChainVector& at : positions) reach = std::max(reach, (at - middle).dot(direction));
       for (const double beyond : kBeyond)
         add(variable, {.fixed_point = middle + (reach + beyond * chain.lengths.sum()) * direction});
     }
@@ -366,7 +381,7 @@ std::vector<CandidateLaw> candidates_at(const LawSite& site, const LawChain& cha
 std::vector<CandidateLaw> candidates_of_time(const LawSite& site, const LawChain& chain,
                                              const std::vector<LawMotion>& visited) {
   std::vector<CandidateLaw> candidates;
-  for (const LawVariable variable : times_of(site))
+  for (const LawVariable variable : times_of(site, chain.in_space))
     candidates.emplace_back(site, variable, chain, visited, CandidateLaw::Numbers{});
   return candidates;
 }

@@ -19,8 +19,8 @@ class CandidateLaw {
  public:
   /// What a variable has besides its site.
   struct Numbers {
-    Eigen::Vector2d fixed_point = Eigen::Vector2d::Zero();  ///< m, of the distance
-    double lag = 0;                                         ///< s, where it relaxes
+    ChainVector fixed_point = {};  ///< m, of the distance
+    double lag = 0;                ///< s, where it relaxes
   };
   /// `visited`: the motions that the law is to explain.
   CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
@@ -38,7 +38,7 @@ class CandidateLaw {
   /// Numbers that a formula has: coefficients, shapes, the fixed point, the lag.
   double constants(const std::vector<int>& form) const;
 
-  /// Generalised forces on the angles of the links, links x terms of the form. `state`: (q, v, z), and the memory.
+  /// Generalised forces on the turns of the links, turns x terms of the form. `state`: (q, v, z), and the memory.
   Eigen::MatrixXd force(const Eigen::VectorXd& state, const std::vector<int>& form) const;
   /// Of all terms.
   Eigen::MatrixXd force(const Eigen::VectorXd& state) const;
@@ -49,7 +49,7 @@ class CandidateLaw {
   bool admits(const Eigen::VectorXd& coefficients) const;
 
   /// Numbers that the force of a formula is not linear in: the arc length of a place inside of the cable, m; the
-  /// fixed point, side and down, m; the lag, s; the shape of every term that has one, in units of the half width (s
+  /// fixed point, m; the lag, s; the shape of every term that has one, in units of the half width (s
   /// of the time), and its moment, s.
   Eigen::VectorXd numbers(const std::vector<int>& form) const;
   /// Changes of these over which the force is close to linear.
@@ -94,6 +94,8 @@ class CandidateLaw {
  private:
   bool has_place() const;
   bool has_point() const { return variable_ == LawVariable::kDistance; }
+  /// Numbers of the fixed point, if it has one.
+  Eigen::Index of_point() const { return has_point() ? numbers_.fixed_point.size() : 0; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }
   bool has_time() const { return timed_of(variable_).has_value(); }
   std::string shape_name(int term) const;

@@ -11,6 +11,7 @@ ChainMeasures::ChainMeasures(const Problem& problem, const VectorXd& x, int expe
   const Model& model = problem.model();
   const VectorXd p = problem.model_parameters(x, experiment);
   lengths = link_lengths(model, p);
+  in_space = model.in_space();
   length = lengths.sum();
   const double mass = p.segment(model.parameter_index("mass_1"), model.links()).sum() +
                       p[model.parameter_index("load_mass")];

@@ -3,13 +3,13 @@
 
 #include <Eigen/Core>
 
+#include "identify/forces/force_pattern.hpp"
 #include "identify/problem/problem.hpp"
 
 namespace catena {
 
 /// The chain that forces act on.
-struct ChainMeasures {
-  Eigen::VectorXd lengths;        ///< of the links, m
+struct ChainMeasures : LinkChain {
   double length = 0, weight = 0;  ///< m; N, with the load
   double gravity = 0;             ///< m/s^2
 

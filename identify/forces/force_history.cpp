@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/forces/force_history.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <vector>
 
 #include "identify/problem/initial_state.hpp"
 
@@ -10,6 +13,31 @@ namespace catena {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Densities of the part at a right angle to the cable, links x patterns: towards growing angles, in space one for each
+/// direction. `density`: to each direction.
+std::vector<MatrixXd> normal_to_cable(const std::vector<MatrixXd>& density, const VectorXd& state,
+                                      const ChainMeasures& chain) {
+  const Index links = chain.lengths.size();
+  if (!chain.in_space) {
+    const Eigen::ArrayXd angles = state.head(links).array();
+    return {angles.cos().matrix().asDiagonal() * density[0] -
+            angles.sin().matrix().asDiagonal() * density[1]};
+  }
+  Eigen::MatrixX3d along = state.head(3 * links).reshaped(links, 3);
+  along.rowwise().normalize();
+  MatrixXd tangential = MatrixXd::Zero(links, density[0].cols());
+  for (Index i = 0; i < 3; ++i)
+    tangential += along.col(i).asDiagonal() * density[static_cast<std::size_t>(i)];
+  std::vector<MatrixXd> normal = density;
+  for (Index i = 0; i < 3; ++i)
+    normal[static_cast<std::size_t>(i)] -= along.col(i).asDiagonal() * tangential;
+  return normal;
+}
+
+}  // namespace
 
 MissingForce::History force_history(const ForcePaths& paths, std::size_t number,
                                     const Problem& problem, const Smoothed& smoothed,
@@ -20,52 +48,55 @@ MissingForce::History force_history(const ForcePaths& paths, std::size_t number,
   history.time = paths.times(number);
   const auto& patterns = paths.patterns();
   const Smoothed::Recording& found = smoothed.recordings[number];
-  for (const ForcePattern& pattern : patterns)
-    history.rows.emplace_back(densities                  ? pattern.name
-                              : !pattern.torque.isZero() ? "moment"
-                              : !pattern.side.isZero()   ? "side"
-                                                         : "down");
+  for (const ForcePattern& pattern : patterns) {
+    const bool moment = !pattern.torque.isZero();
+    history.rows.push_back(densities        ? pattern.name
+                           : !moment        ? word_of(pattern.direction)
+                           : chain.in_space ? fmt::format("about {}", word_of(pattern.direction))
+                                            : "moment");
+  }
   const auto count = static_cast<Index>(patterns.size());
   const Index times = found.force.cols(), links = chain.lengths.size();
   history.size.resize(count, times);
   history.deviation.resize(count, times);
-  // Densities of the patterns at the links, from what the links' ends carry.
-  MatrixXd side = MatrixXd::Zero(links, count), down = side;
+  // Densities of the patterns at the links.
+  const std::vector<ForceDirection> directions = force_directions(chain.in_space);
+  std::vector<MatrixXd> density(directions.size(), MatrixXd::Zero(links, count));
   for (Index m = 0; densities && m < count; ++m) {
     const ForcePattern& pattern = patterns[static_cast<std::size_t>(m)];
     if (pattern.density.size() == 0) continue;
-    (pattern.direction == ForceDirection::kSide ? side : down).col(m) = pattern.density;
+    density[static_cast<std::size_t>(pattern.direction)].col(m) = pattern.density;
   }
   const MatrixXd lowest = shape_basis(Shape::kSmooth, static_cast<int>(links),
                                       std::min(2, static_cast<int>(links)), chain.lengths);
-  const auto add = [&](const MatrixXd& shape, Index k, MatrixXd& value, MatrixXd& deviation) {
-    if (value.size() == 0) {
-      value.resize(shape.rows(), times);
-      deviation.resize(shape.rows(), times);
+  const auto add = [&](const MatrixXd& shape, Index k, MissingForce::OverTime& over_time) {
+    if (over_time.value.size() == 0) {
+      over_time.value.resize(shape.rows(), times);
+      over_time.deviation.resize(shape.rows(), times);
     }
-    value.col(k) = shape * history.size.col(k);
+    over_time.value.col(k) = shape * history.size.col(k);
     const MatrixXd& covariance = found.covariance[static_cast<std::size_t>(k)];
-    deviation.col(k) =
+    over_time.deviation.col(k) =
         (shape * covariance * shape.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
   };
+  if (densities) {
+    history.densities.resize(directions.size());
+    history.normal_modes.resize(chain.in_space ? 3 : 1);
+  }
   for (Index k = 0; k < times; ++k) {
     for (Index m = 0; m < count; ++m) history.size(m, k) = found.force(2 * m, k);
     history.deviation.col(k) =
         found.covariance[static_cast<std::size_t>(k)].diagonal().cwiseMax(0.0).cwiseSqrt();
     if (!densities) continue;
-    const Eigen::ArrayXd angles = paths.paths()[number].state.col(k).head(links).array();
-    const MatrixXd normal =
-        angles.cos().matrix().asDiagonal() * side - angles.sin().matrix().asDiagonal() * down;
-    const MatrixXd tangential =
-        angles.sin().matrix().asDiagonal() * side + angles.cos().matrix().asDiagonal() * down;
-    // Of P_0 and P_1, whose squares integrate to L and L / 3.
-    MatrixXd modes = lowest.transpose() * chain.lengths.asDiagonal() * normal / chain.length;
-    modes.bottomRows(modes.rows() - 1) *= 3;
-    add(side, k, history.side, history.side_deviation);
-    add(down, k, history.down, history.down_deviation);
-    add(normal, k, history.normal, history.normal_deviation);
-    add(tangential, k, history.tangential, history.tangential_deviation);
-    add(modes, k, history.normal_modes, history.normal_modes_deviation);
+    for (std::size_t i = 0; i < directions.size(); ++i) add(density[i], k, history.densities[i]);
+    const std::vector<MatrixXd> normal =
+        normal_to_cable(density, paths.paths()[number].state.col(k), chain);
+    for (std::size_t i = 0; i < normal.size(); ++i) {
+      // Of P_0 and P_1, whose squares integrate to L and L / 3.
+      MatrixXd modes = lowest.transpose() * chain.lengths.asDiagonal() * normal[i] / chain.length;
+      modes.bottomRows(modes.rows() - 1) *= 3;
+      add(modes, k, history.normal_modes[i]);
+    }
   }
   return history;
 }

@@ -40,20 +40,10 @@ constexpr Index kColumnsAtOnce = 400;
 /// Formulas that are fitted with their force following the state: of the chosen pair, and of all others.
 constexpr std::size_t kFittedOfChosen = 6, kFittedOfOthers = 8;
 
-/// Generalised forces of these patterns at the nodes of a path: links x nodes of unit size each.
-MatrixXd unit_forces(const std::vector<ForcePattern>& patterns, const VectorXd& lengths,
-                     const VectorXd& state) {
-  MatrixXd forces = MatrixXd::Zero(lengths.size(), static_cast<Index>(patterns.size()));
-  for (std::size_t m = 0; m < patterns.size(); ++m)
-    add_generalised_force(patterns[m], lengths, state.data(), 1,
-                          forces.col(static_cast<Index>(m)).data());
-  return forces;
-}
-
 /// What forces look like that follow no law: of the same spectrum as those of a path, with random
-/// phases. At every node, links x random forces.
+/// phases. At every node, turns x random forces.
 NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>& patterns,
-                         const VectorXd& lengths, std::mt19937_64& random) {
+                         const LawChain& chain, std::mt19937_64& random) {
   MatrixXd force(path.force.rows() / 2, path.force.cols());  // without its rates
   for (Index m = 0; m < force.rows(); ++m) force.row(m) = path.force.row(2 * m);
   const MatrixXd spectrum = cosine_spectrum(force);
@@ -62,8 +52,11 @@ NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>&
     drawn.push_back(random_series(spectrum, force.cols(), random));
   NodeForces forces;
   for (Index k = 0; k < force.cols(); ++k) {
-    const MatrixXd unit = unit_forces(patterns, lengths, path.state.col(k));
-    MatrixXd& at_node = forces.columns.emplace_back(lengths.size(), kRandomSeries);
+    MatrixXd unit(chain.turns(), static_cast<Index>(patterns.size()));
+    for (std::size_t m = 0; m < patterns.size(); ++m)
+      unit.col(static_cast<Index>(m)) =
+          link_torques(patterns[m], chain.lengths, path.state.col(k).data());
+    MatrixXd& at_node = forces.columns.emplace_back(chain.turns(), kRandomSeries);
     for (Index s = 0; s < kRandomSeries; ++s)
       at_node.col(s) = unit * drawn[static_cast<std::size_t>(s)].col(k);
   }
@@ -285,7 +278,7 @@ class LawSearch {
       for (const LawMotion& motion : motions_of(paths_)) {
         const auto nodes = static_cast<std::size_t>(motion.state.cols());
         NodeForces& of_recording = forces.emplace_back();
-        of_recording.columns.assign(nodes, MatrixXd(links(), columns));
+        of_recording.columns.assign(nodes, MatrixXd(turns(), columns));
         Index column = 0;
         for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
           const MatrixXd states = candidates_[c].memory().along(motion, chain_);
@@ -355,7 +348,7 @@ class LawSearch {
       paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
       std::vector<MatrixXd> taken;
       for (const NodeForces& of : forces_of(fitted.law, fitted.form, fitted.coefficients)) {
-        MatrixXd& force = taken.emplace_back(links(), static_cast<Index>(of.columns.size()));
+        MatrixXd& force = taken.emplace_back(turns(), static_cast<Index>(of.columns.size()));
         for (std::size_t k = 0; k < of.columns.size(); ++k)
           force.col(static_cast<Index>(k)) =
               of.columns[k].leftCols(fitted.coefficients.size()) * fitted.coefficients;
@@ -382,7 +375,7 @@ class LawSearch {
     return sum;
   }
 
-  Index links() const { return chain_.lengths.size(); }
+  Index turns() const { return chain_.turns(); }
 
   /// The linear problem with what a law remembers behind the states.
   LinearProblem with_memory(const CandidateLaw& law) const {
@@ -416,7 +409,7 @@ class LawSearch {
       for (Index k = 0; k < states.cols(); ++k) {
         VectorXd state = states.col(k);
         MatrixXd& columns =
-            of_recording.columns.emplace_back(links(), terms + static_cast<Index>(beside.size()));
+            of_recording.columns.emplace_back(turns(), terms + static_cast<Index>(beside.size()));
         columns.leftCols(terms) = law.force(state, form);
         if (!known) continue;
         const VectorXd here = columns.leftCols(terms) * coefficients;
@@ -428,15 +421,16 @@ class LawSearch {
         }
         constexpr double kDifference = 1e-7;  // rad, rad/s
         MatrixXd& by_state =
-            of_recording.by_state.emplace_back(MatrixXd::Zero(links(), state.size()));
+            of_recording.by_state.emplace_back(MatrixXd::Zero(turns(), state.size()));
         const auto differentiate = [&](Index i) {
           const double value = state[i];
           state[i] += kDifference;
           by_state.col(i) = (law.force(state, form) * coefficients - here) / kDifference;
           state[i] = value;
         };
-        for (Index i = 0; i < links(); ++i) differentiate(i);
-        for (Index i = 0; law.against() && i < links(); ++i) differentiate(chain_.coordinates + i);
+        // As many coordinates of the links as turns.
+        for (Index i = 0; i < turns(); ++i) differentiate(i);
+        for (Index i = 0; law.against() && i < turns(); ++i) differentiate(chain_.coordinates + i);
         for (Index i = motion.state.rows(); i < state.size(); ++i) differentiate(i);
       }
     }
@@ -549,8 +543,7 @@ std::string chance_words(double value) {
 void describe_law(ForceLaw& law) {
   const std::string tested = fmt::format(
       "chosen of {} in {}, it explains {:.0f} % of what a force can explain in the second ({})",
-      law.candidates, law.chosen_in(), 100 * std::max(0.0, law.confirmed),
-      chance_words(law.chance));
+      law.candidates, law.chosen_in(), 100 * law.share_confirmed(), chance_words(law.chance));
   if (law.found) {
     law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
     law.words.push_back(tested);
@@ -575,10 +568,10 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   std::mt19937_64 numbers(kLawSeed);
   std::vector<NodeForces> random;
   for (const ForcePath& path : paths.paths())
-    random.push_back(random_forces(path, paths.patterns(), chain.lengths, numbers));
+    random.push_back(random_forces(path, paths.patterns(), chain, numbers));
   std::vector<ForcePattern> torques;
   for (Index k = 0; k < chain.lengths.size(); ++k)
-    torques.push_back(torque_pattern(k, chain.lengths.size()));
+    for (ForcePattern& torque : torque_patterns(k, chain)) torques.push_back(std::move(torque));
   paths.act(std::move(torques));
   std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
@@ -590,9 +583,10 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   ForceLaw law =
       LawSearch(paths, random, numbers, *linear, chain, std::move(candidates), Split::kFrames)
           .run();
-  if (!law.found && pushed) {
+  if (pushed) of_time = candidates_of_time(*pushed, chain, visited);
+  if (!law.found && !of_time.empty()) {
     const ForceLaw timed = LawSearch(paths, random, numbers, std::move(*linear), chain,
-                                     candidates_of_time(*pushed, chain, visited), Split::kPoints)
+                                     std::move(of_time), Split::kPoints)
                                .run();
     if (timed.found) law = timed;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,8 +47,9 @@ struct ForceLaw {
     return by_points ? "one half of the points" : "the first part of the frames";
   }
   /// What the law, chosen and fitted in the first part of the frames, explains in the second, of what
-  /// the free force explains: 1 is all.
+  /// the free force explains: 1 is all. A force that follows noise less than the free one may leave less: more than 1.
   double confirmed = 0;
+  double share_confirmed() const { return std::clamp(confirmed, 0.0, 1.0); }
   /// Probability that the best of all candidates does as well for a random force of the same
   /// spectrum.
   double chance = 1;

@@ -71,6 +71,7 @@ class ForcePaths {
   bool ok() const { return !paths_.empty(); }
   const Eigen::VectorXd& x() const { return x_; }
   const std::vector<ForcePath>& paths() const { return paths_; }
+  Eigen::Index coordinates() const { return problem_.model().coordinates(); }
   const std::vector<double>& times(std::size_t path) const { return clocks_[path].times; }
 
   /// Takes other patterns; forces begin at zero, the motion stays.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace catena {
 
 using Eigen::Index;
@@ -19,20 +21,18 @@ std::vector<ForcePattern> forces_everywhere(const ChainMeasures& chain) {
     pattern.group = static_cast<int>(patterns.size());
     patterns.push_back(std::move(pattern));
   };
-  for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown}) {
-    add(density_pattern(direction, "constant along the cable", VectorXd::Ones(links),
-                        chain.lengths));
+  for (const ForceDirection direction : force_directions(chain.in_space)) {
+    add(density_pattern(direction, "constant along the cable", VectorXd::Ones(links), chain));
     add(density_pattern(direction, "linear along the cable",
-                        (2 / chain.length * middles.array() - 1).matrix(), chain.lengths));
+                        (2 / chain.length * middles.array() - 1).matrix(), chain));
     for (int k = 1; k <= places; ++k) {
       const double s = k * apart;
       const VectorXd tent = (1 - (middles.array() - s).abs() / apart).cwiseMax(0.0).matrix();
-      add(density_pattern(direction, fmt::format("around arc length {:.3g} m", s), tent,
-                          chain.lengths));
+      add(density_pattern(direction, fmt::format("around arc length {:.3g} m", s), tent, chain));
     }
-    add(point_pattern(direction, chain.length, chain.lengths));
+    add(point_pattern(direction, chain.length, chain));
   }
-  add(moment_pattern(0, chain.lengths));
+  for (ForcePattern& pattern : moment_patterns(0, chain)) add(std::move(pattern));
   return patterns;
 }
 

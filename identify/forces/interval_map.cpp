@@ -40,6 +40,7 @@ IntervalIntegrator::IntervalIntegrator(const Model& model, const VectorXd& param
       forces_(static_cast<Index>(2 * patterns.size())),
       parameters_(static_cast<Index>(directions.size())),
       lengths_(link_lengths(model, parameters)),
+      per_link_(model.in_space() ? 3 : 1),
       tangents_(dynamics_),
       batches_((static_cast<std::size_t>(2 * n_ + states_ + forces_ + parameters_) + kWidth - 1) /
                kWidth) {
@@ -60,8 +61,9 @@ IntervalIntegrator::IntervalIntegrator(const Model& model, const VectorXd& param
   zero_.assign(std::max({n, states, static_cast<std::size_t>(3 * model.signals())}), {});
   change_.assign(n + states, {});
   rate_.assign(states, {});
-  for (auto* values : {&q_, &v_, &a_, &middle_q_, &middle_v_, &force_, &turning_, &predicted_q_})
+  for (auto* values : {&q_, &v_, &a_, &middle_q_, &middle_v_, &force_, &predicted_q_})
     values->assign(n, 0.0);
+  turning_.assign(static_cast<std::size_t>(per_link_ * per_link_ * lengths_.size()), 0.0);
   for (auto* values : {&z_, &middle_z_, &zdot_}) values->assign(states, 0.0);
   residual_.assign(n + states, 0.0);
   unit_force_.assign(patterns.size(), std::vector<double>(n, 0.0));
@@ -129,14 +131,8 @@ bool IntervalIntegrator::step_on(double t, double step, const VectorXd& force, d
     const double size = force[row] + since * force[row + 1];
     std::fill(unit_force_[m].begin(), unit_force_[m].end(), 0.0);
     add_generalised_force(patterns_[m], lengths_, predicted_q_.data(), 1.0, unit_force_[m].data());
-    const ForcePattern& p = patterns_[m];
-    for (Index k = 0; k < lengths_.size(); ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      force_[i] += size * unit_force_[m][i];
-      turning_[i] -=
-          size * lengths_[k] *
-          (std::sin(predicted_q_[i]) * p.side[k] + std::cos(predicted_q_[i]) * p.down[k]);
-    }
+    for (std::size_t i = 0; i < n; ++i) force_[i] += size * unit_force_[m][i];
+    add_turning(patterns_[m], lengths_, predicted_q_.data(), size, turning_.data());
   }
 
   const auto to_middle = [&] {
@@ -181,6 +177,17 @@ bool IntervalIntegrator::step_on(double t, double step, const VectorXd& force, d
   return true;
 }
 
+/// Takes from the changes of the residual what the forces change as the links turn.
+void IntervalIntegrator::turn_force() {
+  const auto links = static_cast<std::size_t>(lengths_.size());
+  const double* by = turning_.data();
+  for (std::size_t link = 0; link < links; ++link)
+    for (std::size_t i = 0; i < per_link_; ++i)
+      for (std::size_t j = 0; j < per_link_; ++j, ++by)
+        for (std::size_t k = 0; k < kWidth; ++k)
+          change_[i * links + link].of[k] -= *by * predicted_[j * links + link].of[k];
+}
+
 /// Takes the derivatives over the same step: the linearised equations, solved with the matrix at
 /// its solution.
 void IntervalIntegrator::differentiate(double t, double gamma, double since) {
@@ -197,9 +204,7 @@ void IntervalIntegrator::differentiate(double t, double gamma, double since) {
                              numbers(dz), numbers(zero_),      numbers(dp_[b])};
     tangents_.residual(at, along, numbers(change_));
     if (states > 0) tangents_.state_rate(at, along, numbers(rate_));
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < kWidth; ++k)
-        change_[i].of[k] -= turning_[i] * predicted_[i].of[k];
+    turn_force();
     for (std::size_t k = 0; k < kWidth; ++k) {
       const std::size_t column = b * kWidth + k;
       if (column < first || column >= first + static_cast<std::size_t>(forces_)) continue;

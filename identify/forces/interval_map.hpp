@@ -23,8 +23,8 @@ struct IntervalMap {
 
 /// Integrates the equations of a model with forces over an interval by the implicit midpoint rule,
 /// with steps of at most `step` s, and differentiates what it does. Within the interval the forces
-/// go on straight, as they begin. They turn with the angles that the
-/// rates at the beginning of a step predict at its middle: a difference of second order in the
+/// go on straight, as they begin. They turn with the links as the
+/// rates at the beginning of a step predict them at its middle: a difference of second order in the
 /// step, as the rule itself has.
 class IntervalIntegrator {
  public:
@@ -42,6 +42,7 @@ class IntervalIntegrator {
  private:
   bool step_on(double t, double step, const Eigen::VectorXd& force, double since);
   void differentiate(double t, double gamma, double since);
+  void turn_force();
 
   const Model model_;
   Dynamics dynamics_;
@@ -49,6 +50,7 @@ class IntervalIntegrator {
   double step_;
   Eigen::Index n_, states_, forces_, parameters_;
   Eigen::VectorXd lengths_;
+  std::size_t per_link_;  // coordinates of a link
   std::unique_ptr<NewtonMatrix> matrix_;
   BatchTangents tangents_;
   std::size_t batches_;

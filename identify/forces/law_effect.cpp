@@ -55,7 +55,8 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
       "variable in {}, it explained {:.0f} % of what a force can explain in the second; of random "
       "forces {:.2g} did "
       "as well.",
-      title, formula.text, law.candidates, law.chosen_in(), 100 * law.confirmed, law.chance);
+      title, formula.text, law.candidates, law.chosen_in(), 100 * law.share_confirmed(),
+      law.chance);
   using Kind = CandidateLaw::Formula::Kind;
   const char* const more =
       formula.curve ? " No formula fits: the law is a curve of straight pieces between knots."
@@ -112,9 +113,9 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     return text;
   }
   if (formula.kind == Kind::kMass)
-    declare("kinetic",
-            fmt::format("point_mass*(({})^2 + ({})^2)/2", symbols_of(LawVariable::kSideVelocity),
-                        symbols_of(LawVariable::kDownVelocity)));
+    declare("kinetic", fmt::format("point_mass*(({})^2 + ({})^2)/2",
+                                   symbols_of(LawVariable::kSideVelocity, false),
+                                   symbols_of(LawVariable::kDownVelocity, false)));
   declare(formula.kind == Kind::kDissipation ? "dissipation" : "potential",
           fmt::format("{}({})", where.factor, formula.energy));
   return text;

@@ -7,7 +7,6 @@ namespace catena {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace {
@@ -45,7 +44,7 @@ Followed followed_by(const LawMemory& memory, const LawChain& chain, const Vecto
     followed.value.setZero(1);
     followed.by_state.setZero(1, state.size());
   } else if (const auto relaxing = relaxing_of(memory.variable)) {
-    const auto elements = law_elements(memory.site, *relaxing, Vector2d::Zero(), chain, state);
+    const auto elements = law_elements(memory.site, *relaxing, {}, chain, state);
     const auto count = static_cast<Index>(elements.size());
     followed.value.resize(count);
     followed.by_state.setZero(count, state.size());

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "identify/forces/place_kinematics.hpp"
+#include <initializer_list>
+#include <utility>
 
 namespace catena {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
@@ -26,6 +27,8 @@ constexpr NamesOfVariable kNames[] = {
      "side + offset*sin(angle)"},
     {LawVariable::kDownPosition, true, "down force", "down position", "m",
      "down + offset*cos(angle)"},
+    {LawVariable::kAcrossPosition, true, "across force", "across position", "m",
+     "across + offset*direction_across"},
     {LawVariable::kDistance, true, "force away from a fixed point", "distance from it", "m", ""},
     {LawVariable::kAcceleration, false, "force of a mass", "acceleration less gravity", "m/s^2",
      ""},
@@ -37,6 +40,8 @@ constexpr NamesOfVariable kNames[] = {
      "velocity_side + offset*cos(angle)*rate"},
     {LawVariable::kDownVelocity, false, "down force", "down velocity", "m/s",
      "velocity_down - offset*sin(angle)*rate"},
+    {LawVariable::kAcrossVelocity, false, "across force", "across velocity", "m/s",
+     "velocity_across + offset*direction_rate_across"},
     {LawVariable::kNormalVelocity, false, "force normal to the cable", "normal velocity", "m/s",
      "velocity_normal + offset*rate"},
     {LawVariable::kTangentialVelocity, false, "force along the cable", "tangential velocity", "m/s",
@@ -56,6 +61,8 @@ constexpr NamesOfVariable kNames[] = {
      "velocity_side + offset*cos(angle)*rate"},
     {LawVariable::kTimeOfDownForce, true, "down force", "time", "s",
      "velocity_down - offset*sin(angle)*rate"},
+    {LawVariable::kTimeOfAcrossForce, true, "across force", "time", "s",
+     "velocity_across + offset*direction_rate_across"},
     {LawVariable::kTimeOfMoment, true, "moment", "time", "s", "joint_rate"},
 };
 
@@ -64,34 +71,44 @@ const NamesOfVariable& row_of(LawVariable variable) {
                        [&](const NamesOfVariable& names) { return names.variable == variable; });
 }
 
-/// A variable of a place, and its derivative by (side, down) or by their rates.
+/// A variable of a place, and its derivative by the position or by the velocity.
 struct OfPlace {
   double value = 0;
-  Vector2d along;
+  ChainVector along;
 };
 
-OfPlace of_place(LawVariable variable, const PlaceMotion& motion, const Vector2d& fixed_point) {
-  const double across = std::cos(motion[4]), along = std::sin(motion[4]);
-  const Vector2d position = motion.head<2>(), velocity = motion.segment<2>(2);
-  const auto size_of = [](const Vector2d& vector) {
+OfPlace of_place(LawVariable variable, const PlaceMotion& motion, const ChainVector& fixed_point) {
+  const ChainVector &position = motion.position, &velocity = motion.velocity;
+  const auto component = [](const ChainVector& vector, Index i) {
+    return OfPlace{vector[i], VectorXd::Unit(vector.size(), i)};
+  };
+  const auto size_of = [](const ChainVector& vector) {
     const double size = std::max(vector.norm(), 1e-12);
     return OfPlace{size, vector / size};
   };
   switch (variable) {
     case LawVariable::kSidePosition:
-      return {position[0], {1, 0}};
+      return component(position, 0);
     case LawVariable::kDownPosition:
-      return {position[1], {0, 1}};
+      return component(position, 1);
+    case LawVariable::kAcrossPosition:
+      return component(position, 2);
     case LawVariable::kDistance:
       return size_of(position - fixed_point);
     case LawVariable::kSideVelocity:
-      return {velocity[0], {1, 0}};
+      return component(velocity, 0);
     case LawVariable::kDownVelocity:
-      return {velocity[1], {0, 1}};
-    case LawVariable::kNormalVelocity:
-      return {across * velocity[0] - along * velocity[1], {across, -along}};
+      return component(velocity, 1);
+    case LawVariable::kAcrossVelocity:
+      return component(velocity, 2);
+    case LawVariable::kNormalVelocity: {
+      if (velocity.size() == 3)
+        return size_of(velocity - motion.along.dot(velocity) * motion.along);
+      const Vector2d normal(motion.along[1], -motion.along[0]);
+      return {normal.dot(velocity), normal};
+    }
     case LawVariable::kTangentialVelocity:
-      return {along * velocity[0] + across * velocity[1], {along, across}};
+      return {motion.along.dot(velocity), motion.along};
     case LawVariable::kSpeed:
       return size_of(velocity);
     default:
@@ -118,7 +135,23 @@ std::optional<LawVariable> relaxing_of(LawVariable variable) {
   }
 }
 
-std::string symbols_of(LawVariable variable) { return row_of(variable).symbols; }
+std::string symbols_of(LawVariable variable, bool in_space) {
+  if (in_space) switch (variable) {
+      case LawVariable::kSidePosition:
+        return "side + offset*direction_side";
+      case LawVariable::kDownPosition:
+        return "down + offset*direction_down";
+      case LawVariable::kSideVelocity:
+      case LawVariable::kTimeOfSideForce:
+        return "velocity_side + offset*direction_rate_side";
+      case LawVariable::kDownVelocity:
+      case LawVariable::kTimeOfDownForce:
+        return "velocity_down + offset*direction_rate_down";
+      default:
+        break;
+    }
+  return row_of(variable).symbols;
+}
 
 std::optional<LawVariable> timed_of(LawVariable variable) {
   switch (variable) {
@@ -126,6 +159,8 @@ std::optional<LawVariable> timed_of(LawVariable variable) {
       return LawVariable::kSidePosition;
     case LawVariable::kTimeOfDownForce:
       return LawVariable::kDownPosition;
+    case LawVariable::kTimeOfAcrossForce:
+      return LawVariable::kAcrossPosition;
     case LawVariable::kTimeOfMoment:
       return LawVariable::kJointAngle;
     default:
@@ -133,7 +168,7 @@ std::optional<LawVariable> timed_of(LawVariable variable) {
   }
 }
 
-LawNames names_of(const LawSite& site, LawVariable variable) {
+LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
   const NamesOfVariable& row = row_of(variable);
   const bool moment = site.kind == SiteKind::kJoint || site.kind == SiteKind::kJoints;
   LawNames names{row.force,
@@ -143,7 +178,7 @@ LawNames names_of(const LawSite& site, LawVariable variable) {
                  : site.kind == SiteKind::kCable      ? "N/m"
                                                       : "N",
                  row.unit,
-                 row.symbols,
+                 symbols_of(variable, in_space),
                  {}};
   if (site.kind == SiteKind::kJoint && site.joint == 0) {
     names.force = "torque at the support";
@@ -152,21 +187,42 @@ LawNames names_of(const LawSite& site, LawVariable variable) {
                      : variable == LawVariable::kRelaxingJointAngle ? "relaxing angle of link 1"
                                                                     : "rate of link 1";
   }
-  if (site.kind == SiteKind::kCable)  // at the middle of a link there is no offset
-    names.symbols = variable == LawVariable::kSideVelocity     ? "velocity_side"
-                    : variable == LawVariable::kDownVelocity   ? "velocity_down"
-                    : variable == LawVariable::kNormalVelocity ? "velocity_normal"
-                                                               : names.symbols;
+  const auto velocity = [&](LawVariable of) {
+    const std::string symbols = symbols_of(of, in_space);
+    // At the middle of a link there is no offset.
+    return site.kind == SiteKind::kCable ? symbols.substr(0, symbols.find(' ')) : symbols;
+  };
+  if (variable == LawVariable::kSideVelocity || variable == LawVariable::kDownVelocity ||
+      variable == LawVariable::kAcrossVelocity || variable == LawVariable::kNormalVelocity)
+    names.symbols = velocity(variable);
+  const auto squares = [](const std::vector<std::string>& components) {
+    std::string sum;
+    for (const std::string& component : components)
+      sum += (sum.empty() ? "" : " + ") +
+             (component.find(' ') == std::string::npos ? component : "(" + component + ")") + "^2";
+    return sum;
+  };
   if (variable == LawVariable::kDistance) {
-    names.squared =
-        fmt::format("({} - point_side)^2 + ({} - point_down)^2",
-                    symbols_of(LawVariable::kSidePosition), symbols_of(LawVariable::kDownPosition));
+    std::vector<std::string> apart;
+    for (const auto& [of, name] : {std::pair(LawVariable::kSidePosition, "side"),
+                                   std::pair(LawVariable::kDownPosition, "down"),
+                                   std::pair(LawVariable::kAcrossPosition, "across")})
+      if (in_space || of != LawVariable::kAcrossPosition)
+        apart.push_back(fmt::format("{} - point_{}", symbols_of(of, in_space), name));
+    names.squared = squares(apart);
     names.symbols = fmt::format("sqrt({})", names.squared);
   } else if (variable == LawVariable::kSpeed) {
-    names.squared = site.kind == SiteKind::kCable
-                        ? std::string("velocity_side^2 + velocity_down^2")
-                        : fmt::format("({})^2 + ({})^2", symbols_of(LawVariable::kSideVelocity),
-                                      symbols_of(LawVariable::kDownVelocity));
+    std::vector<std::string> components = {velocity(LawVariable::kSideVelocity),
+                                           velocity(LawVariable::kDownVelocity)};
+    if (in_space) components.push_back(velocity(LawVariable::kAcrossVelocity));
+    names.squared = squares(components);
+  } else if (in_space && variable == LawVariable::kNormalVelocity) {
+    // The turn of the link is at a right angle to it.
+    names.squared = "velocity_normal^2";
+    if (site.kind == SiteKind::kPlace)
+      names.squared +=
+          " + 2*offset*(velocity_side*direction_rate_side + velocity_down*direction_rate_down + "
+          "velocity_across*direction_rate_across) + offset^2*rate^2";
   } else {
     names.squared = fmt::format("({})^2", names.symbols);
   }
@@ -189,7 +245,7 @@ std::string site_in_words(const LawSite& site) {
 }
 
 std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
-                                     const Vector2d& fixed_point, const LawChain& chain,
+                                     const ChainVector& fixed_point, const LawChain& chain,
                                      const VectorXd& state) {
   const VectorXd& lengths = chain.lengths;
   const Index links = lengths.size();
@@ -204,9 +260,9 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   }
   if (variable == LawVariable::kAcceleration) {
     const PlaceKinematics place =
-        place_kinematics(state, chain.coordinates, lengths, site.arc_length);
-    const auto& side = place.by_angles.row(0);
-    const auto& down = place.by_angles.row(1);
+        place_kinematics(state, chain.coordinates, chain, site.arc_length);
+    const auto& side = place.by_turns.row(0);
+    const auto& down = place.by_turns.row(1);
     const VectorXd faster = state.tail(links);
     const Eigen::RowVectorXd turning =
         state.segment(chain.coordinates, links).cwiseAbs2().transpose();
@@ -230,34 +286,35 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   switch (site.kind) {
     case SiteKind::kPlace: {
       const PlaceKinematics place =
-          place_kinematics(state, chain.coordinates, lengths, site.arc_length);
+          place_kinematics(state, chain.coordinates, chain, site.arc_length);
       const OfPlace of = of_place(variable, place.motion, fixed_point);
-      elements.push_back({of.value, place.by_angles.transpose() * of.along, 1});
+      elements.push_back({of.value, place.by_turns.transpose() * of.along, 1});
       break;
     }
     case SiteKind::kJoint:
       add_joint(site.joint, 1, 1);
       break;
     case SiteKind::kCable: {
-      PlaceMotion motion = PlaceMotion::Zero();
-      Eigen::Matrix2Xd by_angles = Eigen::Matrix2Xd::Zero(2, links);
+      const Index components = chain.in_space ? 3 : 2, each = chain.in_space ? 3 : 1;
+      PlaceMotion motion{VectorXd::Zero(components), VectorXd::Zero(components), {}};
+      MatrixXd by_turns = MatrixXd::Zero(components, chain.turns());
       for (Index k = 0; k < links; ++k) {
-        const double angle = state[k], rate = state[chain.coordinates + k];
+        const LinkMotion link = link_motion(state, chain.coordinates, chain, k);
         if (variable == LawVariable::kLinkRate) {
-          elements.push_back({rate, VectorXd::Unit(links, k), lengths[k]});
+          elements.push_back({link.rate[0], VectorXd::Unit(links, k), lengths[k]});
           continue;
         }
         const double half = 0.5 * lengths[k];
-        const Vector2d along(std::sin(angle), std::cos(angle)), across(along[1], -along[0]);
-        motion.head<2>() += half * along;
-        motion.segment<2>(2) += half * rate * across;
-        motion.tail<2>() << angle, rate;
-        by_angles.col(k) = half * across;
+        const ChainVector half_rate = half * link.rate;
+        motion.along = link.along;
+        motion.position += half * link.along;
+        motion.velocity += link.by_turn * half_rate;
+        by_turns.middleCols(each * k, each) = half * link.by_turn;
         const OfPlace of = of_place(variable, motion, fixed_point);
-        elements.push_back({of.value, by_angles.transpose() * of.along, lengths[k]});
-        motion.head<2>() += half * along;
-        motion.segment<2>(2) += half * rate * across;
-        by_angles.col(k) = lengths[k] * across;
+        elements.push_back({of.value, by_turns.transpose() * of.along, lengths[k]});
+        motion.position += half * link.along;
+        motion.velocity += link.by_turn * half_rate;
+        by_turns.middleCols(each * k, each) = lengths[k] * link.by_turn;
       }
       break;
     }
@@ -271,46 +328,50 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
   return elements;
 }
 
-std::vector<LawVariable> variables_of(const LawSite& site, double length) {
-  switch (site.kind) {
-    case SiteKind::kPlace: {
-      std::vector<LawVariable> variables = {
-          LawVariable::kSidePosition,   LawVariable::kDownPosition,
-          LawVariable::kSideVelocity,   LawVariable::kDownVelocity,
-          LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity,
-          LawVariable::kSpeed,          LawVariable::kDistance};
-      // A mass at the end is a heavier load, which effects have; these remember nothing of places inside.
-      if (at_end(site.arc_length, length))
-        variables.insert(variables.end(),
-                         {LawVariable::kRelaxingSidePosition, LawVariable::kRelaxingDownPosition});
-      else
-        variables.push_back(LawVariable::kAcceleration);
-      return variables;
-    }
-    case SiteKind::kJoint:
-      return {LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle};
-    case SiteKind::kCable:
-      return {LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity,
-              LawVariable::kSpeed,          LawVariable::kSideVelocity,
-              LawVariable::kDownVelocity,   LawVariable::kLinkRate};
-    case SiteKind::kJoints:
-      return {LawVariable::kCurvature, LawVariable::kCurvatureRate,
-              LawVariable::kRelaxingCurvature};
-  }
-  return {};
-}
-
-std::vector<LawVariable> times_of(const LawSite& site) {
+std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain) {
+  std::vector<LawVariable> variables;
+  const auto add = [&](std::initializer_list<LawVariable> more) {
+    variables.insert(variables.end(), more);
+  };
   switch (site.kind) {
     case SiteKind::kPlace:
-      return {LawVariable::kTimeOfSideForce, LawVariable::kTimeOfDownForce};
-    case SiteKind::kJoint:
-      return {LawVariable::kTimeOfMoment};
+      add({LawVariable::kSidePosition, LawVariable::kDownPosition, LawVariable::kSideVelocity,
+           LawVariable::kDownVelocity, LawVariable::kNormalVelocity,
+           LawVariable::kTangentialVelocity, LawVariable::kSpeed, LawVariable::kDistance});
+      if (chain.in_space) add({LawVariable::kAcrossPosition, LawVariable::kAcrossVelocity});
+      // A mass at the end is a heavier load, which effects have; these remember nothing of places inside.
+      else if (at_end(site.arc_length, chain.lengths.sum()))
+        add({LawVariable::kRelaxingSidePosition, LawVariable::kRelaxingDownPosition});
+      else
+        add({LawVariable::kAcceleration});
+      break;
     case SiteKind::kCable:
+      add({LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity, LawVariable::kSpeed,
+           LawVariable::kSideVelocity, LawVariable::kDownVelocity});
+      add({chain.in_space ? LawVariable::kAcrossVelocity : LawVariable::kLinkRate});
+      break;
+    case SiteKind::kJoint:
+      if (!chain.in_space)
+        add({LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle});
+      break;
     case SiteKind::kJoints:
+      if (!chain.in_space)
+        add({LawVariable::kCurvature, LawVariable::kCurvatureRate,
+             LawVariable::kRelaxingCurvature});
       break;
   }
-  return {};
+  return variables;
+}
+
+std::vector<LawVariable> times_of(const LawSite& site, bool in_space) {
+  std::vector<LawVariable> times;
+  if (site.kind == SiteKind::kPlace) {
+    times = {LawVariable::kTimeOfSideForce, LawVariable::kTimeOfDownForce};
+    if (in_space) times.push_back(LawVariable::kTimeOfAcrossForce);
+  } else if (site.kind == SiteKind::kJoint && !in_space) {
+    times = {LawVariable::kTimeOfMoment};
+  }
+  return times;
 }
 
 }  // namespace catena

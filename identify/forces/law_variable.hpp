@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "identify/forces/place_kinematics.hpp"
+
 namespace catena {
 
 enum class SiteKind {
@@ -28,6 +30,7 @@ enum class LawVariable {
   // of a place
   kSidePosition,
   kDownPosition,
+  kAcrossPosition,
   kDistance,      ///< from a fixed point
   kAcceleration,  ///< less that of gravity, as a vector
   // of the end of the cable
@@ -36,6 +39,7 @@ enum class LawVariable {
   // of a place, or of every piece of the cable
   kSideVelocity,
   kDownVelocity,
+  kAcrossVelocity,
   kNormalVelocity,
   kTangentialVelocity,
   kSpeed,
@@ -52,6 +56,7 @@ enum class LawVariable {
   // of a place, or of a joint
   kTimeOfSideForce,
   kTimeOfDownForce,
+  kTimeOfAcrossForce,
   kTimeOfMoment,
 };
 
@@ -71,40 +76,41 @@ struct LawNames {
   /// The variable in the language of effects; its square where only that has a formula.
   std::string symbols, squared;
 };
-LawNames names_of(const LawSite& site, LawVariable variable);
+LawNames names_of(const LawSite& site, LawVariable variable, bool in_space);
 
 /// A variable of a place in the language of effects, `offset` past the middle of a link.
-std::string symbols_of(LawVariable variable);
+std::string symbols_of(LawVariable variable, bool in_space);
 
 /// " at arc length 1.08 m", " along the cable", or nothing for the support.
 std::string site_in_words(const LawSite& site);
 
-/// The variable at one piece of a site, or one component of it: its value, its derivative by the angles (by their
-/// rates where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint).
+/// The variable at one piece of a site, or one component of it: its value, its derivative by the turns of the links (by
+/// how fast they turn where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint).
 struct LawElement {
   double value = 0;
   Eigen::VectorXd gradient;
   double weight = 1;
 };
 
-/// The chain that laws act on: lengths of its links, m, and coordinates of its model, of which the
-/// angles are the first.
-struct LawChain {
-  Eigen::VectorXd lengths;
+/// The chain that laws act on, and coordinates of its model, of which those of the links are the first.
+struct LawChain : LinkChain {
   Eigen::Index coordinates = 0;
   double gravity = 0;  ///< m/s^2
+
+  /// Turns of all links: their angles, in space turns about three axes.
+  Eigen::Index turns() const { return lengths.size() * (in_space ? 3 : 1); }
 };
 
-/// `state`: (q, v, z), and behind it what the variable remembers (law_memory.hpp). `fixed_point`: side and down, m, for
+/// `state`: (q, v, z), and behind it what the variable remembers (law_memory.hpp). `fixed_point`: m, for
 /// the distance.
 std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
-                                     const Eigen::Vector2d& fixed_point, const LawChain& chain,
+                                     const ChainVector& fixed_point, const LawChain& chain,
                                      const Eigen::VectorXd& state);
 
-/// Variables of a site on a cable of this length, m, but for the time.
-std::vector<LawVariable> variables_of(const LawSite& site, double length);
+/// Variables of a site, but for the time. In space those of places and of the whole cable that remember nothing.
+std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain);
 
 /// The time, of each direction in which the site may be pushed.
-std::vector<LawVariable> times_of(const LawSite& site);
+std::vector<LawVariable> times_of(const LawSite& site, bool in_space);
 
 }  // namespace catena

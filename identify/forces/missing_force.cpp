@@ -56,26 +56,29 @@ struct SettledForce {
   Smoothed smoothed;
 };
 
-/// The side and the down force at a place; the stronger alone where the other is not shown, as a force
-/// is. A cable hardly shows what pushes along it, so that a direction of small size that follows the
-/// noise takes from the other what is not its own. Both where the motion cannot be followed with one.
-SettledForce directions_shown(SettledForce both, const std::vector<double>& variance) {
-  std::vector<double> squares = {0, 0};
-  for (const Smoothed::Recording& recording : both.smoothed.recordings)
-    for (const Index m : {0, 1})
-      squares[static_cast<std::size_t>(m)] += recording.force.row(2 * m).squaredNorm();
-  const std::size_t stronger = squares[1] > squares[0];
-  SettledForce alone = both;
-  std::vector<ForcePattern> patterns = {both.paths.patterns()[stronger]};
-  patterns.front().group = 0;
-  alone.paths.act(std::move(patterns));
-  std::vector<double> of_stronger = {variance[stronger]};
-  std::optional<Smoothed> smoothed = alone.paths.settle(of_stronger, true);
-  if (!smoothed ||
-      both.smoothed.log_evidence - smoothed->log_evidence > kForceThresholds.log_evidence)
-    return both;
-  alone.smoothed = std::move(*smoothed);
-  return alone;
+/// A force at a place, or a moment in a joint in space, without the directions that are not shown, as a force is: the
+/// weakest ones. A cable hardly shows what pushes along it, so that a direction of small size that follows the
+/// noise takes from the others what is not its own. All that are left where the motion cannot be followed with fewer.
+/// `least`: what the log evidence must be.
+SettledForce directions_shown(SettledForce all, const std::vector<double>& variance, double least) {
+  if (variance.size() == 1) return all;
+  std::vector<double> squares(variance.size(), 0.0);
+  for (const Smoothed::Recording& recording : all.smoothed.recordings)
+    for (std::size_t m = 0; m < squares.size(); ++m)
+      squares[m] += recording.force.row(static_cast<Index>(2 * m)).squaredNorm();
+  const auto weakest = std::min_element(squares.rbegin(), squares.rend());
+  const auto last = squares.rend() - weakest - 1;
+  SettledForce fewer = all;
+  std::vector<ForcePattern> patterns = all.paths.patterns();
+  patterns.erase(patterns.begin() + last);
+  for (std::size_t m = 0; m < patterns.size(); ++m) patterns[m].group = static_cast<int>(m);
+  fewer.paths.act(std::move(patterns));
+  std::vector<double> of_fewer = variance;
+  of_fewer.erase(of_fewer.begin() + last);
+  std::optional<Smoothed> smoothed = fewer.paths.settle(of_fewer, true);
+  if (!smoothed || smoothed->log_evidence < least) return all;
+  fewer.smoothed = std::move(*smoothed);
+  return directions_shown(std::move(fewer), of_fewer, least);
 }
 
 /// Forces everywhere without the patterns that the recordings do not show: those that are resolved least, as
@@ -189,17 +192,19 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
 
   // What acts there if it acts nowhere else.
   const bool moment = missing.best->joint >= 0;
-  paths.act(moment ? std::vector{moment_pattern(missing.best->joint, chain.lengths)}
-                   : point_patterns({missing.best->arc_length}, chain));
-  std::vector<double> at_place(moment ? 1 : 2, search.best_variance());
+  std::vector<ForcePattern> patterns = moment ? moment_patterns(missing.best->joint, chain)
+                                              : point_patterns({missing.best->arc_length}, chain);
+  std::vector<double> at_place(patterns.size(), search.best_variance());
+  for (std::size_t m = 0; m < patterns.size(); ++m) patterns[m].group = static_cast<int>(m);
+  paths.act(std::move(patterns));
   const std::optional<Smoothed> there = paths.settle(at_place, true);
   if (!there) return false;
   const double of_place = log_evidence_of(*there, at_place.size() + 1);
   missing.best->log_evidence = of_place - search.none();
   missing.one_place = of_place >= of_all;
   missing.log_probability = std::max(missing.log_probability, of_place);
-  const SettledForce shown =
-      moment ? SettledForce{paths, *there} : directions_shown({paths, *there}, at_place);
+  const SettledForce shown = directions_shown({paths, *there}, at_place,
+                                              there->log_evidence - kForceThresholds.log_evidence);
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
     missing.at_best.push_back(force_history(shown.paths, r, problem, shown.smoothed, chain, false));
   if (missing.one_place) {
@@ -212,7 +217,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     pushed = moment ? LawSite{SiteKind::kJoint, missing.best->arc_length, missing.best->joint}
                     : LawSite{SiteKind::kPlace, missing.best->arc_length};
   missing.law = law_of_force(missing.one_place ? paths : with_all,
-                             {chain.lengths, problem.model().coordinates(), chain.gravity},
+                             {chain, problem.model().coordinates(), chain.gravity},
                              sites_of(missing, chain), pushed);
   return true;
 }

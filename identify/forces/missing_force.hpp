@@ -31,8 +31,8 @@ inline constexpr MissingForceThresholds kForceThresholds;
 /// Whether, where and when a force acts on the chain that the model does not have, from the
 /// recordings alone.
 ///
-/// Forces are densities to the side and down along the cable, a force at the end and a torque at the
-/// support (forces_everywhere.hpp), each a smooth random function of time. They are estimated
+/// Forces are densities to the side and down along the cable, in space across, too, a force at the end and a torque at
+/// the support (forces_everywhere.hpp), each a smooth random function of time. They are estimated
 /// together with every free parameter, the start and the free sensors; the prior variances are those
 /// of the largest evidence. Then a force at each place alone is tried. The parts that are fitted are
 /// used, of all recordings. How: docs/diagnosis.md.
@@ -54,24 +54,27 @@ struct MissingForce {
   };
   std::vector<Pattern> patterns;
 
+  struct OverTime {
+    Eigen::MatrixXd value, deviation;  ///< rows x times
+  };
   /// Sizes of some patterns over time, with standard deviations.
   struct History {
     std::string experiment;
     std::vector<double> time;         ///< s, of the frames that are fitted
     Eigen::MatrixXd size, deviation;  ///< patterns x times
-    std::vector<std::string> rows;  ///< the patterns; of a single place: "side", "down" or "moment"
-    /// Densities to the side and down at the middles of the links, links x times, N/m; empty for a
+    /// The patterns; of a single place: "side", "down", "across", "moment" or, in space, "about side".
+    std::vector<std::string> rows;
+    /// Densities to the side, down and, in space, across at the middles of the links, links x times, N/m; empty for a
     /// single place.
-    Eigen::MatrixXd side, down, side_deviation, down_deviation;
-    /// The same force normal to the cable and along it. Positions hardly show what pushes along.
-    Eigen::MatrixXd normal, tangential, normal_deviation, tangential_deviation;
-    /// Legendre modes 0 and 1 of the normal density, 2 x times, N/m.
-    Eigen::MatrixXd normal_modes, normal_modes_deviation;
+    std::vector<OverTime> densities;
+    /// Legendre modes 0 and 1 of the density normal to the cable, 2 x times, N/m; positions hardly show what pushes
+    /// along it. In space of each component of it.
+    std::vector<OverTime> normal_modes;
   };
   std::vector<double> arc_length;  ///< m, of the middles of the links
   std::vector<History> everywhere;
 
-  /// A force at one place alone, or a moment in one joint.
+  /// A force at one place alone, or a moment in one joint; in space in every direction.
   struct Place {
     std::string name;
     double arc_length = 0;    ///< m
@@ -88,7 +91,7 @@ struct MissingForce {
   };
   std::optional<Sensor> sensor;
   /// The best place of all, refined, and what acts there if it acts nowhere else: a moment, N m, or
-  /// the directions that are shown (`MissingForceThresholds::log_evidence`) of side and down, N.
+  /// a force, N, in the directions that are shown (`MissingForceThresholds::log_evidence`).
   std::optional<Place> best;
   std::vector<History> at_best;
   bool one_place = false;       ///< the evidence of the best place is not below that of all forces

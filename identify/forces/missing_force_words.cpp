@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/forces/force_pattern.hpp"
+
 namespace catena {
 
 using Eigen::Index;
@@ -17,13 +19,16 @@ namespace {
 /// Share of the prior variance that data must take away from a pattern that they resolve.
 constexpr double kResolved = 0.5;
 
-/// Where a history is strongest: row and time.
+/// Where densities together are strongest: row and time.
 struct Strongest {
   Index row = 0, time = 0;
+  double size = -1;
 };
-Strongest strongest_of(const MatrixXd& side, const MatrixXd& down) {
+Strongest strongest_of(const std::vector<MissingForce::OverTime>& densities) {
+  Eigen::ArrayXXd squares = densities.front().value.array().square();
+  for (std::size_t i = 1; i < densities.size(); ++i) squares += densities[i].value.array().square();
   Strongest at;
-  (side.array().square() + down.array().square()).maxCoeff(&at.row, &at.time);
+  at.size = std::sqrt(squares.maxCoeff(&at.row, &at.time));
   return at;
 }
 
@@ -32,11 +37,12 @@ std::string sized(double value, double deviation, const std::string& unit) {
                      value + 1.96 * deviation);
 }
 
-/// "side", "down" or both, by what most of the mean square is.
-std::string direction_of(double side, double down) {
+/// "a side force" and the like, by what most of the mean square is. `squares`: to each direction.
+std::string direction_of(const VectorXd& squares) {
   constexpr double kMost = 0.8;
-  if (side > kMost * (side + down)) return "a side force";
-  if (down > kMost * (side + down)) return "a force up or down";
+  constexpr const char* kWords[] = {"a side force", "a force up or down", "a force across"};
+  for (Index i = 0; i < squares.size(); ++i)
+    if (squares[i] > kMost * squares.sum()) return kWords[i];
   return "a force";
 }
 
@@ -46,28 +52,31 @@ void describe_place(MissingForce& missing) {
   Strongest at;
   const std::vector<std::string>& rows = where->rows;
   VectorXd squares = VectorXd::Zero(static_cast<Index>(rows.size()));
-  double most = -1;
   for (const MissingForce::History& history : missing.at_best) {
     squares += history.size.rowwise().squaredNorm();
     Strongest here;
-    const double size = history.size.colwise().norm().maxCoeff(&here.time);
-    if (size > most) most = size, where = &history, at = here;
+    here.size = history.size.colwise().norm().maxCoeff(&here.time);
+    if (here.size > at.size) where = &history, at = here;
   }
   const bool torque = best.joint >= 0;
   squares.maxCoeff(&at.row);
-  const auto of = [&](const char* name) {
-    const auto row = std::find(rows.begin(), rows.end(), name);
-    return row == rows.end() ? 0.0 : squares[row - rows.begin()];
-  };
-  const std::string what = torque
-                               ? "a " + best.name
-                               : fmt::format("{} at arc length {:.3g} m",
-                                             direction_of(of("side"), of("down")), best.arc_length);
-  missing.words.push_back(fmt::format(
-      "{}, strongest at {:.3g} s of {}: {}{}", what, where->time[static_cast<std::size_t>(at.time)],
-      where->experiment, torque ? "" : rows[static_cast<std::size_t>(at.row)] + " ",
-      sized(where->size(at.row, at.time), where->deviation(at.row, at.time),
-            torque ? "N m" : "N")));
+  VectorXd to_directions = VectorXd::Zero(3);
+  for (const ForceDirection direction : force_directions(true)) {
+    const auto row = std::find(rows.begin(), rows.end(), word_of(direction));
+    if (row != rows.end())
+      to_directions[static_cast<Index>(direction)] = squares[row - rows.begin()];
+  }
+  const std::string what = torque ? "a " + best.name
+                                  : fmt::format("{} at arc length {:.3g} m",
+                                                direction_of(to_directions), best.arc_length);
+  missing.words.push_back(
+      fmt::format("{}, strongest at {:.3g} s of {}: {}{}", what,
+                  where->time[static_cast<std::size_t>(at.time)], where->experiment,
+                  rows[static_cast<std::size_t>(at.row)] == "moment"
+                      ? ""
+                      : rows[static_cast<std::size_t>(at.row)] + " ",
+                  sized(where->size(at.row, at.time), where->deviation(at.row, at.time),
+                        torque ? "N m" : "N")));
   missing.words.push_back(
       "a force there alone explains the recordings as well as forces everywhere do");
 }
@@ -75,24 +84,22 @@ void describe_place(MissingForce& missing) {
 void describe_everywhere(MissingForce& missing) {
   const MissingForce::History* where = &missing.everywhere.front();
   Strongest at;
-  double most = -1, side = 0, down = 0;
+  VectorXd squares = VectorXd::Zero(static_cast<Index>(where->densities.size()));
   for (const MissingForce::History& history : missing.everywhere) {
-    side += history.side.squaredNorm();
-    down += history.down.squaredNorm();
-    const Strongest here = strongest_of(history.side, history.down);
-    const double size =
-        std::hypot(history.side(here.row, here.time), history.down(here.row, here.time));
-    if (size > most) most = size, where = &history, at = here;
+    for (Index i = 0; i < squares.size(); ++i)
+      squares[i] += history.densities[static_cast<std::size_t>(i)].value.squaredNorm();
+    const Strongest here = strongest_of(history.densities);
+    if (here.size > at.size) where = &history, at = here;
   }
-  const bool mostly_down = down > side;
-  const MatrixXd& value = mostly_down ? where->down : where->side;
-  const MatrixXd& deviation = mostly_down ? where->down_deviation : where->side_deviation;
-  missing.words.push_back(
-      fmt::format("{} along the cable, strongest at arc length {:.3g} m, {:.3g} s of {}: {} {}",
-                  direction_of(side, down), missing.arc_length[static_cast<std::size_t>(at.row)],
-                  where->time[static_cast<std::size_t>(at.time)], where->experiment,
-                  mostly_down ? "down" : "side",
-                  sized(value(at.row, at.time), deviation(at.row, at.time), "N/m")));
+  Index mostly = 0;
+  squares.maxCoeff(&mostly);
+  const MissingForce::OverTime& strongest = where->densities[static_cast<std::size_t>(mostly)];
+  missing.words.push_back(fmt::format(
+      "{} along the cable, strongest at arc length {:.3g} m, {:.3g} s of {}: {} {}",
+      direction_of(squares), missing.arc_length[static_cast<std::size_t>(at.row)],
+      where->time[static_cast<std::size_t>(at.time)], where->experiment,
+      word_of(static_cast<ForceDirection>(mostly)),
+      sized(strongest.value(at.row, at.time), strongest.deviation(at.row, at.time), "N/m")));
   missing.words.push_back(fmt::format(
       "a force at one place alone explains less: the best one is {}", missing.best->name));
 }

@@ -12,6 +12,7 @@
 namespace catena {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -28,22 +29,30 @@ double size_of(const ForcePaths& paths, const ChainMeasures& chain) {
   double sum = 0, count = 0;
   for (const ForcePath& path : paths.paths()) {
     for (Index k = 0; k < path.force.cols(); ++k) {
-      VectorXd side = VectorXd::Zero(chain.lengths.size()), down = side;
-      VectorXd torque = side;
+      MatrixXd carried = MatrixXd::Zero(chain.lengths.size(), chain.in_space ? 3 : 2);
+      MatrixXd torque = MatrixXd::Zero(chain.lengths.size(), chain.in_space ? 3 : 1);
       for (std::size_t m = 0; m < paths.patterns().size(); ++m) {
         const ForcePattern& pattern = paths.patterns()[m];
         const double size = path.force(static_cast<Index>(2 * m), k);
-        side += size * pattern.side;
-        down += size * pattern.down;
+        carried += size * pattern.carried;
         torque += size * pattern.torque;
       }
       // What a link's end carries is the force below: its mean square along the cable.
-      sum += (side.squaredNorm() + down.squaredNorm()) / static_cast<double>(side.size()) +
+      double squares = 0;
+      for (Index i = 0; i < carried.cols(); ++i) squares += carried.col(i).squaredNorm();
+      sum += squares / static_cast<double>(carried.rows()) +
              torque.squaredNorm() / (chain.length * chain.length);
       count += 1;
     }
   }
   return std::sqrt(sum / std::max(1.0, count));
+}
+
+/// So many patterns from `first` on, of one variance.
+std::vector<ActingForce> acting(Index first, Index count) {
+  std::vector<ActingForce> forces;
+  for (Index i = 0; i < count; ++i) forces.push_back({first + i, 0});
+  return forces;
 }
 
 /// The largest evidence over the variance of some patterns, and the variance that has it.
@@ -96,9 +105,9 @@ std::vector<ForcePattern> point_patterns(const std::vector<double>& places,
                                          const ChainMeasures& chain) {
   std::vector<ForcePattern> patterns;
   for (const double s : places)
-    for (const ForceDirection direction : {ForceDirection::kSide, ForceDirection::kDown}) {
-      patterns.push_back(point_pattern(direction, s, chain.lengths));
-      patterns.back().group = direction == ForceDirection::kDown;
+    for (const ForceDirection direction : force_directions(chain.in_space)) {
+      patterns.push_back(point_pattern(direction, s, chain));
+      patterns.back().group = static_cast<int>(direction);
     }
   return patterns;
 }
@@ -110,12 +119,13 @@ bool PlaceSearch::look_everywhere(MissingForce& missing) {
   std::vector<double> at;
   for (int k = 1; k <= kForcePlaces; ++k) at.push_back(chain_.length * k / kForcePlaces);
   std::vector<ForcePattern> patterns = point_patterns(at, chain_);
-  patterns.push_back(moment_pattern(0, chain_.lengths));
+  const auto forces = static_cast<Index>(patterns.size());
+  for (ForcePattern& pattern : moment_patterns(0, chain_)) patterns.push_back(std::move(pattern));
   if (!linearise(std::move(patterns))) return false;
   none_ = smooth_forces(*linear_, {}, {}, paths_.prior, false).log_evidence;
-  const Peak torque = peak_of(*linear_, {{static_cast<Index>(2 * at.size()), 0}}, paths_.prior,
+  const Peak torque = peak_of(*linear_, acting(forces, chain_.in_space ? 3 : 1), paths_.prior,
                               size_ * chain_.length);
-  missing.places.push_back({"torque at the support", 0, torque.log_evidence - none_, 0});
+  missing.places.push_back({moment_name(0, chain_.lengths), 0, torque.log_evidence - none_, 0});
   variance_.push_back(torque.variance);
   add(at, missing.places);
   return true;
@@ -169,14 +179,17 @@ bool PlaceSearch::look_at_joints(MissingForce& missing) {
   };
   while (!joints.empty()) {
     std::vector<ForcePattern> patterns;
-    patterns.reserve(joints.size());
-    for (const Index joint : joints) patterns.push_back(moment_pattern(joint, chain_.lengths));
+    for (const Index joint : joints)
+      for (ForcePattern& pattern : moment_patterns(joint, chain_))
+        patterns.push_back(std::move(pattern));
+    const auto each = static_cast<Index>(patterns.size() / joints.size());
     if (!linearise(std::move(patterns))) return false;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const Peak peak = peak_of(*linear_, {{static_cast<Index>(i), 0}}, paths_.prior,
+      const Peak peak = peak_of(*linear_, acting(static_cast<Index>(i) * each, each), paths_.prior,
                                 size_ * chain_.length / static_cast<double>(links));
-      missing.joints.push_back({paths_.patterns()[i].name, chain_.lengths.head(joints[i]).sum(),
-                                peak.log_evidence - none_, static_cast<int>(joints[i])});
+      missing.joints.push_back({moment_name(joints[i], chain_.lengths),
+                                chain_.lengths.head(joints[i]).sum(), peak.log_evidence - none_,
+                                static_cast<int>(joints[i])});
       if (!missing.best || missing.joints.back().log_evidence > missing.best->log_evidence) {
         missing.best = missing.joints.back();
         best_variance_ = peak.variance;
@@ -197,7 +210,7 @@ bool PlaceSearch::look_at_joints(MissingForce& missing) {
 
 std::optional<MissingForce::Sensor> PlaceSearch::best_sensor() const {
   std::optional<MissingForce::Sensor> best;
-  for (const SensorError& error : sensor_errors(paths_, chain_.lengths)) {
+  for (const SensorError& error : sensor_errors(paths_, chain_)) {
     const double evidence = log_evidence_of(error, *linear_) - none_;
     if (!best || evidence > best->log_evidence) best = {error.name, evidence};
   }
@@ -210,11 +223,12 @@ bool PlaceSearch::linearise(std::vector<ForcePattern> patterns) {
   return linear_.has_value();
 }
 
-/// Evidence of side and down force at each place, patterns 2 i and 2 i + 1.
+/// Evidence of a force at each place, in every direction.
 void PlaceSearch::add(const std::vector<double>& at, std::vector<MissingForce::Place>& places) {
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const auto pattern = static_cast<Index>(2 * i);
-    const Peak peak = peak_of(*linear_, {{pattern, 0}, {pattern + 1, 0}}, paths_.prior, size_);
+    const Index directions = chain_.in_space ? 3 : 2;
+    const Peak peak = peak_of(*linear_, acting(static_cast<Index>(i) * directions, directions),
+                              paths_.prior, size_);
     places.push_back(
         {fmt::format("force at arc length {:.3g} m", at[i]), at[i], peak.log_evidence - none_});
     variance_.push_back(peak.variance);

@@ -10,7 +10,7 @@
 
 namespace catena {
 
-/// A side and a down force at each place, in groups 0 and 1. `places`: arc lengths, m.
+/// A force in every direction at each place, each direction in its group. `places`: arc lengths, m.
 std::vector<ForcePattern> point_patterns(const std::vector<double>& places,
                                          const ChainMeasures& chain);
 

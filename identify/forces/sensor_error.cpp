@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "identify/forces/place_kinematics.hpp"
@@ -35,13 +36,19 @@ struct Sight {
   PlaceMotion motion;
 };
 
-/// What the error adds to a marker's position, side and down, by each of its numbers.
-using Added = std::function<Eigen::Matrix2Xd(const Sight&)>;
+/// What the error adds to a marker's position, by each of its numbers: components x numbers.
+using Added = std::function<MatrixXd(const Sight&)>;
 
 double arc_length_of(const PointSpec& point, const VectorXd& lengths) {
   if (point.load) return lengths.sum();
   if (point.joint > 0) return lengths.head(point.joint).sum();
   return point.arc_length;
+}
+
+/// Its place among side, down and across; nothing for angles.
+std::optional<Index> component_of(const Channel& channel) {
+  if (channel.component == Component::kAngle) return std::nullopt;
+  return channel.component == Component::kAcross ? 2 : channel.component == Component::kDown;
 }
 
 /// At a time, of each knot but the first.
@@ -53,7 +60,7 @@ Eigen::RowVectorXd hats(double time) {
   return values;
 }
 
-SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::string name,
+SensorError make_error(const ForcePaths& paths, const LinkChain& chain, std::string name,
                        double deviation, const Added& added) {
   SensorError error{std::move(name), deviation, {}};
   for (std::size_t r = 0; r < paths.paths().size(); ++r) {
@@ -71,13 +78,13 @@ SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::st
         const auto point = static_cast<std::size_t>(channel.point);
         const Sight sight{
             point, (recording.time[static_cast<std::size_t>(values[node][i].frame)] - begin) / span,
-            place_kinematics(path.state.col(static_cast<Index>(node)), lengths.size(), lengths,
-                             arc_length_of(recording.points[point], lengths))
+            place_kinematics(path.state.col(static_cast<Index>(node)), paths.coordinates(), chain,
+                             arc_length_of(recording.points[point], chain.lengths))
                 .motion};
-        const Eigen::Matrix2Xd both = added(sight) / paths.sigma(r);
+        const MatrixXd all = added(sight) / paths.sigma(r);
         if (columns.size() == 0)
-          columns.setZero(static_cast<Index>(values[node].size()), both.cols());
-        columns.row(static_cast<Index>(i)) = both.row(channel.component == Component::kDown);
+          columns.setZero(static_cast<Index>(values[node].size()), all.cols());
+        columns.row(static_cast<Index>(i)) = all.row(*component_of(channel));
       }
     }
   }
@@ -86,39 +93,53 @@ SensorError make_error(const ForcePaths& paths, const VectorXd& lengths, std::st
 
 }  // namespace
 
-std::vector<SensorError> sensor_errors(const ForcePaths& paths, const VectorXd& lengths) {
+std::vector<SensorError> sensor_errors(const ForcePaths& paths, const LinkChain& chain) {
   std::vector<std::string> names;  // of the markers, in the order of the recordings' columns
   for (std::size_t r = 0; r < paths.paths().size(); ++r) {
-    for (const Channel& channel : paths.recording(r).channels)
-      if (channel.component != Component::kSide && channel.component != Component::kDown) return {};
     const std::vector<PointSpec>& points = paths.recording(r).points;
+    for (const Channel& channel : paths.recording(r).channels)
+      if (!component_of(channel) || !points[static_cast<std::size_t>(channel.point)].camera.empty())
+        return {};
     for (std::size_t point = names.size(); point < points.size(); ++point)
       names.push_back(points[point].name);
   }
-  const double length = lengths.sum();
+  const double length = chain.lengths.sum();
+  const Index components = chain.in_space ? 3 : 2;
   std::vector<SensorError> errors;
   const auto add = [&](std::string name, double deviation, const Added& added) {
-    errors.push_back(make_error(paths, lengths, std::move(name), deviation, added));
+    errors.push_back(make_error(paths, chain, std::move(name), deviation, added));
   };
-  add("the lens bends lines, or the camera looks at a slant", kBending, [&](const Sight& sight) {
-    const Vector2d at = sight.motion.head<2>() / length, from = at - Vector2d(0, 0.5);
-    Eigen::Matrix2Xd by(2, 3);
-    by << at * at[0], at * at[1], from * from.squaredNorm();
-    return Eigen::Matrix2Xd(length * by);
-  });
-  add("the picture is read line by line (rolling shutter)", kReading, [&](const Sight& sight) {
-    return Eigen::Matrix2Xd(sight.motion.segment<2>(2) * sight.motion[1] / length);
-  });
-  add("the camera drifts", kDrifting, [&](const Sight& sight) {
-    Eigen::Matrix2Xd by = Eigen::Matrix2Xd::Zero(2, 2 * kKnots);
-    by.row(0).head(kKnots) = by.row(1).tail(kKnots) = hats(sight.time);
+  if (chain.in_space) {
+    // To first order a map of space that keeps lines straight: what cameras give whose calibration is off.
+    add("the calibration of the cameras is off", kBending, [&](const Sight& sight) {
+      const ChainVector at = sight.motion.position / length;
+      MatrixXd by = MatrixXd::Zero(3, 12);
+      for (Index i = 0; i < 3; ++i) {
+        by.col(i) = at * at[i];
+        by.row(i).segment<3>(3 + 3 * i) = at.transpose();
+      }
+      return MatrixXd(length * by);
+    });
+  } else {
+    add("the lens bends lines, or the camera looks at a slant", kBending, [&](const Sight& sight) {
+      const Vector2d at = sight.motion.position / length, from = at - Vector2d(0, 0.5);
+      MatrixXd by(2, 3);
+      by << at * at[0], at * at[1], from * from.squaredNorm();
+      return MatrixXd(length * by);
+    });
+    add("the picture is read line by line (rolling shutter)", kReading, [&](const Sight& sight) {
+      return MatrixXd(sight.motion.velocity * sight.motion.position[1] / length);
+    });
+  }
+  add(chain.in_space ? "the axes drift" : "the camera drifts", kDrifting, [&](const Sight& sight) {
+    MatrixXd by = MatrixXd::Zero(components, components * kKnots);
+    for (Index i = 0; i < components; ++i) by.row(i).segment(i * kKnots, kKnots) = hats(sight.time);
     return by;
   });
   for (std::size_t point = 0; point < names.size(); ++point)
     add(fmt::format("{} slips along the cable", names[point]), kSlipping, [&](const Sight& sight) {
-      if (sight.point != point) return Eigen::Matrix2Xd(Eigen::Matrix2Xd::Zero(2, kKnots));
-      const Vector2d along(std::sin(sight.motion[4]), std::cos(sight.motion[4]));
-      return Eigen::Matrix2Xd(along * hats(sight.time));
+      if (sight.point != point) return MatrixXd(MatrixXd::Zero(components, kKnots));
+      return MatrixXd(sight.motion.along * hats(sight.time));
     });
   return errors;
 }

@@ -18,9 +18,10 @@ struct SensorError {
 };
 
 /// The lens and the direction of the camera, a picture that is read line by line, a camera that
-/// drifts, and each marker that slips along the cable; about the motion of the paths. `lengths`: of
-/// the links, m. None where a recording has angles.
-std::vector<SensorError> sensor_errors(const ForcePaths& paths, const Eigen::VectorXd& lengths);
+/// drifts, and each marker that slips along the cable; about the motion of the paths. Of positions in space: axes that
+/// drift, a calibration that maps straight lines to straight lines but no more, and slipping markers. None where a
+/// recording has angles, or pictures of cameras in space.
+std::vector<SensorError> sensor_errors(const ForcePaths& paths, const LinkChain& chain);
 
 /// The largest log evidence of a problem with the error and without forces, over three sizes of its
 /// prior.

@@ -347,15 +347,22 @@ void add_before_after(const Diagnosis& diagnosis, std::vector<ReportFigure>& fig
     compare(name_of(diagnosis, rounds[k]), rounds[k - 1], rounds[k]);
 }
 
+/// Of "side density".
+std::string direction_of(const ForceHistory& history) {
+  for (const char* const direction : {"side", "across"})
+    if (history.quantity.starts_with(direction)) return direction;
+  return "down";
+}
+
 /// A density over place and time.
 Figure density_map(const ForceHistory& history, double maximum) {
   Figure figure;
   figure.title = fmt::format("Missing force: {} by arc length and time", history.quantity);
-  figure.caption = history.quantity.starts_with("side")
-                       ? "Positive values push to the side that counts as positive. The maps of "
-                         "both directions share one scale of colours."
-                       : "Positive values push down. The maps of both directions share one scale "
-                         "of colours.";
+  figure.caption =
+      fmt::format("Positive values push {}. The maps of all directions share one scale of colours.",
+                  direction_of(history) == "down"   ? "down"
+                  : direction_of(history) == "side" ? "to the side that counts as positive"
+                                                    : "across, the way that counts as positive");
   figure.x = {"time", "s"};
   HeatMap& map = figure.heat_map.emplace();
   map.x = history.time;
@@ -436,13 +443,12 @@ void add_missing_force(const Diagnosis& diagnosis, std::vector<ReportFigure>& fi
                            "", history.experiment);
     }
   for (const ForceHistory& history : force.densities) {
-    const bool side = history.quantity.starts_with("side");
-    add_diagnosis_figure(figures, side ? "missing_force_side" : "missing_force_down",
+    add_diagnosis_figure(figures, "missing_force_" + direction_of(history),
                          density_map(history, maximum), "", "", history.experiment);
     if (force.one_place) continue;
     const std::size_t row = strongest_row(history);
     add_diagnosis_figure(
-        figures, side ? "missing_force_bands_side" : "missing_force_bands_down",
+        figures, "missing_force_bands_" + direction_of(history),
         bands(history, {row},
               fmt::format("Missing force: {} at {}", history.quantity, history.rows[row])),
         "", "", history.experiment);

@@ -259,6 +259,44 @@ TEST_CASE("axes of a recording that are not plumb are found, and by how much") {
             2 * each.half_width());
 }
 
+TEST_CASE("a spring across that no library has is discovered in space") {
+  const testing::TemporaryFolder folder;
+  folder.write("wall.toml", R"toml(format = 1
+kind = "effect"
+id = "wall"
+title = "Spring to a wall"
+description = "From the middle of the cable, across."
+[parameters.spring]
+unit = "N/m"
+neutral = 0
+description = "Stiffness"
+[constants.place]
+value = 0.5
+unit = "m"
+[constants.width]
+value = 1e-5
+unit = "m"
+[[potential]]
+at = "link_centre"
+value = "(tanh((place - arc + length/2)/width) - tanh((place - arc - length/2)/width))/2*spring*across^2/2"
+)toml");
+  const double spring = 0.3;  // N/m
+  const Case the_case = filmed_with(folder, "\"wall.toml\"", known("wall.spring", spring));
+  DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares, {});
+  const Diagnosis found = diagnose(
+      the_case, context, {.max_effects = 0, .max_links = the_case.links, .discover = true});
+  CAPTURE(found.sentence);
+  CHECK(found.verdict == DiagnosisVerdict::kDiscovered);
+  CHECK(found.sentence.find("across force = -linear x (across position - rest) at arc length 0.") !=
+        std::string::npos);
+  const auto stiffness =
+      std::find_if(found.parameters.begin(), found.parameters.end(),
+                   [](const auto& each) { return each.name == "discovered_law.linear"; });
+  REQUIRE(stiffness != found.parameters.end());
+  CHECK(std::abs(stiffness->value - spring) < 2 * stiffness->half_width());
+  CHECK(stiffness->half_width() < 0.1 * spring);
+}
+
 TEST_CASE("nothing is found in space where nothing is missing") {
   const testing::TemporaryFolder folder;
   const Case the_case = filmed_with(folder, "", "");

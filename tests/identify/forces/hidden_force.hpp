@@ -156,8 +156,8 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
   const double length = lengths.sum();
   const Eigen::VectorXd constant = Eigen::VectorXd::Constant(lengths.size(), 1 / length);
   const std::vector<ForcePattern> patterns = {
-      gusts.spread ? density_pattern(ForceDirection::kSide, "constant", constant, lengths)
-                   : point_pattern(ForceDirection::kSide, 0.5 * length, lengths)};
+      gusts.spread ? density_pattern(ForceDirection::kSide, "constant", constant, {lengths})
+                   : point_pattern(ForceDirection::kSide, 0.5 * length, {lengths})};
   IntervalIntegrator integrate(problem.model(), parameters, problem.experiments()[0].signals,
                                patterns, {}, 1.0 / 960);
   const std::vector<double> start = filmed.film.start();
@@ -171,8 +171,9 @@ inline void push(Filmed& filmed, const Gusts& gusts) {
   for (std::size_t frame = 0; frame < recording.time.size(); ++frame) {
     for (std::size_t p = 0; p < recording.points.size(); ++p) {
       const Eigen::ArrayXd reach =
-          point_pattern(ForceDirection::kSide, recording.points[p].arc_length, lengths)
-              .side.array() *
+          point_pattern(ForceDirection::kSide, recording.points[p].arc_length, {lengths})
+              .carried.col(0)
+              .array() *
           lengths.array();
       const auto row = static_cast<Eigen::Index>(2 * p), column = static_cast<Eigen::Index>(frame);
       const Eigen::ArrayXd angles = state.head(lengths.size()).array();
@@ -230,9 +231,9 @@ inline Recovery recovery(const Eigen::MatrixXd& size, const Eigen::MatrixXd& dev
 inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hidden,
                                   const MissingForce& found) {
   const auto& history = found.everywhere.at(0);
+  const MissingForce::OverTime& modes = history.normal_modes.at(0);
   if (filmed.gust_modes.size() > 0)
-    return recovery(history.normal_modes, history.normal_modes_deviation, filmed.gust_modes,
-                    history.time);
+    return recovery(modes.value, modes.deviation, filmed.gust_modes, history.time);
   const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
   const double length = filmed.film.cable().length, place = true_place(filmed.film);
   const truth::Motion motion =
@@ -242,7 +243,7 @@ inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hid
     truth(0, k) = force[k] * std::cos(motion.angle[static_cast<std::size_t>(k)][0]) / length;
     truth(1, k) = 3 * (2 * place / length - 1) * truth(0, k);
   }
-  return recovery(history.normal_modes, history.normal_modes_deviation, truth, history.time);
+  return recovery(modes.value, modes.deviation, truth, history.time);
 }
 
 /// Of the side force at the place that was found.

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -45,6 +46,33 @@ VectorXd state_of(int links, double first, double step, double rate, double rate
   return state;
 }
 
+LawChain chain_of(int links, bool in_space) {
+  return {{lengths_of(links), in_space}, in_space ? 3 * links : links, kGravity};
+}
+
+/// The same in the plane or, with azimuths, in space.
+VectorXd state_on(const LawChain& chain, double first, double step, double rate, double rate_step) {
+  const auto links = static_cast<int>(chain.lengths.size());
+  const VectorXd plane = state_of(links, first, step, rate, rate_step);
+  if (!chain.in_space) return plane;
+  VectorXd state(6 * links);
+  for (int k = 0; k < links; ++k) {
+    const double angle = plane[k], turning = plane[links + k];
+    const double azimuth = 0.4 + 0.3 * k, winding = 0.6 - 0.2 * k;
+    const Eigen::Vector3d outwards(std::cos(azimuth), 0, std::sin(azimuth));
+    const Eigen::Vector3d around(-std::sin(azimuth), 0, std::cos(azimuth));
+    const Eigen::Vector3d down(0, 1, 0);
+    const Eigen::Vector3d along = std::sin(angle) * outwards + std::cos(angle) * down;
+    const Eigen::Vector3d faster = turning * (std::cos(angle) * outwards - std::sin(angle) * down) +
+                                   winding * std::sin(angle) * around;
+    for (int i = 0; i < 3; ++i) {
+      state[i * links + k] = along[i];
+      state[3 * links + i * links + k] = faster[i];
+    }
+  }
+  return state;
+}
+
 struct MadeLaw {
   CandidateLaw law;
   std::vector<int> form;
@@ -55,12 +83,12 @@ struct MadeLaw {
 
 /// Every variable of every kind of site with a formula of two terms where it has one, and the first
 /// variable of each grammar with every kind of term. No coefficient gives energy.
-std::vector<MadeLaw> laws_of_all_pairs() {
-  LawMotion visited{MatrixXd(4, 4), {0, 0.2, 0.4, 0.6}};
+std::vector<MadeLaw> laws_of_all_pairs(bool in_space) {
+  const LawChain chain = chain_of(2, in_space);
+  LawMotion visited{MatrixXd(2 * chain.coordinates, 4), {0, 0.2, 0.4, 0.6}};
   Index node = 0;
   for (const double at : {-1.0, -0.4, 0.3, 0.9})
-    visited.state.col(node++) = state_of(2, at, -0.5 * at, 2 * at, -3 * at);
-  const LawChain chain{lengths_of(2), 2, kGravity};
+    visited.state.col(node++) = state_on(chain, at, -0.5 * at, 2 * at, -3 * at);
   std::vector<MadeLaw> laws;
   std::set<std::vector<std::vector<int>>> grammars;  // by their forms
   for (const LawSite& site :
@@ -103,16 +131,24 @@ std::vector<MadeLaw> laws_of_all_pairs() {
 VectorXd accelerations_of(int links) { return VectorXd::LinSpaced(links, 2, -5); }
 
 /// The generalised force of a law at a state.
-VectorXd force_of(const MadeLaw& made, const VectorXd& at, int links) {
+VectorXd force_of(const MadeLaw& made, const VectorXd& at, const LawChain& chain) {
+  const auto links = static_cast<int>(chain.lengths.size());
   VectorXd state(at.size() + links);
   using Kind = CandidateLaw::Formula::Kind;
   const Kind kind = made.found.formula.kind;
   VectorXd beside = accelerations_of(links);
   if (kind != Kind::kMass) beside.setConstant(kind == Kind::kTime ? kTime : kStretch);
   state << at, beside;
-  const CandidateLaw law =
-      links == 2 ? made.law : made.law.on({lengths_of(links), links, kGravity});
-  return law.force(state, made.form) * made.coefficients;
+  const CandidateLaw law = links == 2 ? made.law : made.law.on(chain);
+  const VectorXd torques = law.force(state, made.form) * made.coefficients;
+  if (!chain.in_space) return torques;
+  VectorXd force(3 * links);
+  for (int k = 0; k < links; ++k) {
+    const Eigen::Vector3d along(at[k], at[links + k], at[2 * links + k]);
+    const Eigen::Vector3d on_link = torques.segment<3>(3 * k).cross(along);
+    for (int i = 0; i < 3; ++i) force[i * links + k] = on_link[i];
+  }
+  return force;
 }
 
 /// The model laws of N.toml in the folder. C without optimisation is compiled in a quarter of the time of C++.
@@ -131,8 +167,10 @@ Model compiled_model(const std::filesystem::path& folder, int links) {
 
 }  // namespace
 
-TEST_CASE("one effect of every law does the law's force in chains of two and of three links") {
-  const std::vector<MadeLaw> laws = laws_of_all_pairs();
+namespace {
+
+void check_effects_of_all_laws(bool in_space) {
+  const std::vector<MadeLaw> laws = laws_of_all_pairs(in_space);
   const testing::TemporaryFolder folder;
   std::string all, inside;
   for (std::size_t i = 0; i < laws.size(); ++i) {
@@ -147,9 +185,10 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
   }
   for (const int links : {2, 3}) {
     CAPTURE(links);
+    const LawChain chain = chain_of(links, in_space);
     folder.write(fmt::format("{}.toml", links),
-                 fmt::format("format = 1\nkind = \"model\"\nid = \"laws\"\neffects = [{}]\n",
-                             links == 2 ? all : inside));
+                 fmt::format("format = 1\nkind = \"model\"\nid = \"laws\"\n{}effects = [{}]\n",
+                             in_space ? "space = \"3d\"\n" : "", links == 2 ? all : inside));
     const Model model = compiled_model(folder.path(), links);
     VectorXd plain = model.default_parameters();
     for (Index i = 0; i < plain.size(); ++i)
@@ -157,14 +196,14 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
     for (Index k = 0; k < links; ++k)
       plain[model.parameter_index(fmt::format("length_{}", k + 1))] = lengths_of(links)[k];
     // A one-sided spring acts in one of them at least.
-    const VectorXd states[] = {state_of(links, 0.3, -0.7, 1.1, -1.8),
-                               state_of(links, -1, 0.45, 0.7, 0.9)};
-    const VectorXd faster = accelerations_of(links);
+    const VectorXd states[] = {state_on(chain, 0.3, -0.7, 1.1, -1.8),
+                               state_on(chain, -1, 0.45, 0.7, 0.9)};
+    const VectorXd faster = accelerations_of(static_cast<int>(chain.coordinates));
     const VectorXd stretches = VectorXd::Constant(model.states(), kStretch);
     const auto residual = [&](const VectorXd& state, const VectorXd& parameters) {
-      VectorXd r(links);
-      model.residual({kTime, state.data(), state.data() + links, faster.data(), stretches.data(),
-                      nullptr, parameters.data()},
+      VectorXd r(chain.coordinates);
+      model.residual({kTime, state.data(), state.data() + chain.coordinates, faster.data(),
+                      stretches.data(), nullptr, parameters.data()},
                      r.data());
       return r;
     };
@@ -179,19 +218,29 @@ TEST_CASE("one effect of every law does the law's force in chains of two and of 
           with[model.parameter_index(fmt::format("law_{}.{}", i, constant.name))] = constant.value;
       double largest = 0;
       for (const VectorXd& state : states)
-        largest = std::max(largest, force_of(made, state, links).norm());
+        largest = std::max(largest, force_of(made, state, chain).norm());
       REQUIRE(largest > 1e-6);
       // The residual is what is lacking: a force lowers it.
       for (const VectorXd& state : states) {
         const VectorXd change = residual(state, plain) - residual(state, with);
-        CHECK((change - force_of(made, state, links)).norm() < 1e-8 * largest);
+        CHECK((change - force_of(made, state, chain)).norm() < 1e-8 * largest);
       }
     }
   }
 }
 
+}  // namespace
+
+TEST_CASE("one effect of every law does the law's force in chains of two and of three links") {
+  check_effects_of_all_laws(false);
+}
+
+TEST_CASE("one effect of every law does the law's force in chains in space") {
+  check_effects_of_all_laws(true);
+}
+
 TEST_CASE("a law against a velocity that drives it is refused, term by term") {
-  const LawChain chain{lengths_of(2), 2, kGravity};
+  const LawChain chain{{lengths_of(2)}, 2, kGravity};
   LawMotion motion{MatrixXd(4, 2), {0, 1}};
   motion.state << state_of(2, 0.1, 0, 0.1, 0), state_of(2, 1, 0, 1, 0);
   const std::vector<LawMotion> visited = {motion};
