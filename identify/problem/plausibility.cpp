@@ -76,6 +76,7 @@ class Check {
     check_case();
     if (spec_.kind == DataKind::kMarkers) {
       if (!check_end()) return std::move(warnings_);  // what follows rests on the length
+      if (!check_tracked()) return std::move(warnings_);
       if (check_scale() && (listed_upwards() || check_neighbours())) check_support();
       check_direction();
     } else {
@@ -145,6 +146,31 @@ class Check {
                        " m along the cable, and the cable is " + rounded(length_) +
                        " m long; are both in m, and is the length right?");
     return false;
+  }
+
+  /// Whether every marker moves where its neighbours do. A tracker that lost a marker repeats its last place.
+  bool check_tracked() {
+    bool tracked = true;
+    for (Index p = 0; p < points() && !held_; ++p) {
+      Index first = 0;  // of the frames that repeat one place
+      for (Index k = 1; k < frames(); ++k) {
+        if (at(p, k) != at(p, first)) first = k;
+        const auto moves = [&](Index q) {
+          return arc(q) >= arc(p) / 2 && arc(q) <= 2 * arc(p) &&
+                 (at(q, k) - at(q, first)).norm() > limits_.moves_others * length_;
+        };
+        Index other = 0;
+        while (other < points() && !moves(other)) ++other;
+        if (other == points()) continue;
+        while (k + 1 < frames() && at(p, k + 1) == at(p, first)) ++k;
+        warn("markers", name(p) + " stays where it is from " + rounded(time(first)) + " to " +
+                            rounded(time(k)) + " s, while " + name(other) +
+                            " moves; if the tracker lost it, leave these fields of the file empty");
+        tracked = false;
+        break;
+      }
+    }
+    return tracked;
   }
 
   double chord(Index p) const {

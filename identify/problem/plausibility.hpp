@@ -27,6 +27,9 @@ struct PlausibilityLimits {
   /// rad: the mean direction from the first to the last marker, from the downward vertical. A cable
   /// that swings freely hangs down on average.
   double hardly_sideways = 1.2, hardly_upwards = 2.0;
+  /// How far a marker moves, in lengths of the cable, while one that is at most twice as far from the support
+  /// cannot rest, to the last digit. At a clamp it moves a fourth of that at least.
+  double moves_others = 0.1;
   /// Period of the lowest mode: 0.82 (a rod) to 1 (a bob), to 1.2 at an amplitude of 90 degrees. A
   /// stiff cable is faster.
   double hardly_slower = 1.5, hardly_faster = 0.25;

@@ -29,6 +29,7 @@ struct Film {
   double support[2] = {0, 0};                // in the file
   int down = 1;                              // which way the second column grows
   std::string time_unit = "s";
+  double lost = 1e9;  // s: when the tracker loses the second marker
   std::function<void(Case&)> mistake = [](Case&) {};
 
   std::string csv() const {
@@ -37,8 +38,11 @@ struct Film {
       const double t = k / rate;
       const double unit = time_unit == "s" ? 1 : time_unit == "ms" ? 1e3 : rate;
       text += std::to_string(t * unit);
-      const double angle = 0.7 * std::cos(2.6 * std::max(0.0, t - held));
+      const auto angle_at = [&](double time) {
+        return 0.7 * std::cos(2.6 * std::max(0.0, time - held));
+      };
       for (const double arc : {0.4, 0.9, kLength}) {
+        const double angle = angle_at(arc == 0.9 ? std::min(t, lost) : t);
         text += "," + std::to_string(support[0] + metre * arc * std::sin(angle));
         text += "," + std::to_string(support[1] + metre * down * arc * std::cos(angle));
       }
@@ -232,6 +236,14 @@ TEST_CASE("a start that is not the release is named") {
   film = {};
   film.held = 0.8;
   expect(film.said(), {"from: the cable is held until 0.8", "from = 0.8"});
+}
+
+TEST_CASE("a marker that the tracker lost is named, and no length for it") {
+  Film film;
+  film.lost = 2.1;
+  const std::string said = film.said();
+  expect(said, {"markers: marker 2 stays where it is from 2.1 to 6 s, while marker 3 moves; "});
+  CHECK(said.find("length_unit") == std::string::npos);
 }
 
 TEST_CASE("noise, fit_until and masses in another unit are named") {
