@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "common/in_a_line.hpp"
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
 #include "common/most_links.hpp"
@@ -56,7 +57,7 @@ CableGeometry read_cable(const TomlTable& table, int links) {
 ParameterSpec read_parameter(const TomlTable& table) {
   ParameterSpec parameter;
   parameter.where = table.file() + ":" + std::to_string(table.line());
-  parameter.name = table.text("name");
+  parameter.name = in_a_line(table.text("name"));
   if (parameter.name.empty()) table.fail("name", "empty; a name is needed as label in the results");
   parameter.sets = table.text("sets");
   parameter.unit = table.optional_text("unit").value_or("");

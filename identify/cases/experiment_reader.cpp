@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "common/in_a_line.hpp"
 #include "common/in_quotes.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
@@ -22,14 +23,14 @@ PointSpec read_point(const TomlTable& table, DataKind kind, int number, int link
   PointSpec point;
   const std::string index = std::to_string(number);
   if (kind == DataKind::kAngles) {
-    point.name = table.optional_text("name").value_or("angle " + index);
+    point.name = in_a_line(table.optional_text("name").value_or("angle " + index));
     point.angle_column = table.text("column");
     point.link = count(table, "link", number, 1);
     if (point.link > links)
       table.fail("link", std::to_string(point.link) + "; there are " + std::to_string(links));
     return point;
   }
-  point.name = table.optional_text("name").value_or("marker " + index);
+  point.name = in_a_line(table.optional_text("name").value_or("marker " + index));
   point.side_column = table.text("side");
   point.down_column = table.text("down");
   point.across_column = table.optional_text("across").value_or("");
@@ -128,7 +129,8 @@ ExperimentSpec read_experiment(const TomlTable& table, int number, int links,
                                const std::filesystem::path& directory, const HandedIn& recordings) {
   ExperimentSpec experiment;
   experiment.where = table.file() + ":" + std::to_string(table.line());
-  experiment.name = table.optional_text("name").value_or("experiment " + std::to_string(number));
+  experiment.name =
+      in_a_line(table.optional_text("name").value_or("experiment " + std::to_string(number)));
   if (const auto handed_in = recordings.find(experiment.name); handed_in != recordings.end()) {
     experiment.table = handed_in->second;
     experiment.data = directory / table.optional_text("data").value_or(experiment.name + ".csv");

@@ -197,9 +197,8 @@ TEST_CASE("forces of patterns on links in space are those of virtual work, and t
     for (Index j = 0; j < 9; ++j) {
       const VectorXd step = kStep * VectorXd::Unit(9, j);
       const Vector3d by = (position(q + step) - position(q - step)) / (2 * kStep);
-      CHECK(force_at(q)[j] == doctest::Approx(by[static_cast<Index>(pattern.direction)])
-                                  .epsilon(1e-6)
-                                  .scale(1));
+      CHECK(force_at(q)[j] ==
+            doctest::Approx(by[static_cast<Index>(pattern.direction)]).epsilon(1e-6).scale(1));
     }
   }
 }
@@ -216,9 +215,8 @@ TEST_CASE("gusts in space: the two lowest modes of the force normal to the cable
   MatrixXd modes = MatrixXd::Zero(6, frames), value(6, frames), deviation(6, frames);
   for (Index k = 0; k < frames; ++k) {
     const double t = history.time[static_cast<std::size_t>(k)];
-    const Vector3d gust =
-        kGust * Vector3d(std::sin(kSlow * t) + std::cos(kFast * t), 0,
-                         std::cos(kSlow * t) - std::sin(kFast * t));
+    const Vector3d gust = kGust * Vector3d(std::sin(kSlow * t) + std::cos(kFast * t), 0,
+                                           std::cos(kSlow * t) - std::sin(kFast * t));
     for (Index link = 0; link < kLinks; ++link) {
       const Vector3d along = direction_of(truth, k, link);
       const Vector3d across = (gust - along.dot(gust) * along) / kLinks;
@@ -239,7 +237,8 @@ TEST_CASE("gusts in space: the two lowest modes of the force normal to the cable
   CHECK(modes_found.covered > 0.9);
 }
 
-TEST_CASE("a spring across is found in space: its place, its direction, its force over time, its law") {
+TEST_CASE(
+    "a spring across is found in space: its place, its direction, its force over time, its law") {
   const auto [found, truth] = film("wall", kWall, "wall.spring", kSpring, 241);
   REQUIRE(found.found);
   CHECK(found.share > 0.9);
