@@ -15,6 +15,7 @@
 #include "common/toml_quoted.hpp"
 #include "common/toml_reader.hpp"
 #include "common/whole_file.hpp"
+#include "description/effect_checks.hpp"
 #include "description/expression_syntax.hpp"
 
 namespace catena {
@@ -163,6 +164,7 @@ std::string why_not_in(Space space, const Effect& effect) {
 std::string conflict_in(const Description& description) {
   bool clamped = false, has_axis = false, swings = false;
   std::map<int, std::string> held;  // by link: what holds it
+  std::string tension;              // what uses the tension
   for (const Effect& effect : description.effects) {
     if (const std::string why = why_not_in(description.space, effect); !why.empty())
       return in_quotes(effect.id) + " " + why;
@@ -182,6 +184,11 @@ std::string conflict_in(const Description& description) {
                (link > 0 ? " of link " + std::to_string(link) : "") + ", beside " +
                in_quotes(held.at(link)) + "; leave one away";
     }
+    tension = names_in(effect).contains(kSteadyTension) ? effect.id : tension;
+    if (!held.empty() && !tension.empty())
+      return in_quotes(tension) + " uses " + kSteadyTension +
+             ", which is what hangs below a joint; beside " + in_quotes(held.begin()->second) +
+             ", which holds the cable, too, it has no meaning. Leave one away";
     swings = swings || effect.moves_load();
     if (!held.empty() && swings)
       return in_quotes(effect.id) +

@@ -106,9 +106,13 @@ class Checks {
     for (const ExtraState& state : effect_.states) states.insert(state.name);
     times = with_definitions(times), rates = with_definitions(rates);
     states = with_definitions(states), relative = with_definitions(relative);
+    const std::set<std::string> tensions = with_definitions({kSteadyTension});
     const std::string instead = "; give a force or a torque instead";
     for (const ScalarTerm& term : effect_.scalars) {
       refuse(term.value, relative, "cannot stand here: the fluid that moves does work" + instead);
+      if (term.kind != ScalarKind::kTorque)
+        refuse(term.value, tensions,
+               "cannot stand here: its own change with the motion would be a force, too" + instead);
       if (term.kind != ScalarKind::kPotential && term.kind != ScalarKind::kKinetic) continue;
       refuse(term.value, times, "cannot stand in an energy: it would change with time" + instead);
       refuse(term.value, states, "cannot stand in an energy: states are not coordinates" + instead);
@@ -129,25 +133,7 @@ class Checks {
   }
 
   void check_all_used() const {
-    std::set<std::string> used;
-    const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
-    for (const Definition& definition : effect_.definitions) use(definition.value);
-    for (const ForceTerm& force : effect_.forces) {
-      for (const Expression* expression : {&force.side, &force.down, &force.across, &force.normal,
-                                           &force.tangential, &force.along, &force.value})
-        use(*expression);
-    }
-    for (const ScalarTerm& term : effect_.scalars) use(term.value);
-    for (const ExtraState& state : effect_.states) use(state.rate);
-    for (const Expression* expression :
-         {&effect_.flow.side, &effect_.flow.down, &effect_.flow.across, &effect_.sensor.side,
-          &effect_.sensor.down, &effect_.sensor.across, &effect_.sensor.angle,
-          &effect_.sensor.clock}) {
-      use(*expression);
-    }
-    for (const Expression* expression : effect_.support.all()) use(*expression);
-    for (const Expression* expression : effect_.held_end.all()) use(*expression);
-    each_kinematic(use);
+    const std::set<std::string> used = names_in(effect_);
     if (effect_.flow.given() && std::none_of(used.begin(), used.end(), [](const std::string& name) {
           return name.starts_with("relative_");
         })) {
@@ -173,6 +159,28 @@ class Checks {
 };
 
 }  // namespace
+
+std::set<std::string> names_in(const Effect& effect) {
+  std::set<std::string> used;
+  const auto use = [&](const Expression& expression) { used.merge(names_in(expression)); };
+  for (const Definition& definition : effect.definitions) use(definition.value);
+  for (const ForceTerm& force : effect.forces) {
+    for (const Expression* expression : {&force.side, &force.down, &force.across, &force.normal,
+                                         &force.tangential, &force.along, &force.value})
+      use(*expression);
+  }
+  for (const ScalarTerm& term : effect.scalars) use(term.value);
+  for (const ExtraState& state : effect.states) use(state.rate);
+  for (const Expression* expression :
+       {&effect.flow.side, &effect.flow.down, &effect.flow.across, &effect.sensor.side,
+        &effect.sensor.down, &effect.sensor.across, &effect.sensor.angle, &effect.sensor.clock}) {
+    use(*expression);
+  }
+  for (const Expression* expression : effect.support.all()) use(*expression);
+  for (const Expression* expression : effect.held_end.all()) use(*expression);
+  for (const Expression* expression : effect.kinematics.all()) use(*expression);
+  return used;
+}
 
 void check_consistency(const Effect& effect) {
   const Checks checks(effect);

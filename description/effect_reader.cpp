@@ -54,6 +54,7 @@ const std::set<std::string, std::less<>>& reserved_names() {
                                                            "inertia",
                                                            "joint_angle",
                                                            "joint_rate",
+                                                           kSteadyTension,
                                                            "stiffness",
                                                            "damping",
                                                            "arc",

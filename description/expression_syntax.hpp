@@ -30,6 +30,10 @@ struct SyntaxNode {
   std::vector<SyntaxNode> operands;
 };
 
+/// What expressions at joints call the force along the link below, N, that weight and turning at constant rates
+/// make. It depends on the whole motion, so it stands in forces, torques and rates of states only.
+inline constexpr const char* kSteadyTension = "steady_tension";
+
 /// The tree of an expression. Throws InputError "file:line: key: in "text": problem".
 SyntaxNode parse_syntax(const Expression& expression);
 

@@ -49,6 +49,7 @@ const std::map<std::string, Letter>& letters() {
       {"inertia", {"I", "I", "", 0}},
       {"joint_angle", {"\\varphi", "&#966;", "", 0}},
       {"joint_rate", {"\\varphi", "&#966;", "", 1}},
+      {kSteadyTension, {"T", "T", "", 0}},
       {"stiffness", {"k", "k", "", 0}},
       {"damping", {"c", "c", "", 0}},
       {"arc", {"s", "s", "", 0}},

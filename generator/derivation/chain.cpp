@@ -6,6 +6,8 @@
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "description/effect_checks.hpp"
+#include "description/expression_syntax.hpp"
 
 namespace catena {
 
@@ -62,6 +64,9 @@ Chain::Chain(const Description& description, int links, const std::string& only_
   check_held();
   make_inputs();
   make_kinematics();
+  if (std::any_of(description_.effects.begin(), description_.effects.end(),
+                  [](const Effect& effect) { return names_in(effect).contains(kSteadyTension); }))
+    add_steady_tensions();
   add_chain_terms();
   hold();
   for (const Effect& effect : description_.effects) {
@@ -282,14 +287,18 @@ ex Chain::speed_squared(const std::vector<ex>& position) {
   return sum;
 }
 
+ex Chain::squared_rate(Link i) {
+  if (in_plane()) return theta_dot_[i] * theta_dot_[i];
+  std::vector<ex> direction;
+  for (const Axis axis : axes()) direction.push_back(direction_[axis][i]);
+  return speed_squared(direction);
+}
+
 void Chain::add_chain_terms() {
   const auto at = [&](const Points& points, Link k) {
     std::vector<ex> position;
     for (const Axis axis : axes()) position.push_back(points[axis][k]);
     return position;
-  };
-  const auto turning = [&](Link k) {
-    return in_plane() ? theta_dot_[k] * theta_dot_[k] : speed_squared(at(direction_, k));
   };
   hanging_depth_.resize(1);
   joint_cosine_.resize(1);
@@ -299,7 +308,7 @@ void Chain::add_chain_terms() {
   for (Link k = 1; k <= links_; ++k) {
     if (wanted("kinetic")) {
       ex energy =
-          kHalf * mass_[k] * speed_squared(at(centre_, k)) + kHalf * inertia_[k] * turning(k);
+          kHalf * mass_[k] * speed_squared(at(centre_, k)) + kHalf * inertia_[k] * squared_rate(k);
       if (!in_plane()) {
         const ex rate = time_.of(direction_square_[k]);
         energy +=
@@ -320,7 +329,7 @@ void Chain::add_chain_terms() {
   }
   if (wanted("kinetic")) {
     add_kinetic("kinetic", kHalf * load_mass_ * speed_squared(load_) +
-                               kHalf * load_inertia_ * turning(links_));
+                               kHalf * load_inertia_ * squared_rate(links_));
   }
   if (wanted("gravity")) {
     const ex height =

@@ -172,6 +172,8 @@ class Chain {
   bool in_plane() const { return description_.space == Space::kPlane; }
   /// The square of the velocity of a point that has these components.
   ex speed_squared(const std::vector<ex>& position);
+  /// Of the angular velocity of a link.
+  ex squared_rate(Link i);
 
   void check_held() const;
   void make_inputs();
@@ -181,6 +183,7 @@ class Chain {
   void turn_clamp();
   void place_bend_axis();
   std::vector<ex> rest_bend(Link i);
+  void add_steady_tensions();
   void place_held();
   void clamp_end(const Effect& effect);
   void hold();
@@ -282,7 +285,8 @@ class Chain {
   Points centre_;                     ///< mass centre of link i
   Points middle_;                     ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
-  std::vector<ex> joint_cosine_;  ///< in space
+  std::vector<ex> steady_tension_;  ///< in joint i; empty: no effect asks for it
+  std::vector<ex> joint_cosine_;    ///< in space
   Points link_turning_, joint_turning_,
       joint_cross_;                         ///< in space, [axis]: angular velocity of a link, of
                                             ///< a joint; cross product of its links

@@ -228,6 +228,8 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
     add("spacing", spacing(i), "m");
     if (knowledge != kShape) add_point();
     if (motion) {
+      if (!steady_tension_.empty())
+        add(kSteadyTension, steady_tension_[static_cast<std::size_t>(i)], "N");
       if (in_plane()) {
         add("joint_angle", joint_angle_[i], "rad");
         add("joint_rate", time_.of(joint_angle_[i]), "rad/s");

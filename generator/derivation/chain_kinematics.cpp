@@ -207,4 +207,35 @@ void Chain::make_kinematics() {
   for (const Axis axis : axes()) point_[axis].push_back(load_[axis]);
 }
 
+// The force that hangs below a joint, along the link below it, while all links turn at constant rates: there a joint
+// accelerates against the joints above by -rate^2 (its place - theirs). With angular accelerations in it, a
+// force of the tension would stand in the mass matrix.
+void Chain::add_steady_tensions() {
+  const ex plumb[] = {sin_tilt_, cos_tilt_, 0};
+  steady_tension_.assign(static_cast<std::size_t>(links_) + 1, 0);
+  for (const Axis axis : axes()) {
+    const auto always = [&](const char* family, Link i, const ex& value) {
+      return definitions_.define_always(family + ending(axis), i, value);
+    };
+    // Gravity less the acceleration, of the far end of a link and of its mass centre.
+    ex end = plumb[axis] * gravity_ - time_.of(time_.of(joint_[axis][0]));
+    std::vector<ex> centre(1);
+    for (Link i = 1; i <= links_; ++i) {
+      const ex offset = kinematic(&Kinematics::centre_offset, "m", Place::kLink, i);
+      const ex towards = squared_rate(i) * direction_[axis][i];
+      centre.push_back(end + towards * (reach_[i] / 2 + offset));
+      end = always("steady_fall", i, end + towards * reach_[i]);
+    }
+    ex pull = always("steady_pull", links_ + 1, load_mass_ * end);
+    for (Link i = links_; i >= 1; --i) {
+      pull = always("steady_pull", i, pull + mass_[i] * centre[static_cast<std::size_t>(i)]);
+      steady_tension_[static_cast<std::size_t>(i)] += pull * direction_[axis][i];
+    }
+  }
+  for (Link i = 1; i <= links_; ++i) {
+    ex& tension = steady_tension_[static_cast<std::size_t>(i)];
+    tension = definitions_.define("steady_tension", i, tension);
+  }
+}
+
 }  // namespace catena

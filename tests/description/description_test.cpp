@@ -77,6 +77,10 @@ TEST_CASE("errors in a description name their line") {
   folder.write("lift.toml",
                "format = 1\nkind = \"effect\"\nid = \"lift\"\ntitle = \"Lift\"\n"
                "description = \"Moves the load\"\n[kinematics]\nload_across = \"0.5\"\n");
+  folder.write("rub.toml",
+               "format = 1\nkind = \"effect\"\nid = \"rub\"\ntitle = \"Rub\"\n"
+               "description = \"Over the tension\"\n[[torque]]\nat = \"joint\"\n"
+               "value = \"-steady_tension*joint_rate\"\n");
   struct Row {
     std::string body, said;
   };
@@ -118,6 +122,10 @@ TEST_CASE("errors in a description name their line") {
        ":4: effects: \"middle\" holds a point of the cable, which needs space = \"3d\""},
       {"effects = [\"lift.toml\"]\n",
        ":4: effects: \"lift\" moves the load across the plane, which needs space = \"3d\""},
+      {"space = \"3d\"\neffects = [\"rub.toml\", \"holds.toml\"]\n",
+       ":5: effects: \"rub\" uses steady_tension, which is what hangs below a joint; beside "
+       "\"holds\", "
+       "which holds the cable, too, it has no meaning. Leave one away"},
       {"efects = []\n", ":4: unknown key \"efects\"; did you mean \"effects\"?"},
   };
   for (const Row& row : rows) {

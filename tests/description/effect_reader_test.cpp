@@ -303,6 +303,15 @@ TEST_CASE("errors in an effect name their line") {
       {"[[definition]]\nname = \"w\"\nat = \"load\"\nvalue = \"velocity_side\"\n" +
            energy("potential", "w"),
        "drag.toml:12: potential.value: in \"w\": \"w\" cannot stand in a potential"},
+      {energy("dissipation", "steady_tension"),
+       "drag.toml:8: dissipation.value: in \"steady_tension\": \"steady_tension\" cannot stand "
+       "here: "
+       "its own change"},
+      {"[[definition]]\nname = \"t\"\nat = \"joint\"\nvalue = \"steady_tension\"\n" +
+           energy("kinetic", "t"),
+       "drag.toml:12: kinetic.value: in \"t\": \"t\" cannot stand here: its own change"},
+      {"[parameters.steady_tension]\nunit = \"N\"\n" + kForce,
+       "drag.toml:6: parameters.steady_tension: \"steady_tension\" has a meaning in expressions"},
       {"[[state]]\nname = \"z\"\nunit = \"m\"\nper = \"joint\"\nrate = \"1\"\n" +
            energy("potential", "z"),
        "drag.toml:13: potential.value: in \"z\": \"z\" cannot stand in an energy: states are not"},
