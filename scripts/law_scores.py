@@ -40,10 +40,10 @@ class Law:
         self.constants |= {"here": 1.0, "offset": 0.0, "gravity": GRAVITY}  # at its place
         self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
         self.potential = "potential" in law
-        self.at = None
-        if "force" in law:  # it remembers or depends on the time: no function of the state
-            return
-        energy = law["potential" if self.potential else "dissipation"][0]
+        self.at = self.along = None
+        self.remembers = "state" in law
+        energy = law["force" if "force" in law else "potential" if self.potential else "dissipation"][0]
+        self.along = energy.get("along")  # of what remembers, or depends on the time: `value` is the force
         one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))
         self.at = energy["at"] if one_place else None
         self.energy = compile(energy["value"].replace("^", "**"), "effect", "eval")
@@ -70,12 +70,23 @@ class Law:
         return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) - self.mass * state.get(f"acceleration_{name}", 0.0)
                 for name in names]  # fmt: skip
 
-
-def slopes(values, times):
-    """By differences of neighbours."""
-    last = len(times) - 1
-    ends = [(max(k - 1, 0), min(k + 1, last)) for k in range(len(times))]
-    return [(values[b] - values[a]) / (times[b] - times[a]) for a, b in ends]
+    def histories(self, true, where):
+        """Its parts over time, where it remembers or depends on the time: of `true`, by frames."""
+        time, forces = true["time_s"], [0.0] * len(true["time_s"])
+        if self.remembers:
+            axis = "joint_angle" if self.at == "joint" else where + ("down" if "down" in self.along else "side")
+            followed = true[axis]
+            stretch, lag = 0.0, self.constants["lag"]
+            for k in range(1, len(time)):
+                step = (time[k] - time[k - 1]) / lag
+                stretch = math.exp(-step) * stretch + (1 - math.exp(-step)) / step * (followed[k] - followed[k - 1])
+                forces[k] = -self.constants["spring"] * stretch
+        else:
+            forces = [self._energy({"time": t}) for t in time]
+        nothing = [0.0] * len(time)
+        if self.at == "joint":
+            return [forces]
+        return [nothing, forces] if "down" in self.along else [forces, nothing]
 
 
 def curve_error(found, forces):
@@ -88,18 +99,18 @@ def curve_error(found, forces):
     elif law.at in PLACES:
         where = PLACES[law.at]
         there = [true[f"{where}force_side"], true[f"{where}force_down"]]
-        for axis in ("side", "down"):
-            true[f"{where}acceleration_{axis}"] = slopes(true[f"{where}velocity_{axis}"], true["time_s"])
         states = ("side", "down", "velocity_side", "velocity_down", "acceleration_side", "acceleration_down", "angle")
     else:
         return None
     size = math.hypot(*map(rms, there))
     if size == 0:
         return None
-    errors = []
-    for k, truth in enumerate(zip(*there)):
-        says = law.force({name: true[where + name][k] for name in states})
-        errors.append(math.hypot(*(a - b for a, b in zip(says, truth))))
+    frames = range(len(true["time_s"]))
+    if law.along:
+        says = zip(*law.histories(true, where))
+    else:
+        says = (law.force({name: true[where + name][k] for name in states}) for k in frames)
+    errors = [math.hypot(*(a - b for a, b in zip(said, truth))) for said, truth in zip(says, zip(*there))]
     return rms(errors) / size
 
 

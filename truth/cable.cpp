@@ -194,7 +194,8 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
     if (i == n_ / 2 - 1) {  // the link whose lower end is mid-cable
       const Vector force = middle_force(t, centre.position, centre.velocity, centre.acceleration);
       lack[k] = lack[k] + force;
-      if (outside) outside->middle = {centre.position, centre.velocity, q[i], force};
+      if (outside)
+        outside->middle = {centre.position, centre.velocity, centre.acceleration, q[i], force};
     }
     end = beyond(link_, 1.0);
   }
@@ -207,7 +208,9 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                               end.acceleration + (-d * v[n_ - 1] * v[n_ - 1]) * along[last] +
                                   (d * a[n_ - 1]) * across[last]};
   const Vector on_load = load_force(t, load_centre.position, load_centre.velocity);
-  if (outside) outside->load = {load_centre.position, load_centre.velocity, q[n_ - 1], on_load};
+  if (outside)
+    outside->load = {load_centre.position, load_centre.velocity, load_centre.acceleration,
+                     q[n_ - 1], on_load};
   Vector carried = load * (gravity - load_centre.acceleration) + on_load -
                    h.load_added_mass * load_centre.acceleration;
 

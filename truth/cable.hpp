@@ -33,9 +33,9 @@ struct Motion {
 /// the joint at mid-cable, and the motion there.
 struct OutsideForces {
   struct AtPoint {
-    Vector position, velocity;  // m, m/s
-    double angle = 0;           // rad, of the link
-    Vector force;               // N, on the cable or the load
+    Vector position, velocity, acceleration;  // m, m/s, m/s^2
+    double angle = 0;                         // rad, of the link
+    Vector force;                             // N, on the cable or the load
   };
   double time = 0;  // s
   AtPoint middle, load;

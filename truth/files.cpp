@@ -75,8 +75,8 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
                           const std::filesystem::path& path) {
   std::string text = "time_s";
   for (const char* where : {"middle_", "load_"})
-    for (const char* what :
-         {"side", "down", "velocity_side", "velocity_down", "angle", "force_side", "force_down"})
+    for (const char* what : {"side", "down", "velocity_side", "velocity_down", "acceleration_side",
+                             "acceleration_down", "angle", "force_side", "force_down"})
       text.append(",").append(where).append(what);
   text += ",joint_angle,joint_rate,joint_moment\n";
   for (const OutsideForces& row : forces) {
@@ -85,8 +85,9 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
       for (const double value : values) text.append(",").append(number(value));
     };
     for (const OutsideForces::AtPoint* at : {&row.middle, &row.load})
-      add({at->position.side, at->position.down, at->velocity.side, at->velocity.down, at->angle,
-           at->force.side, at->force.down});
+      add({at->position.side, at->position.down, at->velocity.side, at->velocity.down,
+           at->acceleration.side, at->acceleration.down, at->angle, at->force.side,
+           at->force.down});
     add({row.joint_angle, row.joint_rate, row.joint_moment});
     text += '\n';
   }
