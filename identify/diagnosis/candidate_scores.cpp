@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -12,6 +13,7 @@
 #include "identify/diagnosis/stacking.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
+#include "identify/fit/error.hpp"
 
 namespace catena {
 
@@ -31,23 +33,26 @@ constexpr const char* kOtherWayRound = "would have to act the other way round";
 struct ScoredStart {
   Score score;
   std::vector<int> columns;
-  std::vector<std::pair<std::string, double>> start;
+  RefitStart start;  // of the effect
   VectorXd shape;
+  VectorXd moves;  // the residuals, linearised
 };
 
-/// The start of the best score, and as another one the best whose shape is not next to that.
-void take_best(Explanation& explanation, std::vector<ScoredStart>& scores) {
+/// The start of the best score, and as another one the best whose shape is not next to that; each with
+/// the base `beside` what it moves.
+void take_best(Explanation& explanation, std::vector<ScoredStart>& scores,
+               const std::function<VectorXd(const VectorXd& moves)>& beside) {
   std::stable_sort(scores.begin(), scores.end(), [](const ScoredStart& a, const ScoredStart& b) {
     return a.score.removed > b.score.removed;
   });
   if (scores.empty()) return;
   const ScoredStart& best = scores.front();
   explanation.score = best.score;
-  explanation.start = best.start;
+  explanation.start = {best.start.of_effect, beside(best.moves)};
   for (const ScoredStart& other : scores)
-    if (explanation.other_start.empty() && other.shape.size() > 0 &&
+    if (!explanation.other_start.given() && other.shape.size() > 0 &&
         (other.shape - best.shape).norm() > kNotNeighbours * best.shape.norm())
-      explanation.other_start = other.start;
+      explanation.other_start = {other.start.of_effect, beside(other.moves)};
 }
 
 const CandidateParameter& parameter(const Candidate& candidate, int index) {
@@ -75,23 +80,28 @@ ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, const MatrixX
   scored.score = test.score(scored.columns);
   if (!scored.score.admissible) return scored;
   const VectorXd& estimate = scored.score.estimate;
+  scored.moves = VectorXd::Zero(at_zero.rows());
   for (std::size_t a = 0; a < amplitudes.size(); ++a) {
     const CandidateParameter& p = parameter(candidate, amplitudes[a]);
+    const auto column = static_cast<Index>(a);
     if (!at_quarter) {
-      scored.start.emplace_back(p.name, p.neutral + estimate[static_cast<Index>(a)]);
+      scored.start.of_effect.emplace_back(p.name, p.neutral + estimate[column]);
+      scored.moves += estimate[column] * at_zero.col(column);
       continue;
     }
     // a sin(w t) + b cos(w t) = sqrt(a^2 + b^2) sin(w t + atan2(b, a))
-    const double sine = estimate[static_cast<Index>(2 * a)];
-    const double cosine = estimate[static_cast<Index>(2 * a + 1)];
-    scored.start.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
+    const double sine = estimate[2 * column];
+    const double cosine = estimate[2 * column + 1];
+    scored.moves += sine * at_zero.col(column) + cosine * at_quarter->col(column);
+    scored.start.of_effect.emplace_back(p.name, p.neutral + std::hypot(sine, cosine));
     for (const int q : candidate.with_role(ParameterRole::kPhase))
       if (parameter(candidate, q).amplitude == amplitudes[a])
-        scored.start.emplace_back(parameter(candidate, q).name, std::atan2(cosine, sine));
+        scored.start.of_effect.emplace_back(parameter(candidate, q).name, std::atan2(cosine, sine));
   }
   const std::vector<int> shapes = candidate.with_role(ParameterRole::kShape);
   for (std::size_t s = 0; s < shapes.size(); ++s)
-    scored.start.emplace_back(parameter(candidate, shapes[s]).name, shape[static_cast<Index>(s)]);
+    scored.start.of_effect.emplace_back(parameter(candidate, shapes[s]).name,
+                                        shape[static_cast<Index>(s)]);
   return scored;
 }
 
@@ -218,10 +228,7 @@ std::vector<Explanation> CandidateScores::score(bool own_models) {
   context.stop_if_asked();  // runs that were left out have no columns
 
   const MatrixXd& common = plan.runs.front().columns;
-  if (!test_)
-    test_ = std::make_unique<ScoreTest>(
-        stacked(search_.base.fit_residual, search_.base.fit_residual, search_.noise),
-        common.leftCols(plan.fitted));
+  if (!test_) begin_test(common.leftCols(plan.fitted));
   std::vector<Explanation> found;
   score_start(common.middleCols(plan.fitted, plan.start), found);
   for (std::size_t i = 0; i < context.library().size(); ++i)
@@ -230,6 +237,35 @@ std::vector<Explanation> CandidateScores::score(bool own_models) {
     return a.score.removed > b.score.removed;
   });
   return found;
+}
+
+void CandidateScores::begin_test(const MatrixXd& jacobian) {
+  const FittedModel& base = search_.base;
+  const VectorXd residual = stacked(base.fit_residual, base.fit_residual, search_.noise);
+  test_ = std::make_unique<ScoreTest>(residual, jacobian);
+
+  const std::vector<Prior> priors = priors_of(*base.problem);
+  const Index seen = residual.size(), rows = seen + static_cast<Index>(priors.size());
+  left_ = VectorXd::Zero(rows);
+  left_.head(seen) = residual;
+  MatrixXd along = MatrixXd::Zero(rows, base.x.size());
+  Index column = 0;  // as plan() has them
+  for (const Unknown& unknown : all_->unknowns())
+    if (const Index j = unknown_index(*base.problem, unknown.name); j >= 0)
+      along.col(j).head(seen) = jacobian.col(column++);
+  for (std::size_t p = 0; p < priors.size(); ++p) {
+    const Prior& prior = priors[p];
+    const Index row = seen + static_cast<Index>(p);
+    left_[row] = (base.x[prior.unknown] - prior.measured) / prior.deviation;
+    along(row, prior.unknown) = 1 / prior.deviation;
+  }
+  fit_.emplace(*base.problem, base.x, along);
+}
+
+VectorXd CandidateScores::base_beside(const VectorXd& moves) const {
+  VectorXd error = -left_;
+  error.head(moves.size()) -= moves;
+  return search_.base.x + (*fit_)(error);
 }
 
 void CandidateScores::score_start(const MatrixXd& derivatives, std::vector<Explanation>& out) {
@@ -279,7 +315,7 @@ Explanation CandidateScores::score_candidate(const Plan& plan, std::size_t index
       consider(plan.runs[r].columns, with_phase ? &plan.runs[r + 1].columns : nullptr,
                plan.runs[r].shape);
   }
-  take_best(explanation, scores);
+  take_best(explanation, scores, [&](const VectorXd& moves) { return base_beside(moves); });
   // What would act the other way round alone may be there beside something else.
   best_columns_[candidate.id] =
       scores.empty() ? tried_[candidate.id].front() : scores.front().columns;
@@ -359,7 +395,8 @@ void CandidateScores::score_limit(const Candidate& candidate, Explanation& expla
     explanation.score = test_->score(columns);
     if (explanation.score.admissible) {
       explanation.log10_p = significance(columns, explanation.score);
-      explanation.start.emplace_back(limit.name, 1 / explanation.score.estimate[0]);
+      const double estimate = explanation.score.estimate[0];
+      explanation.start = {{{limit.name, 1 / estimate}}, base_beside(estimate * column)};
     }
     break;
   }

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "identify/diagnosis/bounded_fit.hpp"
 #include "identify/diagnosis/candidate_search.hpp"
 #include "identify/diagnosis/explanation.hpp"
 #include "identify/diagnosis/maximum_statistic.hpp"
@@ -60,6 +62,10 @@ class CandidateScores {
   void add_runs_of(const Candidate& candidate, Plan& plan, Place& place) const;
   Eigen::MatrixXd columns(const Run& run) const;
 
+  /// `jacobian`: of the base's residuals, by its unknowns in the order of the common run.
+  void begin_test(const Eigen::MatrixXd& jacobian);
+  /// The base's unknowns, moved as its linearised fit moves them where something `moves` its residuals.
+  Eigen::VectorXd base_beside(const Eigen::VectorXd& moves) const;
   void score_start(const Eigen::MatrixXd& derivatives, std::vector<Explanation>& out);
   Explanation score_candidate(const Plan& plan, std::size_t index);
   void score_limit(const Candidate& candidate, Explanation& explanation);
@@ -71,6 +77,8 @@ class CandidateScores {
   std::vector<double> frequencies_;          // Hz, where the residuals have lines
   std::map<std::string, std::string> same_;  // those that go by the name of another one
   std::unique_ptr<ScoreTest> test_;          // of the base
+  Eigen::VectorXd left_;                     // the base's residuals and what its priors leave
+  std::optional<BoundedFit> fit_;            // of the base, to these
   TriedColumns tried_;                       // in it
   std::map<std::string, std::vector<int>> best_columns_;  // of each effect, at its best shape
 };

@@ -24,6 +24,7 @@ DiagnosisContext::DiagnosisContext(const Case& the_case, const std::vector<fs::p
                                    ProviderOptions provider_options)
     : least_squares(std::move(solver)),
       provider(std::move(provider_options)),
+      asked_simulation(the_case.simulation),
       original_(model_to_diagnose(the_case)),
       folder_(std::move(folder)),
       library_(library_of_candidates(effect_files, original_, the_case)) {}

@@ -70,6 +70,7 @@ class DiagnosisContext {
 
   LeastSquares least_squares;
   ProviderOptions provider;
+  const SimulationSpec asked_simulation;  ///< by the case; the search simulates more roughly
   const std::atomic<bool>* stop = nullptr;
   int threads = 2;
   std::function<void(const DiagnosisProgress&)> notice;  ///< told whenever something begins or ends

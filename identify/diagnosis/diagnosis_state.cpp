@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/nearest_name.hpp"
+#include "identify/diagnosis/close_simulation.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -45,6 +46,7 @@ void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
     found.noise = of_model;
   }
   found.noise = best_known(found.noise, of_model);
+  model = simulated_closely(std::move(model), found.noise, context);
   Stage next;
   next.effects = std::move(effects);
   next.added = added;

@@ -58,7 +58,7 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
   entry.admissible = explanation.score.admissible;
   entry.significance = std::pow(10, std::min(0.0, explanation.log10_p + log10_tried));
   entry.note = explanation.note;
-  entry.estimate = explanation.start;
+  entry.estimate = explanation.start.of_effect;
   if (explanation.refitted) {
     results::Refit& refit = entry.refit.emplace();
     refit.fit = explanation.fit.rms;

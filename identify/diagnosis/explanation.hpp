@@ -11,17 +11,25 @@
 
 namespace catena {
 
+/// Where a refit may begin.
+struct RefitStart {
+  /// Of the effect, by the names of the unknowns: amplitudes, shapes and phases found by the score.
+  std::vector<std::pair<std::string, double>> of_effect;
+  /// Of the base, moved beside these as the linearised fit moves them; empty: as they are.
+  Eigen::VectorXd of_base;
+
+  bool given() const { return !of_effect.empty(); }
+};
+
 /// One explanation held against a fitted model: an effect, or a rival that is none.
 struct Explanation {
   std::string id, title;
   int candidate = -1;  ///< index into the library; -1: a rival
   Score score;
-  /// Starting values by the names of the unknowns: amplitudes, shapes and phases found by the
-  /// score.
-  std::vector<std::pair<std::string, double>> start;
-  std::vector<std::pair<std::string, double>> other_start;  ///< of the best shape elsewhere
-  double log10_p = 0;  ///< of the predicted fall, for one candidate
-  std::string note;    ///< why it was not tried, or what to know about it
+  RefitStart start;
+  RefitStart other_start;  ///< of the best shape elsewhere
+  double log10_p = 0;      ///< of the predicted fall, for one candidate
+  std::string note;        ///< why it was not tried, or what to know about it
 
   bool refitted = false;
   FittedModel model;      ///< of the refit

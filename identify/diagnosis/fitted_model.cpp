@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identify/diagnosis/stacking.hpp"
+#include "identify/fit/error.hpp"
 #include "identify/fit/estimated_noise.hpp"
 #include "identify/problem/evaluation.hpp"
 
@@ -91,14 +92,29 @@ FittedModel assess(std::shared_ptr<const Problem> problem, const VectorXd& x,
   return model;
 }
 
+namespace {
+
+/// Least squares are of white residuals.
+Problem to_fit(const Problem& problem, const std::vector<NoiseModel>& noise) {
+  const bool squares = problem.the_case().error.measure == Measure::kLeastSquares;
+  return squares ? with_noise(problem, noise) : problem;
+}
+
+}  // namespace
+
+double error_to_fit(const Problem& problem, const VectorXd& x, const std::vector<NoiseModel>& noise,
+                    const std::function<bool()>& keep_going) {
+  const Problem fitted = to_fit(problem, noise);
+  return error_of(fitted, evaluate(fitted, x, false, false, keep_going), Part::kFit);
+}
+
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& start,
                       const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
                       const std::atomic<bool>* stop) {
   FitOptions options;
   options.start = start;
   options.stop = stop;
-  const bool squares = problem->the_case().error.measure == Measure::kLeastSquares;
-  const FitResult result = least_squares(squares ? with_noise(*problem, noise) : *problem, options);
+  const FitResult result = least_squares(to_fit(*problem, noise), options);
   if (result.status == FitStatus::kFailed || result.x.size() == 0) {
     FittedModel failed;
     failed.problem = std::move(problem);

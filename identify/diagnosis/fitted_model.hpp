@@ -40,6 +40,11 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
                       const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
                       const std::atomic<bool>* stop);
 
+/// What fit_model makes small, at these unknowns; infinite where the simulation fails. `keep_going`: false
+/// at a step of the integrator ends it.
+double error_to_fit(const Problem& problem, const Eigen::VectorXd& x,
+                    const std::vector<NoiseModel>& noise, const std::function<bool()>& keep_going);
+
 /// The noise of every experiment, as the model's residuals show it: estimated_noise().
 std::vector<NoiseModel> noise_of(const FittedModel& model);
 

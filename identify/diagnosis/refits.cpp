@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/parallel.hpp"
+#include "common/special_values.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/problem/evaluation.hpp"
@@ -45,16 +46,33 @@ long steps_of(const FittedModel& model) {
 /// What one search and its refits share.
 struct Refits {
   const CandidateSearch& search;
-  /// Fits in which a simulation that takes far more steps than the base's has failed.
+  /// Of the integrator: a simulation that takes far more than the base's has failed.
+  long most_steps;
+  /// Fits with that.
   LeastSquares least_squares;
 
-  explicit Refits(const CandidateSearch& of) : search(of) {
-    const long most = kThresholds.steps_of_refits * steps_of(search.base);
-    least_squares = [&solver = search.context.least_squares, most](const Problem& problem,
-                                                                   FitOptions options) {
+  explicit Refits(const CandidateSearch& of)
+      : search(of), most_steps(kThresholds.steps_of_refits * steps_of(of.base)) {
+    least_squares = [&solver = search.context.least_squares, most = most_steps](
+                        const Problem& problem, FitOptions options) {
       options.most_steps = most;
       return solver(problem, options);
     };
+  }
+
+  /// Of some starts the one that leaves least; the first where no simulation succeeds.
+  const VectorXd& best(const Problem& problem, const std::vector<VectorXd>& starts) const {
+    const VectorXd* best = &starts.front();
+    double least = kInfinite;
+    for (const VectorXd& start : starts) {
+      long steps = 0;
+      const double error =
+          error_to_fit(problem, start, search.noise, [&] { return ++steps <= most_steps; });
+      if (error >= least) continue;
+      least = error;
+      best = &start;
+    }
+    return *best;
   }
 };
 
@@ -90,20 +108,25 @@ void refit_effect(const Refits& refits, Explanation& explanation, bool far) {
   const CandidateSearch& search = refits.search;
   const Candidate& candidate = candidate_of(search, explanation);
   const auto problem = search.problem_with(candidate);
-  const auto start = [&](const std::vector<std::pair<std::string, double>>& values) {
-    VectorXd x = transfer(*search.base.problem, search.base.x, *problem);
-    for (const auto& [name, value] : values)
+  // The effect with a share of its amplitudes, beside the base as the linearised fit has it then, or as
+  // it is: what promises less.
+  const auto with_effect = [&](const RefitStart& start, const VectorXd& base, double share) {
+    VectorXd x = transfer(*search.base.problem, base, *problem);
+    for (const auto& [name, value] : start.of_effect)
       if (const Index j = unknown_index(*problem, name); j >= 0) x[j] = value;
-    return x;
+    return scaled(candidate, *problem, x, share);
   };
-  const auto fit = [&](const VectorXd& x, double factor) {
-    fit_from(refits, explanation, problem, scaled(candidate, *problem, x, factor));
+  const auto fit = [&](const RefitStart& start, double share) {
+    const VectorXd& base = search.base.x;
+    std::vector<VectorXd> starts = {with_effect(start, base, share), with_effect(start, base, 0)};
+    if (start.of_base.size() > 0)
+      starts.push_back(with_effect(start, base + share * (start.of_base - base), share));
+    fit_from(refits, explanation, problem, refits.best(*problem, starts));
   };
-  const VectorXd x = start(explanation.start);
-  fit(x, 1);
+  fit(explanation.start, 1);
   if (!far || candidate.own_model) return;  // which is expensive enough once
-  fit(x, kSmallerStart);
-  if (!explanation.other_start.empty()) fit(start(explanation.other_start), 1);
+  fit(explanation.start, kSmallerStart);
+  if (explanation.other_start.given()) fit(explanation.other_start, 1);
 }
 
 void refit(const Refits& refits, Explanation& explanation, bool far) {
