@@ -155,7 +155,7 @@ const NewtonMatrix<double>& factored(const double* work) {
 }
 CATENA_EACH_PROCESSOR
 int32_t c_newton_factor(const void*, const catena_point* at, double ca, double cv, double cq,
-                        double* work) {
+                        double* __restrict work) {
   auto&& matrix = matrix_in(work);
   newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();

@@ -470,20 +470,17 @@ void term_elastic(const Point<T>& at, T* r) {
   const FromOne<T> theta(at.q);
   T joint_moment[61];
   {
-    const T joint_angle = theta[60] - theta[59];
-    joint_moment[60] = stiffness[60] * joint_angle;
-    r[59] = joint_moment[60];
-  }
-  for (int i = 59; i >= 2; --i) {
-    const T joint_angle = theta[i] - theta[i - 1];
-    joint_moment[i] = stiffness[i] * joint_angle;
-    r[i - 1] = joint_moment[i] - joint_moment[i + 1];
-  }
-  {
     const T joint_angle = theta[1];
     joint_moment[1] = stiffness[1] * joint_angle;
-    r[0] = joint_moment[1] - joint_moment[2];
   }
+  for (int i = 2; i <= 60; ++i) {
+    const T joint_angle = theta[i] - theta[i - 1];
+    joint_moment[i] = stiffness[i] * joint_angle;
+  }
+  for (int i = 1; i <= 59; ++i) {
+    r[i - 1] = joint_moment[i] - joint_moment[i + 1];
+  }
+  r[59] = joint_moment[60];
 }
 
 /// The term friction of r alone.
@@ -494,20 +491,17 @@ void term_friction(const Point<T>& at, T* r) {
   const FromOne<T> theta_dot(at.v);
   T joint_moment[61];
   {
-    const T joint_rate = theta_dot[60] - theta_dot[59];
-    joint_moment[60] = damping[60] * joint_rate;
-    r[59] = joint_moment[60];
-  }
-  for (int i = 59; i >= 2; --i) {
-    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-    joint_moment[i] = damping[i] * joint_rate;
-    r[i - 1] = joint_moment[i] - joint_moment[i + 1];
-  }
-  {
     const T joint_rate = theta_dot[1];
     joint_moment[1] = damping[1] * joint_rate;
-    r[0] = joint_moment[1] - joint_moment[2];
   }
+  for (int i = 2; i <= 60; ++i) {
+    const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+    joint_moment[i] = damping[i] * joint_rate;
+  }
+  for (int i = 1; i <= 59; ++i) {
+    r[i - 1] = joint_moment[i] - joint_moment[i + 1];
+  }
+  r[59] = joint_moment[60];
 }
 
 /// The term torque of r alone.

@@ -115,7 +115,7 @@ const NewtonMatrix<double> factored(const void* context, const double* work) {
 }
 CATENA_EACH_PROCESSOR
 int32_t c_newton_factor(const void* context, const catena_point* at, double ca, double cv,
-                        double cq, double* work) {
+                        double cq, double* __restrict work) {
   auto&& matrix = matrix_in(context, work);
   chain(context).newton_matrix(point(at), ca, cv, cq, matrix);
   return matrix.factor();

@@ -530,20 +530,17 @@ struct Chain {
     const FromOne<T> theta(at.q);
     T joint_moment[links + 1];
     {
-      const T joint_angle = theta[links] - theta[links - 1];
-      joint_moment[links] = stiffness[links] * joint_angle;
-      r[links - 1] = joint_moment[links];
-    }
-    for (int i = links - 1; i >= 2; --i) {
-      const T joint_angle = theta[i] - theta[i - 1];
-      joint_moment[i] = stiffness[i] * joint_angle;
-      r[i - 1] = joint_moment[i] - joint_moment[i + 1];
-    }
-    {
       const T joint_angle = theta[1];
       joint_moment[1] = stiffness[1] * joint_angle;
-      r[0] = joint_moment[1] - joint_moment[2];
     }
+    for (int i = 2; i <= links; ++i) {
+      const T joint_angle = theta[i] - theta[i - 1];
+      joint_moment[i] = stiffness[i] * joint_angle;
+    }
+    for (int i = 1; i <= links - 1; ++i) {
+      r[i - 1] = joint_moment[i] - joint_moment[i + 1];
+    }
+    r[links - 1] = joint_moment[links];
   }
 
   /// The term friction of r alone.
@@ -555,20 +552,17 @@ struct Chain {
     const FromOne<T> theta_dot(at.v);
     T joint_moment[links + 1];
     {
-      const T joint_rate = theta_dot[links] - theta_dot[links - 1];
-      joint_moment[links] = damping[links] * joint_rate;
-      r[links - 1] = joint_moment[links];
-    }
-    for (int i = links - 1; i >= 2; --i) {
-      const T joint_rate = theta_dot[i] - theta_dot[i - 1];
-      joint_moment[i] = damping[i] * joint_rate;
-      r[i - 1] = joint_moment[i] - joint_moment[i + 1];
-    }
-    {
       const T joint_rate = theta_dot[1];
       joint_moment[1] = damping[1] * joint_rate;
-      r[0] = joint_moment[1] - joint_moment[2];
     }
+    for (int i = 2; i <= links; ++i) {
+      const T joint_rate = theta_dot[i] - theta_dot[i - 1];
+      joint_moment[i] = damping[i] * joint_rate;
+    }
+    for (int i = 1; i <= links - 1; ++i) {
+      r[i - 1] = joint_moment[i] - joint_moment[i + 1];
+    }
+    r[links - 1] = joint_moment[links];
   }
 
   /// The term torque of r alone.

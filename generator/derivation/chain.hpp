@@ -115,7 +115,8 @@ class Chain {
   const std::vector<GiNaC::ex>& coordinates() const { return coordinates_; }
   const std::vector<GiNaC::ex>& rates() const { return rates_; }
   const std::vector<GiNaC::ex>& accelerations() const { return accelerations_; }
-  /// In space: the generalised force of the unit vector of link i, [axis][i], i = 1 ... n.
+  /// In space: the unit vector along link i, [axis][i], i = 1 ... n, and its generalised force.
+  const std::vector<std::vector<GiNaC::ex>>& directions() const { return direction_; }
   const std::vector<std::vector<GiNaC::ex>>& direction_forces() const { return direction_force_; }
   /// Of the last coordinates, how many belong to constraints: three for each place that is held.
   int constraints() const { return 3 * static_cast<int>(held_.size()); }

@@ -21,8 +21,26 @@ ex entry(const Form& form, const Basis& basis) {
   return found == form.end() ? ex(0) : found->second;
 }
 
-Linearisation::Linearisation(Chain& chain, const Weights& weights)
+Linearisation::Linearisation(Chain& chain, const Weights& weights, Moving moving)
     : chain_(chain), definitions_(chain.definitions()), weights_(weights), links_(chain.links()) {
+  const auto move = [&](const ex& symbol, int component, const ex& weight) {
+    moved_[definitions_[definitions_.number_of(symbol)].family] = {component, weight};
+  };
+  if (moving == Moving::kCoordinates) {
+    equations_ = chain.residual();
+    for (int k = 0; k < components(); ++k) {
+      const size_t first = static_cast<size_t>(k) * static_cast<size_t>(links_);
+      move(chain.coordinates()[first], k, weights_.position);
+      move(chain.rates()[first], k, weights_.velocity);
+      move(chain.accelerations()[first], k, weights_.acceleration);
+    }
+  } else {
+    for (const Axis axis : chain.axes()) {
+      const std::vector<ex>& forces = chain.direction_forces()[axis];
+      equations_.insert(equations_.end(), forces.begin() + 1, forces.begin() + 1 + links_);
+      move(chain.rate(chain.rate(chain.directions()[axis][1])), axis, weights_.acceleration);
+    }
+  }
   for (size_t k = 0; k < chain.states().size(); ++k) {
     if (!chain.states()[k].is_equal(chain.path()))
       state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
@@ -34,7 +52,12 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights)
       reached_.insert(number);
     }
   }
-  reached_.merge(reached_from(chain.residual()));
+  reached_.merge(reached_from(equations_));
+  if (moving == Moving::kDirections) {
+    for (const ex& acceleration : chain.accelerations())
+      if (reached_.contains(definitions_.number_of(acceleration)))
+        throw NotOfThisForm("forces of directions depend on other accelerations than theirs");
+  }
   for (const int k : reached_) {
     const Symbol& symbol = definitions_[k];
     if (symbol.is_input || symbol.index == kNoIndex) continue;
@@ -42,16 +65,6 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights)
       if (definitions_[argument].family != symbol.family) continue;
       if (definitions_[argument].index == symbol.index - 1) down_.insert(symbol.family);
       if (definitions_[argument].index == symbol.index + 1) up_.insert(symbol.family);
-    }
-  }
-  const std::vector<std::pair<const std::vector<ex>*, ex>> moved = {
-      {&chain.coordinates(), weights_.position},
-      {&chain.rates(), weights_.velocity},
-      {&chain.accelerations(), weights_.acceleration}};
-  for (const auto& [symbols, weight] : moved) {
-    for (int k = 0; k < components(); ++k) {
-      const ex& first = symbols->at(static_cast<size_t>(k) * static_cast<size_t>(links_));
-      moved_[definitions_[definitions_.number_of(first)].family] = {k, weight};
     }
   }
   for (const auto& family : down_) {
@@ -153,7 +166,7 @@ std::set<int> Linearisation::reached_from(const std::vector<ex>& expressions) {
   while (!open.empty()) {
     const int number = open.back();
     open.pop_back();
-    reach(definitions_[number].value);
+    if (!moved_.contains(definitions_[number].family)) reach(definitions_[number].value);
   }
   return reached;
 }

@@ -40,10 +40,16 @@ using Form = std::map<Basis, GiNaC::ex>;
 /// Zero where the form has none.
 GiNaC::ex entry(const Form& form, const Basis& basis);
 
+/// What moves: the coordinates of the links, by equations that are the residual; or, in space, the second
+/// derivatives of the unit vectors along the links alone, by equations that are their generalised forces.
+enum class Moving { kCoordinates, kDirections };
+
 /// How a chain changes in an implicit step. Throws NotOfThisForm.
 class Linearisation {
  public:
-  Linearisation(Chain& chain, const Weights& weights);
+  Linearisation(Chain& chain, const Weights& weights, Moving moving = Moving::kCoordinates);
+  /// The equations of component a of link i, at a * links + i - 1; those of no link last.
+  const std::vector<GiNaC::ex>& equations() const { return equations_; }
   /// The change of an expression, in terms that are allowed at link i.
   Form at_link(const GiNaC::ex& expression, int i);
   /// The change of what belongs to no link, in u and in what is carried down to any link.
@@ -78,9 +84,10 @@ class Linearisation {
     int component;
     GiNaC::ex weight;
   };
+  std::vector<GiNaC::ex> equations_;
   std::map<std::string, Moved> moved_;    // families of q, v and a
   std::map<int, GiNaC::ex> state_rates_;  // of extra states, by the state's number
-  std::set<int> reached_;                 // definitions that the residual needs
+  std::set<int> reached_;                 // definitions that the equations need
   std::set<std::string> down_, up_;
   std::map<Basis, int> numbers_;
   std::map<int, Form> known_;

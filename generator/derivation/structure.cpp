@@ -108,7 +108,8 @@ void add_path(Chain& chain, const Weights& weights, const std::string& prefix,
   result.symmetric = false;
 }
 
-void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasiseparable& result) {
+void find(Chain& chain, const Weights& weights, const std::string& prefix, Moving moving,
+          Quasiseparable& result) {
   Definitions& definitions = chain.definitions();
   const int n = chain.links(), before = definitions.size();
   const size_t block = chain.axes().size() == 2 ? 1 : 3;
@@ -116,7 +117,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   if (chain.coordinates().size() != inner + border) {
     throw NotOfThisForm("there are coordinates besides one angle a link");
   }
-  Linearisation linearisation(chain, weights);
+  Linearisation linearisation(chain, weights, moving);
+  const std::vector<ex>& equations = linearisation.equations();
   const std::vector<std::string> down(linearisation.down().begin(), linearisation.down().end());
   const std::vector<std::string> up(linearisation.up().begin(), linearisation.up().end());
   const size_t links = static_cast<size_t>(n) + 2;
@@ -151,7 +153,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
     }
     for (size_t a = 0; a < block; ++a) {
       const size_t row = a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1;
-      Form r = linearisation.at_link(chain.residual()[row], i);
+      Form r = linearisation.at_link(equations[row], i);
       for (auto& [basis, coefficient] : r) {
         const std::string by = basis.family.empty() ? ending(basis.component) : basis.family;
         const std::string place = std::to_string(basis.index - i + 1);
@@ -178,10 +180,10 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
   const auto numbered = [](size_t k) { return "_" + std::to_string(k); };
   for (size_t k = 0; k < border; ++k) {
     Differential along = along_border(chain, weights, inner + k);
-    const Form row = linearisation.of_no_link(chain.residual()[inner + k]);
+    const Form row = linearisation.of_no_link(equations[inner + k]);
     for (int i = 1; i <= n; ++i) {
       for (size_t a = 0; a < block; ++a) {
-        const ex& r = chain.residual()[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
+        const ex& r = equations[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
         result.border_column[i][a][k] =
             definitions.named(along.of(r), joined({"border_column", ending(a), numbered(k)}), i);
         ex by_link = entry(row, perturbation(a, i));
@@ -194,9 +196,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
       }
     }
     for (size_t l = 0; l < border; ++l)
-      result.corner[l][k] =
-          definitions.named(along.of(chain.residual()[inner + l]),
-                            joined({"corner", numbered(l), numbered(k)}), kNoIndex);
+      result.corner[l][k] = definitions.named(
+          along.of(equations[inner + l]), joined({"corner", numbered(l), numbered(k)}), kNoIndex);
   }
   std::set<int> sums;
   for (int i = n; i >= 1; --i) {
@@ -326,10 +327,11 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Quasi
 
 }  // namespace
 
-Quasiseparable find_structure(Chain& chain, const Weights& weights, const std::string& prefix) {
+Quasiseparable find_structure(Chain& chain, const Weights& weights, const std::string& prefix,
+                              Moving moving) {
   Quasiseparable result;
   try {
-    find(chain, weights, prefix, result);
+    find(chain, weights, prefix, moving, result);
   } catch (const NotOfThisForm& why) {
     result = {};
     result.reason = why.what();

@@ -62,6 +62,7 @@ struct Quasiseparable {
 };
 
 /// `prefix` starts the names of the families it defines.
-Quasiseparable find_structure(Chain& chain, const Weights& weights, const std::string& prefix);
+Quasiseparable find_structure(Chain& chain, const Weights& weights, const std::string& prefix,
+                              Moving moving = Moving::kCoordinates);
 
 }  // namespace catena

@@ -46,5 +46,6 @@ REGISTER_FUNCTION(angle_over_sine_curvature, dummy())
 REGISTER_FUNCTION(inverse_square_root, eval_func(simplified_inverse_square_root)
                                            .evalf_func(value_of_inverse_square_root)
                                            .derivative_func(derivative_of_inverse_square_root))
+REGISTER_FUNCTION(sign_or_one, dummy())
 
 }  // namespace catena

@@ -15,5 +15,7 @@ DECLARE_FUNCTION_1P(angle_over_sine_slope)
 DECLARE_FUNCTION_1P(angle_over_sine_curvature)
 /// x^(-1/2).
 DECLARE_FUNCTION_1P(inverse_square_root)
+/// -1 of what is negative, else 1.
+DECLARE_FUNCTION_1P(sign_or_one)
 
 }  // namespace catena

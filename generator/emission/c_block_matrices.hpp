@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The C of matrices in blocks, of models in space: what generator/emission/support has as
-// block_semiseparable.hpp, from one end, and block_quasiseparable.hpp, which have the derivation.
+// tangent_semiseparable.hpp, from one end, and block_quasiseparable.hpp, which have the derivation.
 // @Matrix: the type; @matrix: what its functions begin with; @upper, @lower: ranks; @block: rows of a block.
 // With a border, of bordered.hpp: @whole is what the functions of the whole matrix begin with, @border the
 // number of its rows, @members its arrays.
@@ -9,25 +9,41 @@
 
 namespace catena {
 
-inline const char* const kBlockSemiseparable = R"(
-/* M_ij = row_i column_j' for j < i, in blocks of @block x @block, symmetric. Entry (a, r) of a row is in
-   array a * @lower + r, entry (a, b), b <= a, of a diagonal block in array a (a + 1) / 2 + b. */
+inline const char* const kTangentSemiseparable = R"(
+/* By two tangents of each link, component c of tangent k in array 3 k + c: M_ij = row_i column_j' for j < i, in
+   blocks of 2 x 2, symmetric. Entry (k, r) of a row is in array k * @lower + r, entry (k, l) of a diagonal block
+   in array k + l. `along` is the inertia of each direction along itself. */
 typedef struct {
-  double row[@block * @lower][kLinks], column[@block * @lower][kLinks];
-  double diagonal[@block * (@block + 1) / 2][kLinks];
+  double row[2 * @lower][kLinks], column[2 * @lower][kLinks], diagonal[3][kLinks];
+  double tangent[6][kLinks], along[kLinks], right[2 * kLinks];
 } MassMatrix;
+
+static double normal_of(const MassMatrix* matrix, int c, int i) {
+  const int d = (c + 1) % 3, e = (c + 2) % 3;
+  return matrix->tangent[d][i] * matrix->tangent[3 + e][i] -
+         matrix->tangent[e][i] * matrix->tangent[3 + d][i];
+}
 
 static void to_dense(const MassMatrix* matrix, double* M) {
   for (int i = 0; i < kLinks; ++i) {
     for (int j = 0; j <= i; ++j) {
-      for (int a = 0; a < @block; ++a) {
-        for (int b = 0; b < @block; ++b) {
-          const int high = a > b ? a : b, low = a > b ? b : a;
-          const int left = a * kLinks + i, right = b * kLinks + j;
-          double entry = 0.0;
-          if (i == j) entry = matrix->diagonal[high * (high + 1) / 2 + low][i];
+      double block[2][2];
+      for (int k = 0; k < 2; ++k) {
+        for (int l = 0; l < 2; ++l) {
+          block[k][l] = i == j ? matrix->diagonal[k + l][i] : 0.0;
           for (int r = 0; j < i && r < @lower; ++r)
-            entry += matrix->row[a * @lower + r][i] * matrix->column[b * @lower + r][j];
+            block[k][l] += matrix->row[k * @lower + r][i] * matrix->column[l * @lower + r][j];
+        }
+      }
+      for (int c = 0; c < 3; ++c) {
+        for (int d = 0; d < 3; ++d) {
+          const int left = c * kLinks + i, right = d * kLinks + j;
+          double entry = 0.0;
+          if (i == j) entry = matrix->along[i] * normal_of(matrix, c, i) * normal_of(matrix, d, i);
+          for (int k = 0; k < 2; ++k) {
+            for (int l = 0; l < 2; ++l)
+              entry += matrix->tangent[3 * k + c][i] * block[k][l] * matrix->tangent[3 * l + d][j];
+          }
           M[left * kCoordinates + right] = entry;
           M[right * kCoordinates + left] = entry;
         }
@@ -36,68 +52,56 @@ static void to_dense(const MassMatrix* matrix, double* M) {
   }
 }
 
-/* Overwrites x, the right-hand side, with the solution; uses the matrix up. Returns 0, or the 1-based
-   number of an unknown whose pivot is not positive. */
-static int32_t solve_in_place(MassMatrix* matrix, double* x) {
+/* Adds to a, which has what is along each direction, the tangents times the solution; uses the matrix up.
+   Returns 0, or the 1-based number of a coordinate of the link whose pivot is not positive. */
+static int32_t solve_in_place(MassMatrix* matrix, double* a) {
   double w[@lower][@lower] = {{0.0}}, carried[@lower] = {0.0}, sum[@lower] = {0.0};
+  double* const x = matrix->right;
   for (int j = kLinks - 1; j >= 0; --j) {
-    double column[@block][@lower], row[@block][@lower], scaled[@block][@lower];
-    double pivot[@block][@block], y[@block];
-    for (int a = 0; a < @block; ++a) {
-      y[a] = x[a * kLinks + j];
+    double column[2][@lower], row[2][@lower], pivot[2][2], y[2];
+    for (int k = 0; k < 2; ++k) {
+      y[k] = x[k * kLinks + j];
+      for (int l = 0; l < 2; ++l) pivot[k][l] = matrix->diagonal[k + l][j];
       for (int r = 0; r < @lower; ++r) {
-        column[a][r] = matrix->column[a * @lower + r][j];
-        row[a][r] = matrix->row[a * @lower + r][j];
+        column[k][r] = matrix->column[k * @lower + r][j];
+        row[k][r] = matrix->row[k * @lower + r][j];
       }
-      for (int b = 0; b <= a; ++b) pivot[a][b] = matrix->diagonal[a * (a + 1) / 2 + b][j];
     }
-    for (int a = 0; a < @block; ++a) {
+    for (int k = 0; k < 2; ++k) {
       for (int r = 0; r < @lower; ++r) {
         double reached = 0.0;
-        for (int s = 0; s < @lower; ++s) reached += w[r][s] * column[a][s];
-        for (int b = 0; b <= a; ++b) pivot[a][b] -= reached * column[b][r];
-        y[a] -= column[a][r] * carried[r];
-        row[a][r] -= reached;
+        for (int s = 0; s < @lower; ++s) reached += w[r][s] * column[k][s];
+        for (int l = 0; l < 2; ++l) pivot[k][l] -= reached * column[l][r];
+        y[k] -= column[k][r] * carried[r];
+        row[k][r] -= reached;
       }
     }
-    /* pivot = L D L' */
-    for (int k = 0; k < @block; ++k) {
-      if (!(pivot[k][k] > 0.0)) return k * kLinks + j + 1;
-      for (int a = k + 1; a < @block; ++a) {
-        const double factor = pivot[a][k] / pivot[k][k];
-        for (int b = k + 1; b <= a; ++b) pivot[a][b] -= factor * pivot[b][k];
-        for (int r = 0; r < @lower; ++r) row[a][r] -= factor * row[k][r];
-        y[a] -= factor * y[k];
-      }
-      for (int a = k + 1; a < @block; ++a) pivot[a][k] /= pivot[k][k];
+    /* pivot = L D L', row and y become L^-1 row and L^-1 y */
+    const double factor = pivot[1][0] / pivot[0][0], second = pivot[1][1] - factor * pivot[0][1];
+    if (!(pivot[0][0] > 0.0)) return j + 1;
+    if (!(second > 0.0)) return kLinks + j + 1;
+    y[1] -= factor * y[0];
+    for (int r = 0; r < @lower; ++r) row[1][r] -= factor * row[0][r];
+    for (int r = 0; r < @lower; ++r) {
+      const double scaled[2] = {row[0][r] / pivot[0][0], row[1][r] / second};
+      carried[r] += scaled[0] * y[0] + scaled[1] * y[1];
+      for (int s = 0; s < @lower; ++s) w[r][s] += scaled[0] * row[0][s] + scaled[1] * row[1][s];
+      matrix->row[@lower + r][j] = scaled[1];
+      matrix->row[r][j] = scaled[0] - factor * scaled[1];
     }
-    for (int a = 0; a < @block; ++a) {
-      for (int r = 0; r < @lower; ++r) {
-        scaled[a][r] = row[a][r] / pivot[a][a];
-        carried[r] += scaled[a][r] * y[a];
-        for (int s = 0; s < @lower; ++s) w[r][s] += scaled[a][r] * row[a][s];
-      }
-      y[a] /= pivot[a][a];
-    }
-    for (int k = @block - 1; k > 0; --k) {
-      for (int a = 0; a < k; ++a) {
-        for (int r = 0; r < @lower; ++r) scaled[a][r] -= pivot[k][a] * scaled[k][r];
-        y[a] -= pivot[k][a] * y[k];
-      }
-    }
-    for (int a = 0; a < @block; ++a) {
-      x[a * kLinks + j] = y[a];
-      for (int r = 0; r < @lower; ++r) matrix->row[a * @lower + r][j] = scaled[a][r];
-    }
+    x[kLinks + j] = y[1] / second;
+    x[j] = y[0] / pivot[0][0] - factor * x[kLinks + j];
   }
   for (int j = 0; j < kLinks; ++j) {
-    for (int a = 0; a < @block; ++a) {
+    for (int k = 0; k < 2; ++k) {
       for (int r = 0; r < @lower; ++r)
-        x[a * kLinks + j] -= matrix->row[a * @lower + r][j] * sum[r];
+        x[k * kLinks + j] -= matrix->row[k * @lower + r][j] * sum[r];
+      for (int c = 0; c < 3; ++c)
+        a[c * kLinks + j] += matrix->tangent[3 * k + c][j] * x[k * kLinks + j];
     }
-    for (int a = 0; a < @block; ++a) {
+    for (int k = 0; k < 2; ++k) {
       for (int r = 0; r < @lower; ++r)
-        sum[r] += matrix->column[a * @lower + r][j] * x[a * kLinks + j];
+        sum[r] += matrix->column[k * @lower + r][j] * x[k * kLinks + j];
     }
   }
   return 0;

@@ -34,6 +34,8 @@ static void sines_and_cosines(const double* angle, double* sine, double* cosine)
 const char* const kAngleOverSine = R"(
 static double inverse_square_root(double x) { return 1.0 / sqrt(x); }
 
+static double sign_or_one(double x) { return x < 0.0 ? -1.0 : 1.0; }
+
 static double squared_angle(double cosine) {
   const double rest = 1.0 - cosine;
   double sum = 1.0;
@@ -349,7 +351,7 @@ std::string matrices_text(const ModelFunctions& functions) {
       text = kDense;
       break;
     case MatrixForm::kSymmetricSemiseparable:
-      text = mass.block > 1 ? filled_in(kBlockSemiseparable, "mass", mass) : kSemiseparable;
+      text = mass.block > 1 ? filled_in(kTangentSemiseparable, "mass", mass) : kSemiseparable;
       break;
     case MatrixForm::kQuasiseparable:
       text =

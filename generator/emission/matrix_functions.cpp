@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/input_error.hpp"
-#include "generator/derivation/structure.hpp"
+#include "generator/derivation/tangent_equations.hpp"
 #include "generator/emission/function_builder.hpp"
 
 namespace catena {
@@ -74,7 +74,11 @@ void FunctionBuilder::mass_and_acceleration() {
   const auto h = each(chain_.residual(), [&](const ex& e) { return bias.of(e); });
   add_of_all("bias", "r with a = 0.", {at(), result("h")}, body(from_coordinates("h", h), at_));
 
-  const Quasiseparable mass = find_structure(chain_, {1, 0, 0}, "mass_");
+  const TangentEquations tangents =
+      in_space() ? find_tangent_equations(chain_, "mass_") : TangentEquations();
+  const bool by_tangents = tangents.mass.found;
+  const Quasiseparable mass =
+      by_tangents ? tangents.mass : find_structure(chain_, {1, 0, 0}, "mass_");
   s.mass_structured = mass.found;
   s.why_not = mass.reason;
   if (!mass.found && s.constraints > 0)
@@ -96,19 +100,34 @@ void FunctionBuilder::mass_and_acceleration() {
     return;
   }
   // A border needs factors with which to solve more than once.
-  const bool symmetric =
-      mass.symmetric && mass.border == 0 && !any_nonzero(mass.below) && !any_nonzero(mass.above);
+  const bool symmetric = by_tangents || (mass.symmetric && mass.block == 1 && mass.border == 0 &&
+                                         !any_nonzero(mass.below) && !any_nonzero(mass.above));
   s.mass_symmetric = mass.symmetric;
   s.mass_rank = mass.lower_rank;
-  s.block = mass.block;
+  s.block = static_cast<int>(chain_.axes().size() == 2 ? 1 : 3);
   result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
                   mass.upper_rank, mass.lower_rank, mass.block, mass.border};
-  const std::vector<Output> entries = all_entries(mass, symmetric);
+  std::vector<Output> all = all_entries(mass, symmetric);
+  if (by_tangents) add_entries(all, "tangent", tangents.tangent, true);
+  std::vector<Output> entries = all;
+  if (by_tangents) add_entries(entries, "along", tangents.along, false);
   add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
              Frame::kMassMatrix);
-  std::vector<Output> all = entries;
-  for (const Output& output : from_coordinates("a", each(h, [](const ex& e) { return ex(-e); }))) {
-    all.push_back(output);
+  if (by_tangents) {
+    const auto add_without_acceleration = [&](const Array& array, int sign,
+                                              const Quasiseparable::Entries& values) {
+      for (int i = 1; i <= links_; ++i) {
+        const auto& rows = values[static_cast<size_t>(i)];
+        for (size_t a = 0; a < rows.size(); ++a)
+          all.push_back({array, i, ArrayPlace{static_cast<long>(a) * links_, true, -1},
+                         sign * bias.of(rows[a][0])});
+      }
+    };
+    add_without_acceleration({"matrix", "right", {}}, -1, tangents.force);
+    add_without_acceleration({"", "a", {}}, 1, tangents.acceleration);
+  } else {
+    for (const Output& output : from_coordinates("a", each(h, [](const ex& e) { return ex(-e); })))
+      all.push_back(output);
   }
   add("acceleration", acceleration_comment, {at(), result("a")}, body(all, at_),
       Frame::kAcceleration);

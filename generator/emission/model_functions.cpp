@@ -14,7 +14,7 @@ bool has_differentials(const Function& function) {
 }
 
 int ModelFunctions::most_links_of_batch() const {
-  if (mass.block > 1) return 300;  // nine numbers where the plane has one
+  if (mass.block > 1) return 300;  // arrays of blocks where the plane has numbers
   return mass.kind == MatrixForm::kDense ? 100 : 1000;
 }
 

@@ -58,7 +58,7 @@ bool has_differentials(const Function& function);
 struct MatrixForm {
   enum Kind { kDense, kSymmetricSemiseparable, kQuasiseparable } kind = kDense;
   int upper_rank = 0, lower_rank = 0;  ///< of the semiseparable parts
-  int block = 1;                       ///< rows of the blocks that are its entries
+  int block = 1;                       ///< rows of the blocks that are its entries; 2: by tangents
   int border = 0;                      ///< rows and columns beyond them, of no link
   bool operator==(const MatrixForm&) const = default;
 };

@@ -39,15 +39,16 @@ constexpr std::size_t kHeadWidth = 95;
 std::string matrix_type(const MatrixForm& form, NumberOfLinks links) {
   const std::string size = links == NumberOfLinks::kAny ? "kAtRunTime, " : "kLinks, ";
   const std::string block = form.block > 1 ? "Block" : "";
-  const std::string lower = std::to_string(form.lower_rank) +
-                            (form.block > 1 ? ", " + std::to_string(form.block) : "") + ">";
+  const std::string rank = std::to_string(form.lower_rank),
+                    lower = rank + (form.block > 1 ? ", " + std::to_string(form.block) : "") + ">";
   if (form.border > 0)
     return "Bordered<T, " + size + std::to_string(form.upper_rank) + ", " +
            std::to_string(form.lower_rank) + ", " + std::to_string(form.block) + ", " +
            std::to_string(form.border) + ">";
-  return form.kind == MatrixForm::kSymmetricSemiseparable
-             ? "Symmetric" + block + "Semiseparable<T, " + size + lower
-             : block + "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
+  if (form.kind == MatrixForm::kSymmetricSemiseparable)
+    return (form.block > 1 ? "Tangent" : "Symmetric") + std::string("Semiseparable<T, ") + size +
+           rank + ">";
+  return block + "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
 }
 
 std::string template_parameter(const Parameter& parameter) {
@@ -317,8 +318,10 @@ class TableFunctions {
            "  return matrix_in" + given("const_cast<double*>(work)") +
            ";  // solving only reads\n}\n" + each +
            head("int32_t", "newton_factor",
-                {"const catena_point* at", "double ca", "double cv", "double cq", "double* work"}) +
-           "  auto&& matrix = matrix_in" + given("work") + ";\n  " + object() +
+                {"const catena_point* at", "double ca", "double cv", "double cq",
+                 "double* __restrict work"}) +  // so that loops need not ask whether arrays overlap
+           "  auto&& matrix = matrix_in" +
+           given("work") + ";\n  " + object() +
            "newton_matrix(point(at), ca, cv, cq, matrix);\n  return matrix.factor();\n}\n" +
            solve("newton_solve", "solve(x)") + solve("newton_solves", "solve(directions(x))") +
            (model_.set == FunctionSet::kAll
@@ -429,9 +432,8 @@ std::string space_include(const ModelFunctions& functions) {
   std::string bordered = functions.summary.border > 0 ? "#include \"bordered.hpp\"\n" : "";
   if (functions.space == Space::kPlane) return bordered;
   return "#include \"angle_over_sine.hpp\"\n"
-         "#include \"block_quasiseparable.hpp\"\n"
-         "#include \"block_semiseparable.hpp\"\n" +
-         bordered;
+         "#include \"block_quasiseparable.hpp\"\n" +
+         bordered + "#include \"tangent_semiseparable.hpp\"\n";
 }
 
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {

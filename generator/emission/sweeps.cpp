@@ -122,17 +122,27 @@ class Schedule {
         after.push_back(k);
       }
     }
-    for (const auto& part : {before, between, after}) {
-      if (!part.empty()) add_sweep(in_any_order(part) ? 1 : direction, part);
-    }
+    add_layers(before);
+    if (!between.empty()) add_sweep(direction, between);
+    add_layers(after);
   }
 
-  // Whether no family of a sweep reads another's neighbour.
-  bool in_any_order(const std::vector<size_t>& members) const {
-    return std::all_of(members.begin(), members.end(), [&](size_t k) {
-      return std::all_of(families_.all[k].dependencies.begin(), families_.all[k].dependencies.end(),
-                         [&](const Dependency& d) { return d.offset == 0 || done(d.family); });
-    });
+  // Families of which none needs itself: who reads a neighbour of another follows in a sweep of its own. In
+  // the same sweep it would read, as part of a vector, what has just been written as part of two.
+  void add_layers(const std::vector<size_t>& members) {
+    std::vector<std::vector<size_t>> layers;
+    std::map<size_t, size_t> layer_of;
+    for (const size_t k : members) {
+      size_t layer = 0;
+      for (const Dependency& d : families_.all[k].dependencies) {
+        const auto read = layer_of.find(families_.position(d.family));
+        if (read != layer_of.end()) layer = std::max(layer, read->second + (d.offset == 0 ? 0 : 1));
+      }
+      layer_of[k] = layer;
+      layers.resize(std::max(layers.size(), layer + 1));
+      layers[layer].push_back(k);
+    }
+    for (const std::vector<size_t>& layer : layers) add_sweep(1, layer);
   }
 
   // Of the families that have no sweep yet; what is always computed first.

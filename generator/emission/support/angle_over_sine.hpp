@@ -15,6 +15,12 @@ inline T inverse_square_root(const T& x) {
   return T(1) / sqrt(x);
 }
 
+/// -1 of what is negative, else 1.
+template <class T>
+inline T sign_or_one(const T& x) {
+  return x < T(0) ? T(-1) : T(1);
+}
+
 /// Below it 1 - c is small: sums of powers of it, as many as double precision has use for.
 inline constexpr int kTermsOfAngle = 12, kTermsOfSlope = 16, kTermsOfCurvature = 20;
 template <class T>
@@ -126,6 +132,7 @@ inline T angle_over_sine_curvature(const T& cosine) {
     for (int k = 0; k < count; ++k) y.set(k, function(double(x[k]))); \
     return y;                                                         \
   }
+CATENA_ELEMENTWISE(sign_or_one)
 CATENA_ELEMENTWISE(squared_angle)
 CATENA_ELEMENTWISE(angle_over_sine)
 CATENA_ELEMENTWISE(angle_over_sine_slope)
