@@ -331,7 +331,7 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
 std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain) {
   std::vector<LawVariable> variables;
   const auto add = [&](std::initializer_list<LawVariable> more) {
-    variables.insert(variables.end(), more);
+    for (const LawVariable each : more) variables.push_back(each);
   };
   switch (site.kind) {
     case SiteKind::kPlace:
