@@ -93,7 +93,7 @@ std::vector<int> all_of(Index count) {
 CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& chain,
                            const std::vector<LawMotion>& visited, const Numbers& numbers)
     : site_(site), variable_(variable), chain_(chain), numbers_(numbers) {
-  double least = HUGE_VAL, most = -HUGE_VAL;
+  double least = HUGE_VAL, most = -HUGE_VAL, squares = 0, count = 0;
   for (const LawMotion& motion : visited) {
     const MatrixXd states = memory().along(motion, chain_);
     for (Index k = 0; k < states.cols(); ++k)
@@ -101,6 +101,8 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
            law_elements(site_, variable_, numbers_.fixed_point, chain_, states.col(k))) {
         least = std::min(least, element.value);
         most = std::max(most, element.value);
+        squares += element.value * element.value;
+        ++count;
       }
   }
   const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
@@ -114,6 +116,10 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   if (has_time()) return;  // in s
   if (!against() && !angle && !has_point()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
+  // The largest rate may be that of one snap of the cable.
+  for (LawTerm& term : grammar_.terms)
+    if (term.kind == TermKind::kFriction)
+      term.shape = kSignWidth * std::sqrt(squares / count) / half_;
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
@@ -310,6 +316,8 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
       formula.fixed.push_back({"knot_" + n, names.variable_unit, term.shape * half_});
       ++knot;
     }
+    if (term.kind == TermKind::kFriction)
+      formula.fixed.push_back({"step", names.variable_unit, term.shape * half_});
     if (!text.shape) continue;
     const double shape = term.shape * half_;
     const bool edge = shape_name(form[j]) == kEdge;
@@ -334,7 +342,6 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
                              form.size() == 1 ? terms : fmt::format("({})", terms));
   fix("middle", middle_);
-  fix("step", kSignWidth * half_);
   fix("edge_width", kEdgeWidth * half_);
   fix("floor", kSpeedFloor);
   fix("unit", 1);

@@ -84,11 +84,10 @@ double value_of(const LawTerm& term, double u) {
     case TermKind::kInverseCube:
       return 1 / (u * u * u);
     case TermKind::kFriction:
-      return u / std::hypot(u, kSignWidth);
-    case TermKind::kSquare:
-      return std::abs(u) * u;
     case TermKind::kSaturating:
       return u / std::hypot(u, term.shape);
+    case TermKind::kSquare:
+      return std::abs(u) * u;
     case TermKind::kFalling:
       return u / (1 + u * u / (term.shape * term.shape));
     case TermKind::kPulse:

@@ -48,8 +48,8 @@ struct LawTerm {
 
 double value_of(const LawTerm& term, double u);
 
-/// Width of the step of a sign and of the edge of a stop, over the half width: a step is not linear in
-/// a state. Effects have them as constants `step` and `edge_width`.
+/// Width of the step of a sign, over the variable's root mean square, and of the edge of a stop, over the half
+/// width: a step is not linear in a state. Effects have them as constants `step` and `edge_width`.
 inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
 
 /// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the

@@ -388,6 +388,20 @@ TEST_CASE("a push that begins and stays: when, how fast, how strong") {
   }
 }
 
+TEST_CASE("dry friction of the support: a sign alone, and its moment") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.pivot_friction = 0.045;  // N m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->formula.text == "torque at the support = -friction x sign of rate of link 1");
+  const CandidateLaw::Constant& friction = found.law->formula.constants.at(0);
+  CAPTURE(friction.value);
+  CHECK(std::abs(friction.value - hidden.pivot_friction) < 0.05 * hidden.pivot_friction);
+}
+
 TEST_CASE("a force in time that follows no law has none") {
   testing::Film film = short_film();
   film.camera.duration = 4;
