@@ -75,9 +75,9 @@ std::vector<ChainVector> directions_around(bool in_space) {
     directions.emplace_back(Vector2d(std::sin(turn), std::cos(turn)));
   }
   for (int k = 0; in_space && k < 27; ++k) {
-    const Eigen::Vector3d corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    const double zeros = (corner.array() == 0).cast<double>().sum();
-    if (zeros == 0 || zeros == 2) directions.emplace_back(corner.normalized());
+    const Eigen::Vector3i corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const Index zeros = (corner.array() == 0).count();
+    if (zeros == 0 || zeros == 2) directions.emplace_back(corner.cast<double>().normalized());
   }
   return directions;
 }
