@@ -59,8 +59,9 @@ class Values {
 
 TEST_CASE("the equations by tangents are those of the coordinates") {
   const std::vector<std::string> plain, moving_water = {"added_mass", "load_inertia"};
-  for (const auto& [links, effects] :
-       {std::pair(1, plain), {2, plain}, {4, plain}, {3, moving_water}}) {
+  for (const auto& each : {std::pair(1, plain), {2, plain}, {4, plain}, {3, moving_water}}) {
+    const int links = each.first;
+    const std::vector<std::string>& effects = each.second;
     CAPTURE(links);
     CAPTURE(effects.size());
     catena::Chain chain = chain_in_space(links, effects);

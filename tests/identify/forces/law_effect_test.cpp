@@ -53,7 +53,7 @@ LawChain chain_of(int links, bool in_space) {
 /// The same in the plane or, with azimuths, in space.
 VectorXd state_on(const LawChain& chain, double first, double step, double rate, double rate_step) {
   const auto links = static_cast<int>(chain.lengths.size());
-  const VectorXd plane = state_of(links, first, step, rate, rate_step);
+  VectorXd plane = state_of(links, first, step, rate, rate_step);
   if (!chain.in_space) return plane;
   VectorXd state(6 * links);
   for (int k = 0; k < links; ++k) {
@@ -140,13 +140,13 @@ VectorXd force_of(const MadeLaw& made, const VectorXd& at, const LawChain& chain
   if (kind != Kind::kMass) beside.setConstant(kind == Kind::kTime ? kTime : kStretch);
   state << at, beside;
   const CandidateLaw law = links == 2 ? made.law : made.law.on(chain);
-  const VectorXd torques = law.force(state, made.form) * made.coefficients;
+  VectorXd torques = law.force(state, made.form) * made.coefficients;
   if (!chain.in_space) return torques;
   VectorXd force(3 * links);
-  for (int k = 0; k < links; ++k) {
+  for (Index k = 0; k < links; ++k) {
     const Eigen::Vector3d along(at[k], at[links + k], at[2 * links + k]);
     const Eigen::Vector3d on_link = torques.segment<3>(3 * k).cross(along);
-    for (int i = 0; i < 3; ++i) force[i * links + k] = on_link[i];
+    for (Index i = 0; i < 3; ++i) force[i * links + k] = on_link[i];
   }
   return force;
 }

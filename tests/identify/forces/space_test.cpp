@@ -149,7 +149,7 @@ Filmed film(const std::string& id, const std::string& effect, const std::string&
 }
 
 Vector3d direction_of(const Trajectory& truth, Index k, Index link) {
-  return Vector3d(truth.q(link, k), truth.q(kLinks + link, k), truth.q(2 * kLinks + link, k))
+  return Vector3d(truth.q(link, k), truth.q(kLinks + link, k), truth.q(Index{2} * kLinks + link, k))
       .normalized();
 }
 
@@ -239,7 +239,9 @@ TEST_CASE("gusts in space: the two lowest modes of the force normal to the cable
 
 TEST_CASE(
     "a spring across is found in space: its place, its direction, its force over time, its law") {
-  const auto [found, truth] = film("wall", kWall, "wall.spring", kSpring, 241);
+  const Filmed filmed = film("wall", kWall, "wall.spring", kSpring, 241);
+  const MissingForce& found = filmed.found;
+  const Trajectory& truth = filmed.truth;
   REQUIRE(found.found);
   CHECK(found.share > 0.9);
   REQUIRE(found.one_place);
