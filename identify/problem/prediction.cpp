@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "common/impossible_value.hpp"
+#include "common/number_text.hpp"
 #include "identify/problem/marker_places.hpp"
 #include "identify/problem/observer.hpp"
 #include "runtime/sensitivity.hpp"
@@ -62,6 +64,15 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   const Index frames =
       all_frames ? static_cast<Index>(recording.time.size()) : recording.fit_frames;
   const FrameClock clock = frame_clock(model, experiment, parameters, frames);
+  // Signals that end before the recording are a mistake of the case, which simulate() refuses. Here the recording
+  // has them, and an unknown took the clock beyond them.
+  const Signals& signals = experiment.signals;
+  if (signals.count() > 0 && clock.times.back() > signals.last_time() &&
+      recording.time[static_cast<std::size_t>(frames - 1)] <= signals.last_time())
+    throw ImpossibleValue(
+        "the model's clock is ahead of the recording's and asks for signals until " +
+        number_text(clock.times.back()) + " s, which end at " + number_text(signals.last_time()) +
+        " s");
 
   SimulationOptions options = simulation_options(settings);
   options.energy = false;

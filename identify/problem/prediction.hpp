@@ -37,7 +37,7 @@ struct Prediction {
 /// else only those to be fitted. `along`: directions in which derivatives of all that are wanted;
 /// a vector of a direction that is empty is zero. `keep_going`: asked at every step; false ends the
 /// simulation. A simulation that fails says so in the status. Throws ImpossibleValue for parameters
-/// outside the model's bounds and for markers beyond the end of the cable, std::invalid_argument
+/// outside the model's bounds, markers beyond the end of the cable and a clock beyond the signals, std::invalid_argument
 /// for sizes that do not fit the model.
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const Eigen::VectorXd& parameters,

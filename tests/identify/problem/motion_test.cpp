@@ -140,3 +140,36 @@ TEST_CASE("derivatives of what is seen of a chain whose support moves") {
     CHECK((difference - along.reshaped()).norm() < 1e-3 * along.norm());
   }
 }
+
+TEST_CASE("a clock that runs beyond the signals is an impossible value, not the end of a search") {
+  const testing::TemporaryFolder folder;
+  ProviderOptions options;
+  options.derive_program = tests::build_folder() / "bin" / "catena-derive";
+  options.cache_directory = folder.path() / "cache";
+  const Model model =
+      provide_model(folder.write("clocked.toml",
+                                 "format = 1\nkind = \"model\"\nid = \"clocked\"\neffects = "
+                                 "[\"clock_offset\", \"support_series\"]\n"),
+                    kLinks, options);
+  std::string series = "time_s,side_m,down_m\n";
+  for (Index k = 0; k < kFrames; ++k)  // as long as the recording
+    series += std::to_string(0.02 * static_cast<double>(k)) + ",0.01,0.0\n";
+  Case the_case = testing::sections(testing::kTwoLinks);
+  ParameterSpec clock;
+  clock.name = clock.sets = "clock_offset.offset";
+  the_case.parameters.push_back(clock);
+  the_case.parameters.back().free = true;
+  for (const std::string axis : {"side", "down"})
+    the_case.signals.push_back({"support_series.support_" + axis,
+                                folder.write("series.csv", series), "time_s", axis + "_m"});
+  testing::add_experiment(the_case, "run", DataKind::kMarkers);
+  const Problem problem(the_case, model,
+                        {testing::empty_markers({0.3, 0.5, 0.8, 1.0}, kFrames, 0.02)});
+  Eigen::VectorXd x = problem.start();
+  CHECK(problem.predict(x, 0, true).ok());
+  REQUIRE(problem.unknowns().back().name == clock.name);
+  x[x.size() - 1] = 0.001;
+  const Prediction beyond = problem.predict(x, 0, true);
+  CHECK_FALSE(beyond.ok());
+  CHECK(beyond.message.find("which end at 0.78 s") != std::string::npos);
+}
