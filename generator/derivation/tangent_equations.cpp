@@ -9,7 +9,7 @@ namespace {
 
 // What the equations of one link are made of; vectors by axis.
 struct LinkEquations {
-  std::vector<ex> q, direction, force;
+  std::vector<ex> q, rate, direction, direction_rate, force;
   ex scale;  // 1 / |q|
   ex square_acceleration, square_force;
 };
@@ -19,7 +19,9 @@ LinkEquations link_of(Chain& chain, int i) {
   LinkEquations link;
   for (const Axis axis : chain.axes()) {
     link.q.push_back(definitions.input("direction" + ending(axis), i));
+    link.rate.push_back(chain.rate(link.q.back()));
     link.direction.push_back(chain.directions()[axis][static_cast<size_t>(i)]);
+    link.direction_rate.push_back(chain.rate(link.direction.back()));
     link.force.push_back(chain.direction_forces()[axis][static_cast<size_t>(i)]);
   }
   link.scale = definitions.input("direction_scale", i);
@@ -72,6 +74,12 @@ std::vector<std::vector<ex>> tangents_of(Definitions& definitions, const LinkEqu
   return tangents;
 }
 
+ex product(const std::vector<ex>& a, const std::vector<ex>& b) {
+  ex sum = 0;
+  for (size_t c = 0; c < a.size(); ++c) sum += a[c] * b[c];
+  return sum;
+}
+
 // E' times rows of three: [k][r]
 std::vector<std::vector<ex>> projected(const std::vector<std::vector<ex>>& tangents,
                                        const std::vector<std::vector<ex>>& rows) {
@@ -81,6 +89,38 @@ std::vector<std::vector<ex>> projected(const std::vector<std::vector<ex>>& tange
       for (size_t c = 0; c < 3; ++c)
         result[k][r] = (result[k][r] + tangents[k][c] * rows[c][r]).expand();
   return result;
+}
+
+// The place r of the one entry of each row of a block, if they are equal and the others zero.
+std::vector<size_t> places_of_one_number(const std::vector<std::vector<ex>>& block) {
+  std::vector<size_t> places;
+  for (const std::vector<ex>& row : block)
+    for (size_t r = 0; r < row.size(); ++r)
+      if (!row[r].is_zero()) places.push_back(r);
+  if (places.size() != block.size() || block.size() != block[0].size()) return {};
+  for (size_t a = 0; a < places.size(); ++a)
+    if (!block[a][places[a]].is_equal(block[0][places[0]])) return {};
+  return places;
+}
+
+// Takes the numbers where every block is one.
+void find_numbers(const Quasiseparable& whole, TangentEquations& result) {
+  const size_t end = whole.diagonal.size() - 1;
+  const std::vector<size_t> places = places_of_one_number(whole.lower_row[1]), along = {0, 1, 2};
+  for (size_t i = 1; i < end; ++i)
+    if (places.empty() || places_of_one_number(whole.lower_row[i]) != places ||
+        places_of_one_number(whole.lower_column[i]) != places ||
+        places_of_one_number(whole.diagonal[i]) != along)
+      return;
+  result.isotropic = true;
+  const auto take = [&](const Quasiseparable::Entries& blocks, size_t place,
+                        Quasiseparable::Entries& numbers) {
+    numbers.resize(blocks.size());
+    for (size_t i = 1; i < end; ++i) numbers[i] = {{blocks[i][0][place]}};
+  };
+  take(whole.lower_row, places[0], result.number_of_row);
+  take(whole.lower_column, places[0], result.number_of_column);
+  take(whole.diagonal, 0, result.number_of_diagonal);
 }
 
 void find_by_tangents(Chain& chain, const std::string& prefix, TangentEquations& result) {
@@ -93,8 +133,19 @@ void find_by_tangents(Chain& chain, const std::string& prefix, TangentEquations&
   const auto links = static_cast<size_t>(chain.links());
   Quasiseparable& mass = result.mass;
   for (auto* list : {&mass.lower_row, &mass.lower_column, &mass.diagonal, &result.tangent,
-                     &result.along, &result.force, &result.acceleration})
+                     &result.size, &result.along, &result.force, &result.acceleration})
     list->resize(links + 2);
+  // What is known of e'' in its place.
+  Substitution known(definitions, "_known");
+  for (int i = 1; i <= chain.links(); ++i) {
+    const LinkEquations link = link_of(chain, i);
+    const ex turning =
+        definitions.define("turning_square", i, product(link.direction_rate, link.direction_rate));
+    for (const Axis axis : chain.axes())
+      known.set(chain.rate(link.direction_rate[axis]),
+                definitions.define("unit" + ending(axis) + "_acceleration_known", i,
+                                   -turning * link.direction[axis]));
+  }
   for (int i = 1; i <= chain.links(); ++i) {
     const auto at = static_cast<size_t>(i);
     for (const auto* beside : {&whole.below, &whole.above})
@@ -104,37 +155,41 @@ void find_by_tangents(Chain& chain, const std::string& prefix, TangentEquations&
     const LinkEquations link = link_of(chain, i);
     result.along[at] = {{proved_inertia_along(chain, link, i)}};
     const auto& tangents = result.tangent[at] = tangents_of(definitions, link, i);
-    // Names by the place in the block, with 1 / |q|.
-    const auto scaled = [&](const char* what, const std::vector<std::vector<ex>>& entries) {
-      std::vector<std::vector<ex>> named = entries;
+    result.size[at] = {{definitions.define("direction_size", i,
+                                           definitions.input("direction_square", i) * link.scale)}};
+    // Names by the place in the block.
+    const auto named = [&](const char* what, std::vector<std::vector<ex>> entries) {
       for (size_t a = 0; a < entries.size(); ++a)
         for (size_t b = 0; b < entries[a].size(); ++b)
-          named[a][b] =
-              definitions.define(prefix + what + "_" + std::to_string(a) + "_" + std::to_string(b),
-                                 i, link.scale * entries[a][b]);
-      return named;
+          entries[a][b] = definitions.define(
+              prefix + what + "_" + std::to_string(a) + "_" + std::to_string(b), i, entries[a][b]);
+      return entries;
     };
-    mass.lower_row[at] = projected(tangents, scaled("row", whole.lower_row[at]));
-    mass.lower_column[at] = projected(tangents, scaled("column", whole.lower_column[at]));
+    mass.lower_row[at] = projected(tangents, named("row", whole.lower_row[at]));
+    mass.lower_column[at] = projected(tangents, named("column", whole.lower_column[at]));
     // F_ii = (its first entry) 1 + rest, E' E = 1
     std::vector<std::vector<ex>> rest = whole.diagonal[at], turned(3);
     const ex first = rest[0][0];
     for (size_t a = 0; a < 3; ++a)
       for (size_t b = 0; b <= a; ++b)
         rest[a][b] = rest[b][a] = (rest[a][b] - (a == b ? first : ex(0))).expand();
-    const auto left = scaled("turned_diagonal", projected(tangents, scaled("diagonal", rest)));
+    const auto left = named("turned_diagonal", projected(tangents, named("diagonal", rest)));
     for (size_t c = 0; c < 3; ++c)
       for (size_t k = 0; k < 2; ++k) turned[c].push_back(left[k][c]);
     mass.diagonal[at] = projected(tangents, turned);
-    const ex equal = definitions.define(prefix + "diagonal", i, link.scale * link.scale * first);
-    std::vector<std::vector<ex>> force;
-    for (const ex& component : link.force) force.push_back({link.scale * component});
-    result.force[at] = projected(tangents, force);
+    const ex equal = definitions.define(prefix + "diagonal", i, first);
     for (size_t k = 0; k < 2; ++k) mass.diagonal[at][k][k] += equal;
-    for (const ex& component : link.q)
+    std::vector<std::vector<ex>> force;
+    for (const ex& component : link.force) force.push_back({known.of(component)});
+    result.force[at] = projected(tangents, force);
+    const ex square = definitions.define("direction_rate_square", i, product(link.rate, link.rate));
+    const ex growing = definitions.input("direction_square_velocity", i);  // 2 q.q'
+    for (const Axis axis : chain.axes())
       result.acceleration[at].push_back(
-          {-GiNaC::pow(link.scale, 2) / 2 * link.square_acceleration * component});
+          {(link.scale * (growing * link.direction_rate[axis] - square * link.direction[axis]))
+               .expand()});
   }
+  find_numbers(whole, result);
   mass.block = 2;
   mass.upper_rank = mass.lower_rank = whole.lower_rank;
   mass.found = mass.symmetric = true;

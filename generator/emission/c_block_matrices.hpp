@@ -12,11 +12,24 @@ namespace catena {
 inline const char* const kTangentSemiseparable = R"(
 /* By two tangents of each link, component c of tangent k in array 3 k + c: M_ij = row_i column_j' for j < i, in
    blocks of 2 x 2, symmetric. Entry (k, r) of a row is in array k * @lower + r, entry (k, l) of a diagonal block
-   in array k + l. `along` is the inertia of each direction along itself. */
+   in array k + l; if kIsotropic, rows, columns and diagonal blocks are the numbers in arrays 0 times the tangents
+   and the unit matrix. `along` is the inertia of each direction along itself. */
+enum { kIsotropic = @isotropic };
 typedef struct {
-  double row[2 * @lower][kLinks], column[2 * @lower][kLinks], diagonal[3][kLinks];
-  double tangent[6][kLinks], along[kLinks], right[2 * kLinks];
+  double row[kIsotropic ? 1 : 2 * @lower][kLinks], column[kIsotropic ? 1 : 2 * @lower][kLinks];
+  double diagonal[kIsotropic ? 1 : 3][kLinks];
+  double tangent[6][kLinks], size[kLinks], along[kLinks], right[2 * kLinks];
 } MassMatrix;
+
+static double part_of(const MassMatrix* matrix, const double (*rows)[kLinks], int k, int r, int i) {
+  if (kIsotropic) return rows[0][i] * matrix->tangent[3 * k + r][i];
+  return rows[kIsotropic ? 0 : k * @lower + r][i];
+}
+
+static double diagonal_of(const MassMatrix* matrix, int k, int l, int i) {
+  if (kIsotropic) return k == l ? matrix->diagonal[0][i] : 0.0;
+  return matrix->diagonal[kIsotropic ? 0 : k + l][i];
+}
 
 static double normal_of(const MassMatrix* matrix, int c, int i) {
   const int d = (c + 1) % 3, e = (c + 2) % 3;
@@ -30,9 +43,9 @@ static void to_dense(const MassMatrix* matrix, double* M) {
       double block[2][2];
       for (int k = 0; k < 2; ++k) {
         for (int l = 0; l < 2; ++l) {
-          block[k][l] = i == j ? matrix->diagonal[k + l][i] : 0.0;
+          block[k][l] = i == j ? diagonal_of(matrix, k, l, i) : 0.0;
           for (int r = 0; j < i && r < @lower; ++r)
-            block[k][l] += matrix->row[k * @lower + r][i] * matrix->column[l * @lower + r][j];
+            block[k][l] += part_of(matrix, matrix->row, k, r, i) * part_of(matrix, matrix->column, l, r, j);
         }
       }
       for (int c = 0; c < 3; ++c) {
@@ -42,7 +55,8 @@ static void to_dense(const MassMatrix* matrix, double* M) {
           if (i == j) entry = matrix->along[i] * normal_of(matrix, c, i) * normal_of(matrix, d, i);
           for (int k = 0; k < 2; ++k) {
             for (int l = 0; l < 2; ++l)
-              entry += matrix->tangent[3 * k + c][i] * block[k][l] * matrix->tangent[3 * l + d][j];
+              entry += matrix->tangent[3 * k + c][i] * block[k][l] * matrix->tangent[3 * l + d][j] /
+                       (matrix->size[i] * matrix->size[j]);
           }
           M[left * kCoordinates + right] = entry;
           M[right * kCoordinates + left] = entry;
@@ -52,19 +66,21 @@ static void to_dense(const MassMatrix* matrix, double* M) {
   }
 }
 
-/* Adds to a, which has what is along each direction, the tangents times the solution; uses the matrix up.
-   Returns 0, or the 1-based number of a coordinate of the link whose pivot is not positive. */
+/* Adds to a, which has what is known, the tangents times the solution and |q|; overwrites
+   `right`. Returns 0, or the 1-based number of a coordinate of the link whose pivot is not positive. */
 static int32_t solve_in_place(MassMatrix* matrix, double* a) {
   double w[@lower][@lower] = {{0.0}}, carried[@lower] = {0.0}, sum[@lower] = {0.0};
+  double solved[2 * @lower][kLinks];
   double* const x = matrix->right;
+  const MassMatrix* const given = matrix;
   for (int j = kLinks - 1; j >= 0; --j) {
     double column[2][@lower], row[2][@lower], pivot[2][2], y[2];
     for (int k = 0; k < 2; ++k) {
       y[k] = x[k * kLinks + j];
-      for (int l = 0; l < 2; ++l) pivot[k][l] = matrix->diagonal[k + l][j];
+      for (int l = 0; l < 2; ++l) pivot[k][l] = diagonal_of(given, k, l, j);
       for (int r = 0; r < @lower; ++r) {
-        column[k][r] = matrix->column[k * @lower + r][j];
-        row[k][r] = matrix->row[k * @lower + r][j];
+        column[k][r] = part_of(given, given->column, k, r, j);
+        row[k][r] = part_of(given, given->row, k, r, j);
       }
     }
     for (int k = 0; k < 2; ++k) {
@@ -86,8 +102,8 @@ static int32_t solve_in_place(MassMatrix* matrix, double* a) {
       const double scaled[2] = {row[0][r] / pivot[0][0], row[1][r] / second};
       carried[r] += scaled[0] * y[0] + scaled[1] * y[1];
       for (int s = 0; s < @lower; ++s) w[r][s] += scaled[0] * row[0][s] + scaled[1] * row[1][s];
-      matrix->row[@lower + r][j] = scaled[1];
-      matrix->row[r][j] = scaled[0] - factor * scaled[1];
+      solved[@lower + r][j] = scaled[1];
+      solved[r][j] = scaled[0] - factor * scaled[1];
     }
     x[kLinks + j] = y[1] / second;
     x[j] = y[0] / pivot[0][0] - factor * x[kLinks + j];
@@ -95,13 +111,13 @@ static int32_t solve_in_place(MassMatrix* matrix, double* a) {
   for (int j = 0; j < kLinks; ++j) {
     for (int k = 0; k < 2; ++k) {
       for (int r = 0; r < @lower; ++r)
-        x[k * kLinks + j] -= matrix->row[k * @lower + r][j] * sum[r];
+        x[k * kLinks + j] -= solved[k * @lower + r][j] * sum[r];
       for (int c = 0; c < 3; ++c)
-        a[c * kLinks + j] += matrix->tangent[3 * k + c][j] * x[k * kLinks + j];
+        a[c * kLinks + j] += matrix->size[j] * matrix->tangent[3 * k + c][j] * x[k * kLinks + j];
     }
     for (int k = 0; k < 2; ++k) {
       for (int r = 0; r < @lower; ++r)
-        sum[r] += matrix->column[k * @lower + r][j] * x[k * kLinks + j];
+        sum[r] += part_of(given, given->column, k, r, j) * x[k * kLinks + j];
     }
   }
   return 0;

@@ -317,6 +317,7 @@ std::string filled_in(const std::string& text, const std::string& type, const Ma
       {"Matrix", type == "mass" ? "MassMatrix" : "NewtonMatrix"},
       {"Solved", is_in_blocks(form) ? "NewtonMatrix" : "const NewtonMatrix"},
       {"border", std::to_string(form.border)},
+      {"isotropic", form.isotropic ? "1" : "0"},
       {"block", std::to_string(form.block)},
       {"matrix", type + (form.border > 0 ? "_links" : "")},
       {"whole", type},

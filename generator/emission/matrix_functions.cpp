@@ -106,25 +106,39 @@ void FunctionBuilder::mass_and_acceleration() {
   s.mass_rank = mass.lower_rank;
   s.block = static_cast<int>(chain_.axes().size() == 2 ? 1 : 3);
   result_.mass = {symmetric ? MatrixForm::kSymmetricSemiseparable : MatrixForm::kQuasiseparable,
-                  mass.upper_rank, mass.lower_rank, mass.block, mass.border};
-  std::vector<Output> all = all_entries(mass, symmetric);
-  if (by_tangents) add_entries(all, "tangent", tangents.tangent, true);
+                  mass.upper_rank,
+                  mass.lower_rank,
+                  mass.block,
+                  mass.border,
+                  tangents.isotropic};
+  std::vector<Output> all;
+  if (tangents.isotropic) {
+    add_entries(all, "row", tangents.number_of_row, true);
+    add_entries(all, "column", tangents.number_of_column, true);
+    add_entries(all, "diagonal", tangents.number_of_diagonal, true);
+  } else {
+    all = all_entries(mass, symmetric);
+  }
+  if (by_tangents) {
+    add_entries(all, "tangent", tangents.tangent, true);
+    add_entries(all, "size", tangents.size, false);
+  }
   std::vector<Output> entries = all;
   if (by_tangents) add_entries(entries, "along", tangents.along, false);
   add_of_all("mass_matrix", "M, row by row.", {at(), result("M")}, body(entries, at_),
              Frame::kMassMatrix);
   if (by_tangents) {
-    const auto add_without_acceleration = [&](const Array& array, int sign,
-                                              const Quasiseparable::Entries& values) {
+    const auto add_components = [&](const Array& array, int sign,
+                                    const Quasiseparable::Entries& values) {
       for (int i = 1; i <= links_; ++i) {
         const auto& rows = values[static_cast<size_t>(i)];
         for (size_t a = 0; a < rows.size(); ++a)
-          all.push_back({array, i, ArrayPlace{static_cast<long>(a) * links_, true, -1},
-                         sign * bias.of(rows[a][0])});
+          all.push_back(
+              {array, i, ArrayPlace{static_cast<long>(a) * links_, true, -1}, sign * rows[a][0]});
       }
     };
-    add_without_acceleration({"matrix", "right", {}}, -1, tangents.force);
-    add_without_acceleration({"", "a", {}}, 1, tangents.acceleration);
+    add_components({"matrix", "right", {}}, -1, tangents.force);
+    add_components({"", "a", {}}, 1, tangents.acceleration);
   } else {
     for (const Output& output : from_coordinates("a", each(h, [](const ex& e) { return ex(-e); })))
       all.push_back(output);

@@ -60,6 +60,7 @@ struct MatrixForm {
   int upper_rank = 0, lower_rank = 0;  ///< of the semiseparable parts
   int block = 1;                       ///< rows of the blocks that are its entries; 2: by tangents
   int border = 0;                      ///< rows and columns beyond them, of no link
+  bool isotropic = false;              ///< by tangents: one number for each block
   bool operator==(const MatrixForm&) const = default;
 };
 

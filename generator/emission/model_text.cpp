@@ -47,7 +47,7 @@ std::string matrix_type(const MatrixForm& form, NumberOfLinks links) {
            std::to_string(form.border) + ">";
   if (form.kind == MatrixForm::kSymmetricSemiseparable)
     return (form.block > 1 ? "Tangent" : "Symmetric") + std::string("Semiseparable<T, ") + size +
-           rank + ">";
+           rank + (form.isotropic ? ", true>" : ">");
   return block + "Quasiseparable<T, " + size + std::to_string(form.upper_rank) + ", " + lower;
 }
 

@@ -36,6 +36,17 @@ bool has_fused_multiply_add() {
 #endif
 }
 
+bool has_vectors_of_eight() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  // Of x86-64-v4.
+  return has_fused_multiply_add() && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512cd");
+#else
+  return false;
+#endif
+}
+
 bool can_run(const fs::path& program) { return access(program.c_str(), X_OK) == 0; }
 
 fs::path find_in_path(const std::string& name) {
@@ -174,10 +185,14 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
       "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
   // For this processor alone takes the compiler half the time.
   if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
-  // Loops with roots become vectors, as those of the plane do anyway.
-  if (description.space == Space::kThreeDimensional)
+  if (description.space == Space::kThreeDimensional) {
+    // Loops with roots become vectors, as those of the plane do anyway.
     flags.insert(flags.end(), {"-ftree-vectorize", "-fvect-cost-model=dynamic", "-fno-math-errno",
                                "-fno-trapping-math"});
+    // More and longer registers: in space a fifth less time, in the plane none. The last option counts.
+    if (has_vectors_of_eight())
+      flags.insert(flags.end(), {"-march=x86-64-v4", "-mprefer-vector-width=512"});
+  }
   std::string decides = canonical_text(description) + "\nlinks " + std::to_string(links) + "\n" +
                         // models of another generator are not taken from the cache
                         hash_of_program(derive) + "\n" + "interface " +

@@ -38,6 +38,11 @@ class Pair {
     return {negative_multiply_add(a.first_, b.first_, c.first_),
             negative_multiply_add(a.second_, b.second_, c.second_)};
   }
+  /// Of two pivots.
+  static bool all_positive(const Pair& a, const Pair& b) {
+    return positive_pivot(a.first_) && positive_pivot(a.second_) && positive_pivot(b.first_) &&
+           positive_pivot(b.second_);
+  }
 
  private:
   T first_, second_;
@@ -62,6 +67,9 @@ class Pair<double> {
   [[gnu::always_inline]] friend Pair negative_multiply_add(const Pair& a, const Pair& b,
                                                            const Pair& c) {
     return Pair(negative_multiply_add(a.values_, b.values_, c.values_));
+  }
+  static bool all_positive(const Pair& a, const Pair& b) {
+    return Batch<2>::all_positive(a.values_, b.values_);
   }
 
  private:

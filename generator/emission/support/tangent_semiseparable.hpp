@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The mass matrix of models in space, in time proportional to the number of links. The second derivative
-// of the vector q along a link is
+// The mass matrix of models in space, in time proportional to the number of links. The second derivatives
+// of a link's unit vector e and of its coordinates q are
 //
-//     a = E x + (what is along q, which is known),
+//     e'' = E x + (what is known),   q'' = |q| E x + (what is known),
 //
 // E (3 x 2) two tangents: of length one, perpendicular to each other and to q. The equations of x have a
 // matrix that is symmetric, positive definite and semiseparable in blocks of 2 x 2,
@@ -18,7 +18,8 @@
 //
 // between the halves (C the columns of the top, R the rows of the bottom).
 //
-// Entry (k, r) of row_i and of column_i is in array k * rank + r; entries (0, 0), (1, 0) and (1, 1) of
+// `isotropic`: row_i, column_i and diagonal_i are numbers times E', E' and the unit matrix; arrays 0 have these.
+// Else entry (k, r) of row_i and of column_i is in array k * rank + r; entries (0, 0), (1, 0) and (1, 1) of
 // diagonal_i are in arrays 0, 1, 2; component c of tangent k is in array 3 k + c. Tangent k of link i in a vector
 // of x is at k * links + i, component c of link i in a vector of coordinates at c * links + i.
 #pragma once
@@ -28,23 +29,25 @@
 
 namespace catena {
 
-template <class T, int links, int rank>
+template <class T, int links, int rank, bool isotropic = false>
 struct TangentSemiseparable {
-  T row[2 * rank][links], column[2 * rank][links], diagonal[3][links];
-  T tangent[6][links];
-  T right[2 * links];  ///< of the equations of x
-  T along[links];      ///< the inertia of q along itself, which to_dense() alone reads
+  using Rows = T[isotropic ? 1 : 2 * rank][links];
+  Rows row, column;
+  T diagonal[isotropic ? 1 : 3][links];
+  T tangent[6][links], size[links];  ///< size: |q|
+  T right[2 * links];                ///< of the equations of x
+  T along[links];  ///< the inertia of q along itself, which to_dense() alone reads
 
-  /// Adds E x to a, which has what is along q; overwrites `right`. Returns 0, or the 1-based number of a
+  /// Adds |q| E x to a, which has what is known; overwrites `right`. Returns 0, or the 1-based number of a
   /// coordinate of the link whose pivot is not positive: then a is not to be used.
   int solve(T* a) {
     const int failed = solve_for_tangents(right);
     if (failed > 0) return failed;
     for (int c = 0; c < 3; ++c) {
       for (int i = 0; i < links; ++i) {
-        T& component = a[c * links + i];
-        component = multiply_add(tangent[c][i], right[i], component);
-        component = multiply_add(tangent[3 + c][i], right[links + i], component);
+        const T turned =
+            multiply_add(tangent[3 + c][i], right[links + i], tangent[c][i] * right[i]);
+        a[c * links + i] = multiply_add(size[i], turned, a[c * links + i]);
       }
     }
     return 0;
@@ -58,9 +61,11 @@ struct TangentSemiseparable {
         T block[2][2];
         for (int k = 0; k < 2; ++k) {
           for (int l = 0; l < 2; ++l) {
-            block[k][l] = i == j ? diagonal[k + l][i] : T(0);
+            block[k][l] = T(0);
+            if (i == j && !isotropic) block[k][l] = diagonal[k + l][i];
+            if (i == j && isotropic && k == l) block[k][l] = diagonal[0][i];
             for (int r = 0; j < i && r < rank; ++r)
-              block[k][l] += row[k * rank + r][i] * column[l * rank + r][j];
+              block[k][l] += part(At{i}, row, row, k, r) * part(At{j}, column, column, l, r);
           }
         }
         for (int c = 0; c < 3; ++c) {
@@ -68,7 +73,8 @@ struct TangentSemiseparable {
             T entry = i == j ? along[i] * normal(c, i) * normal(d, i) : T(0);
             for (int k = 0; k < 2; ++k) {
               for (int l = 0; l < 2; ++l)
-                entry += tangent[3 * k + c][i] * block[k][l] * tangent[3 * l + d][j];
+                entry += tangent[3 * k + c][i] * block[k][l] * tangent[3 * l + d][j] /
+                         (size[i] * size[j]);
             }
             matrix[(c * links + i) * n + d * links + j] = entry;
             matrix[(d * links + j) * n + c * links + i] = entry;
@@ -80,6 +86,26 @@ struct TangentSemiseparable {
 
  private:
   using Both = Pair<T>;  // what belongs to the top sweep, and to the bottom sweep
+
+  /// Numbers of a link from arrays of the top sweep and of the bottom sweep: of one link, and of one in each.
+  struct At {
+    int i;
+    T operator()(const T*, const T* array) const { return array[i]; }
+  };
+  struct AtBoth {
+    int top, bottom;
+    Both operator()(const T* top_array, const T* bottom_array) const {
+      return {top_array[top], bottom_array[bottom]};
+    }
+  };
+  /// Entry (k, r) of a link's row or column.
+  template <class Entry>
+  auto part(const Entry& entry, const Rows& top, const Rows& bottom, int k, int r) const {
+    if constexpr (isotropic)
+      return entry(top[0], bottom[0]) * entry(tangent[3 * k + r], tangent[3 * k + r]);
+    else
+      return entry(top[k * rank + r], bottom[k * rank + r]);
+  }
 
   /// Component c of the unit vector that is perpendicular to the tangents of link i.
   T normal(int c, int i) const {
@@ -95,22 +121,11 @@ struct TangentSemiseparable {
     both.clear();
     for (int i = 0; i < m; ++i) {
       const int bottom = links - 1 - i;
-      Both own[2][rank], other[2][rank], pivot[3];
-      CATENA_UNROLLED
-      for (int k = 0; k < 2; ++k) {
-        CATENA_UNROLLED
-        for (int r = 0; r < rank; ++r) {
-          own[k][r] = Both{column[k * rank + r][i], row[k * rank + r][bottom]};
-          other[k][r] = Both{row[k * rank + r][i], column[k * rank + r][bottom]};
-        }
-        rows[i].solved[k] = Both{x[k * links + i], x[k * links + bottom]};
-      }
-      CATENA_UNROLLED
-      for (int k = 0; k < 3; ++k) pivot[k] = Both{diagonal[k][i], diagonal[k][bottom]};
-      const int failed = eliminate(own, other, pivot, both, rows[i]);
-      if (failed > 0) {
-        const int k = failed - 1;
-        return k * links + (positive_pivot(pivot[2 * k].first()) ? bottom : i) + 1;
+      const AtBoth entry{i, bottom};
+      if (!eliminate(entry, x, both, rows[i])) {
+        const Both* const pivot = rows[i].solved;
+        const int k = all_positive(pivot[0], pivot[0]) ? 1 : 0;
+        return k * links + (positive_pivot(pivot[k].first()) ? bottom : i) + 1;
       }
     }
 
@@ -128,20 +143,8 @@ struct TangentSemiseparable {
     }
     Row<T> middle;
     if constexpr (links % 2 == 1) {
-      T own[2][rank], other[2][rank], pivot[3];
-      CATENA_UNROLLED
-      for (int k = 0; k < 2; ++k) {
-        CATENA_UNROLLED
-        for (int r = 0; r < rank; ++r) {
-          own[k][r] = row[k * rank + r][m];
-          other[k][r] = column[k * rank + r][m];
-        }
-        middle.solved[k] = x[k * links + m];
-      }
-      CATENA_UNROLLED
-      for (int k = 0; k < 3; ++k) pivot[k] = diagonal[k][m];
-      const int failed = eliminate(own, other, pivot, lower, middle);
-      if (failed > 0) return (failed - 1) * links + m + 1;
+      if (!eliminate(At{m}, x, lower, middle))
+        return (positive_pivot(middle.solved[0]) ? links : 0) + m + 1;
     }
     CATENA_UNROLLED
     for (int r = 0; r < rank; ++r) {
@@ -162,12 +165,13 @@ struct TangentSemiseparable {
       if constexpr (links % 2 == 1) {
         CATENA_UNROLLED
         for (int k = 0; k < 2; ++k)
-          above = multiply_add(column[k * rank + r][m], x[k * links + m], above);
+          above = multiply_add(part(At{m}, column, column, k, r), x[k * links + m], above);
       }
       from[r] = Both{carried[r], above};
     }
     for (int i = m - 1; i >= 0; --i) {
       const int bottom = links - 1 - i;
+      const AtBoth entry{i, bottom};
       Both solution[2];
       CATENA_UNROLLED
       for (int k = 0; k < 2; ++k) {
@@ -176,11 +180,10 @@ struct TangentSemiseparable {
         x[k * links + bottom] = solution[k].second();
       }
       CATENA_UNROLLED
-      for (int k = 0; k < 2; ++k) {
+      for (int r = 0; r < rank; ++r) {
         CATENA_UNROLLED
-        for (int r = 0; r < rank; ++r)
-          from[r] = multiply_add(Both{row[k * rank + r][i], column[k * rank + r][bottom]},
-                                 solution[k], from[r]);
+        for (int k = 0; k < 2; ++k)
+          from[r] = multiply_add(part(entry, row, column, k, r), solution[k], from[r]);
       }
     }
     return 0;
@@ -217,64 +220,92 @@ struct TangentSemiseparable {
   static T number(const T&, int value) { return T(value); }
   static Both number(const Both&, int value) { return {T(value), T(value)}; }
 
-  static bool both_positive(const T& pivot) { return positive_pivot(pivot); }
-  static bool both_positive(const Both& pivot) {
-    return positive_pivot(pivot.first()) && positive_pivot(pivot.second());
+  static bool all_positive(const T& a, const T& b) {
+    return positive_pivot(a) && positive_pivot(b);
   }
+  static bool all_positive(const Both& a, const Both& b) { return Both::all_positive(a, b); }
 
-  /// Eliminates a link, whose right-hand side is in result.solved. `own` couples it to those left,
-  /// `other` those left to it, which W reaches; `own` is used up. Both pivots are divided by at the same time: the
-  /// second is determinant / first. Returns 0, or the 1-based tangent whose pivot is not positive; its sign is
-  /// in pivot[2 * tangent - 2].
-  template <class Number>
-  static int eliminate(Number (&own)[2][rank], const Number (&other)[2][rank], Number (&pivot)[3],
-                       Coupling<Number>& coupling, Row<Number>& result) {
-    Number y[2], reached[2][rank];  // rows of other W
+  /// Eliminates a link of the right-hand side x; `entry` takes its numbers from an array of the top sweep and one
+  /// of the bottom sweep. `own` couples it to those left, `other` those left to it, which W reaches. The block
+  /// that is left of its diagonal is inverted as adjugate / determinant: only one product waits for the division.
+  /// False if a pivot is not positive; both are in result.solved then.
+  ///
+  /// It has to be part of the loop, or W goes through memory from link to link.
+  template <class Entry, class Number>
+  [[gnu::always_inline]] bool eliminate(const Entry& entry, const T* x, Coupling<Number>& coupling,
+                                        Row<Number>& result) const {
+    Number own[2][rank], y[2], block[3];
+    {
+      Number other[2][rank], reached[2][rank];  // reached: rows of other W
+      CATENA_UNROLLED
+      for (int k = 0; k < 2; ++k) {
+        CATENA_UNROLLED
+        for (int r = 0; r < rank; ++r) other[k][r] = part(entry, row, column, k, r);
+        CATENA_UNROLLED
+        for (int r = 0; r < rank; ++r) reached[k][r] = product(coupling, r, other[k]);
+      }
+      CATENA_UNROLLED
+      for (int k = 0; k < 3; ++k) {
+        block[k] = product(reached[k / 2], other[(k + 1) / 2]);
+        if constexpr (isotropic)
+          block[k] = (k == 1 ? number(y[0], 0) : entry(diagonal[0], diagonal[0])) - block[k];
+        else
+          block[k] = entry(diagonal[k], diagonal[k]) - block[k];
+      }
+      CATENA_UNROLLED
+      for (int k = 0; k < 2; ++k) {
+        y[k] = entry(x + k * links, x + k * links) - product(coupling.carried, other[k]);
+        CATENA_UNROLLED
+        for (int r = 0; r < rank; ++r) own[k][r] = part(entry, column, row, k, r) - reached[k][r];
+      }
+    }
+    const Number beside = block[1];
+    const Number determinant = negative_multiply_add(beside, beside, block[0] * block[2]);
+    if (!all_positive(block[0], determinant)) {
+      result.solved[0] = block[0];
+      result.solved[1] = determinant;
+      return false;
+    }
+    const Number reciprocal = number(beside, 1) / determinant;
+    Number adjusted[2][rank];  // adjugate own
     CATENA_UNROLLED
     for (int k = 0; k < 2; ++k) {
-      y[k] = result.solved[k];
+      result.solved[k] =
+          negative_multiply_add(beside, y[1 - k], block[2 - 2 * k] * y[k]) * reciprocal;
       CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) {
-        y[k] = negative_multiply_add(other[k][r], coupling.carried[r], y[k]);
-        reached[k][r] = coupling.entry(r, 0) * other[k][0];
-        CATENA_UNROLLED
-        for (int s = 1; s < rank; ++s)
-          reached[k][r] = multiply_add(coupling.entry(r, s), other[k][s], reached[k][r]);
-        own[k][r] = own[k][r] - reached[k][r];
+        adjusted[k][r] = negative_multiply_add(beside, own[1 - k][r], block[2 - 2 * k] * own[k][r]);
+        result.scaled[k][r] = adjusted[k][r] * reciprocal;
       }
     }
     CATENA_UNROLLED
     for (int r = 0; r < rank; ++r) {
-      pivot[0] = negative_multiply_add(reached[0][r], other[0][r], pivot[0]);
-      pivot[1] = negative_multiply_add(reached[0][r], other[1][r], pivot[1]);
-      pivot[2] = negative_multiply_add(reached[1][r], other[1][r], pivot[2]);
-    }
-    const Number first = pivot[0];
-    pivot[2] = negative_multiply_add(pivot[1], pivot[1], first * pivot[2]);
-    if (!both_positive(first)) return 1;
-    if (!both_positive(pivot[2])) return 2;
-    const Number reciprocal[2] = {number(first, 1) / first, first / pivot[2]};
-    const Number factor = pivot[1] * reciprocal[0];
-    y[1] = negative_multiply_add(factor, y[0], y[1]);
-    CATENA_UNROLLED
-    for (int r = 0; r < rank; ++r) own[1][r] = negative_multiply_add(factor, own[0][r], own[1][r]);
-    CATENA_UNROLLED
-    for (int k = 0; k < 2; ++k) {
-      result.solved[k] = y[k] * reciprocal[k];
       CATENA_UNROLLED
-      for (int r = 0; r < rank; ++r) {
-        result.scaled[k][r] = own[k][r] * reciprocal[k];
-        coupling.carried[r] = multiply_add(result.scaled[k][r], y[k], coupling.carried[r]);
-        CATENA_UNROLLED
-        for (int s = 0; s <= r; ++s)
-          coupling.w[r][s] = multiply_add(result.scaled[k][r], own[k][s], coupling.w[r][s]);
+      for (int s = 0; s <= r; ++s) {
+        const Number both = multiply_add(own[1][r], adjusted[1][s], own[0][r] * adjusted[0][s]);
+        coupling.w[r][s] = multiply_add(both, reciprocal, coupling.w[r][s]);
       }
+      CATENA_UNROLLED
+      for (int k = 0; k < 2; ++k)
+        coupling.carried[r] = multiply_add(own[k][r], result.solved[k], coupling.carried[r]);
     }
-    result.solved[0] = negative_multiply_add(factor, result.solved[1], result.solved[0]);
+    return true;
+  }
+
+  template <class Number>
+  static Number product(const Number* a, const Number* b) {
+    Number sum = a[0] * b[0];
     CATENA_UNROLLED
-    for (int r = 0; r < rank; ++r)
-      result.scaled[0][r] = negative_multiply_add(factor, result.scaled[1][r], result.scaled[0][r]);
-    return 0;
+    for (int r = 1; r < rank; ++r) sum = multiply_add(a[r], b[r], sum);
+    return sum;
+  }
+  /// Row r of W with a vector.
+  template <class Number>
+  static Number product(const Coupling<Number>& coupling, int r, const Number* vector) {
+    Number sum = coupling.entry(r, 0) * vector[0];
+    CATENA_UNROLLED
+    for (int s = 1; s < rank; ++s) sum = multiply_add(coupling.entry(r, s), vector[s], sum);
+    return sum;
   }
 
   /// (1 - V W) sum = sum_0 - V carried_0, by elimination; then carried.

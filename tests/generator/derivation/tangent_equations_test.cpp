@@ -55,6 +55,17 @@ class Values {
   GiNaC::exmap value_;
 };
 
+// Entry (k, l) of the block of links i and j <= i.
+ex block(const catena::TangentEquations& by_tangents, std::size_t i, std::size_t j, std::size_t k,
+         std::size_t l) {
+  const catena::Quasiseparable& mass = by_tangents.mass;
+  if (i == j) return mass.diagonal[i][k][l];
+  ex entry = 0;
+  for (std::size_t r = 0; r < mass.lower_row[i][k].size(); ++r)
+    entry += mass.lower_row[i][k][r] * mass.lower_column[j][l][r];
+  return entry;
+}
+
 }  // namespace
 
 TEST_CASE("the equations by tangents are those of the coordinates") {
@@ -84,13 +95,9 @@ TEST_CASE("the equations by tangents are those of the coordinates") {
       const auto& E = by_tangents.tangent[i];
       ex along_q = 0;
       for (std::size_t k = 0; k < 2; ++k) {
-        ex to_q = 0, force = by_tangents.force[i][k][0];
-        for (std::size_t a = 0; a < 3; ++a) {
-          to_q += E[k][a] * chain.coordinates()[row_of(a, i)];
-          force -= E[k][a] * chain.residual()[row_of(a, i)];
-        }
+        ex to_q = 0;
+        for (std::size_t a = 0; a < 3; ++a) to_q += E[k][a] * chain.coordinates()[row_of(a, i)];
         CHECK(values.of(to_q).is_zero());
-        CHECK(values.of(force).is_zero());
         for (std::size_t l = 0; l < 2; ++l) {
           ex product = k == l ? -1 : 0;
           for (std::size_t a = 0; a < 3; ++a) product += E[k][a] * E[l][a];
@@ -112,34 +119,68 @@ TEST_CASE("the equations by tangents are those of the coordinates") {
                 left[k][l] += E[k][a] * entry * by_tangents.tangent[j][l][b];
           }
         }
+        const ex sizes = by_tangents.size[i][0][0] * by_tangents.size[j][0][0];
         for (std::size_t k = 0; k < 2; ++k) {
-          for (std::size_t l = 0; l < 2; ++l) {
-            ex entry = i == j ? mass.diagonal[i][k][l] : ex(0);
-            for (std::size_t r = 0; j < i && r < 3; ++r)
-              entry += mass.lower_row[i][k][r] * mass.lower_column[j][l][r];
-            CHECK(values.of(left[k][l] - entry).is_zero());
-          }
+          for (std::size_t l = 0; l < 2; ++l)
+            CHECK(values.of(sizes * left[k][l] - block(by_tangents, i, j, k, l)).is_zero());
         }
       }
       CHECK(values.of(along_q - by_tangents.along[i][0][0]).is_zero());
     }
-    // With what is along q, and anything along the tangents, no equation is left along q.
+    // With what is known of q'', and any x, no equation is left along q, and the equations of x say what is left
+    // along the tangents.
     for (const ex& acceleration : chain.accelerations()) values.set(acceleration, 0);
+    const auto x = [](std::size_t i, std::size_t k) {
+      return numeric(static_cast<long>(k + i), 3);
+    };
     std::vector<ex> accelerations;
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t i = 1; i <= n; ++i) {
         accelerations.push_back(values.of(by_tangents.acceleration[i][a][0]));
         for (std::size_t k = 0; k < 2; ++k)
-          accelerations.back() +=
-              numeric(static_cast<long>(k + i), 3) * values.of(by_tangents.tangent[i][k][a]);
+          accelerations.back() += x(i, k) * values.of(by_tangents.size[i][0][0]) *
+                                  values.of(by_tangents.tangent[i][k][a]);
       }
     }
     for (std::size_t k = 0; k < 3 * n; ++k) values.set(chain.accelerations()[k], accelerations[k]);
     for (std::size_t i = 1; i <= n; ++i) {
-      ex along = 0;
-      for (std::size_t a = 0; a < 3; ++a)
-        along += chain.coordinates()[row_of(a, i)] * chain.residual()[row_of(a, i)];
-      CHECK(values.of(along).is_zero());
+      ex along = 0, left[2];
+      for (std::size_t a = 0; a < 3; ++a) {
+        const ex r = values.of(chain.residual()[row_of(a, i)]);
+        along += values.of(chain.coordinates()[row_of(a, i)]) * r;
+        for (std::size_t k = 0; k < 2; ++k) left[k] += values.of(by_tangents.tangent[i][k][a]) * r;
+      }
+      CHECK(along.is_zero());
+      for (std::size_t k = 0; k < 2; ++k) {
+        ex equation = values.of(by_tangents.force[i][k][0]);
+        for (std::size_t j = 1; j <= n; ++j)
+          for (std::size_t l = 0; l < 2; ++l)
+            equation += x(j, l) * values.of(j <= i ? block(by_tangents, i, j, k, l)
+                                                   : block(by_tangents, j, i, l, k));
+        CHECK((left[k] * values.of(by_tangents.size[i][0][0]) - equation).is_zero());
+      }
+    }
+  }
+}
+
+TEST_CASE("one number stands for each block where inertia is the same in all directions") {
+  catena::Chain chain = chain_in_space(3, {}), in_water = chain_in_space(3, {"added_mass"});
+  const auto plain = catena::find_tangent_equations(chain, "mass_");
+  REQUIRE(plain.isotropic);
+  CHECK(!catena::find_tangent_equations(in_water, "mass_").isotropic);
+  Values values(chain);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    for (std::size_t j = 1; j <= i; ++j) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t l = 0; l < 2; ++l) {
+          ex product = 0;
+          for (std::size_t a = 0; a < 3; ++a)
+            product += plain.tangent[i][k][a] * plain.tangent[j][l][a];
+          const ex number = i == j ? plain.number_of_diagonal[i][0][0]
+                                   : plain.number_of_row[i][0][0] * plain.number_of_column[j][0][0];
+          CHECK(values.of(number * product - block(plain, i, j, k, l)).is_zero());
+        }
+      }
     }
   }
 }
