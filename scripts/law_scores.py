@@ -41,6 +41,8 @@ class Law:
         self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
         self.potential = "potential" in law
         self.at = self.along = None
+        if "torque" in law:  # over the tension, which depends on the whole chain
+            return
         self.remembers = "state" in law
         energy = law["force" if "force" in law else "potential" if self.potential else "dissipation"][0]
         self.along = energy.get("along")  # of what remembers, or depends on the time: `value` is the force

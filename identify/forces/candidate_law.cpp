@@ -109,6 +109,7 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   grammar_ = variable == LawVariable::kAcceleration ? inertia_grammar()
              : has_lag()                            ? relaxing_grammar()
              : has_time()                           ? time_grammar(least, most)
+             : over_tension(variable)               ? friction_grammar()
              : against()                            ? velocity_grammar()
              : angle                                ? angle_grammar()
              : has_point()                          ? distance_grammar()
@@ -142,6 +143,29 @@ MatrixXd CandidateLaw::force(const VectorXd& state, const std::vector<int>& form
           element.gradient;
   }
   return force;
+}
+
+bool CandidateLaw::sticks(const std::vector<int>& form) const {
+  const bool joints = site_.kind == SiteKind::kJoint || site_.kind == SiteKind::kJoints;
+  return joints && std::any_of(form.begin(), form.end(), [&](int term) {
+           const TermKind kind = grammar_.terms[static_cast<std::size_t>(term)].kind;
+           return kind == TermKind::kFriction || kind == TermKind::kSaturating;
+         });
+}
+
+MatrixXd CandidateLaw::resistance(const VectorXd& state, const std::vector<int>& form,
+                                  const VectorXd& coefficients) const {
+  MatrixXd out = MatrixXd::Zero(chain_.turns(), chain_.turns());
+  for (const LawElement& element :
+       law_elements(site_, variable_, numbers_.fixed_point, chain_, state)) {
+    const double u = std::max(std::abs(element.value) / half_, 1e-9);
+    double size = 0;
+    for (std::size_t j = 0; j < form.size(); ++j)
+      size += coefficients[static_cast<Index>(j)] *
+              value_of(grammar_.terms[static_cast<std::size_t>(form[j])], u);
+    out += element.weight * size / (u * half_) * element.gradient * element.gradient.transpose();
+  }
+  return out;
 }
 
 MatrixXd CandidateLaw::force(const VectorXd& state) const { return force(state, all_of(terms())); }
@@ -248,6 +272,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   formula.kind = variable_ == LawVariable::kAcceleration ? Kind::kMass
                  : has_lag()                             ? Kind::kRelaxing
                  : has_time()                            ? Kind::kTime
+                 : over_tension(variable_)               ? Kind::kTorque
                  : against()                             ? Kind::kDissipation
                                                          : Kind::kPotential;
   const auto add_amplitude = [&](const std::string& name, int power, Index i) {
@@ -310,7 +335,8 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
     const std::string n(term.kind == TermKind::kBend ? 1 : 0, knot);
     terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "", n);
     formula.energy +=
-        (formula.energy.empty() ? "" : " + ") + filled(text.energy, "", symbols, names.squared, n);
+        (formula.energy.empty() ? "" : " + ") +
+        filled(over_tension(variable_) ? text.slope : text.energy, "", symbols, names.squared, n);
     add_amplitude(filled(text.amplitude, "", "", "", n), text.power, static_cast<Index>(j));
     if (term.kind == TermKind::kBend) {
       formula.fixed.push_back({"knot_" + n, names.variable_unit, term.shape * half_});
@@ -345,6 +371,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   fix("edge_width", kEdgeWidth * half_);
   fix("floor", kSpeedFloor);
   fix("unit", 1);
+  if (over_tension(variable_)) formula.fixed.push_back({"tension_floor", "N", kTensionFloor});
   return formula;
 }
 

@@ -40,6 +40,12 @@ class CandidateLaw {
 
   /// Generalised forces on the turns of the links, turns x terms of the form. `state`: (q, v, z), and the memory.
   Eigen::MatrixXd force(const Eigen::VectorXd& state, const std::vector<int>& form) const;
+  /// Whether it is friction that holds a joint. The sign of a rate that only noise moves says nothing of it.
+  bool sticks(const std::vector<int>& form) const;
+  /// What makes its force of the rates, turns x turns: the force over each rate, not its slope, which is nearly zero at
+  /// every rate but the smallest ones.
+  Eigen::MatrixXd resistance(const Eigen::VectorXd& state, const std::vector<int>& form,
+                             const Eigen::VectorXd& coefficients) const;
   /// Of all terms.
   Eigen::MatrixXd force(const Eigen::VectorXd& state) const;
 
@@ -75,12 +81,19 @@ class CandidateLaw {
   struct Formula {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
-    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot or a force in time
-    /// (law_effect.cpp).
-    enum class Kind { kPotential, kDissipation, kMass, kRelaxing, kTime } kind = Kind::kPotential;
+    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot, a force in time or a
+    /// torque under tension (law_effect.cpp).
+    enum class Kind {
+      kPotential,
+      kDissipation,
+      kMass,
+      kRelaxing,
+      kTime,
+      kTorque
+    } kind = Kind::kPotential;
     bool curve = false;  ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
-    /// mass; of the time the force. A place is `offset` past the middle of a link.
+    /// mass; of the time the force; under tension -force over that. A place is `offset` past the middle of a link.
     std::string energy;
     std::string
         along;  ///< the velocity or rate along which a spring before a dashpot or a force in time acts

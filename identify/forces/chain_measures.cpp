@@ -13,10 +13,10 @@ ChainMeasures::ChainMeasures(const Problem& problem, const VectorXd& x, int expe
   lengths = link_lengths(model, p);
   in_space = model.in_space();
   length = lengths.sum();
-  const double mass = p.segment(model.parameter_index("mass_1"), model.links()).sum() +
-                      p[model.parameter_index("load_mass")];
+  masses = p.segment(model.parameter_index("mass_1"), model.links());
+  load = p[model.parameter_index("load_mass")];
   gravity = p[model.parameter_index("gravity")];
-  weight = mass * gravity;
+  weight = (masses.sum() + load) * gravity;
 }
 
 }  // namespace catena

@@ -10,6 +10,8 @@ namespace catena {
 
 /// The chain that forces act on.
 struct ChainMeasures : LinkChain {
+  Eigen::VectorXd masses;         ///< of the links, kg
+  double load = 0;                ///< kg
   double length = 0, weight = 0;  ///< m; N, with the load
   double gravity = 0;             ///< m/s^2
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "identify/forces/law_choice.hpp"
 #include "identify/forces/law_response.hpp"
 #include "identify/forces/place_kinematics.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
@@ -61,83 +62,6 @@ NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>&
       at_node.col(s) = unit * drawn[static_cast<std::size_t>(s)].col(k);
   }
   return forces;
-}
-
-/// The recorded part (first) and random ones, without what the unknowns imitate, and what the terms of
-/// every candidate have to do with them.
-struct LawTrials {
-  struct OfCandidate {
-    MatrixXd gram, cross;  // terms x terms, terms x columns
-  };
-  std::vector<OfCandidate> candidates;
-  VectorXd squares;  // of each column
-  Index rows = 0, seen = 0;
-};
-
-/// A formula fitted to columns of trials: its coefficients, and how much it takes off the squares.
-struct LinearFit {
-  MatrixXd coefficients;  // terms x columns
-  VectorXd explained;
-};
-std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
-                                const std::vector<int>& form, Index columns) {
-  const MatrixXd gram = candidate.gram(form, form);
-  const MatrixXd cross = candidate.cross(form, Eigen::seqN(0, columns));
-  const VectorXd scale = gram.diagonal().cwiseSqrt();
-  if (!(scale.minCoeff() > 0)) return std::nullopt;
-  const MatrixXd correlation =
-      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
-  constexpr double kSingular = 1e-10;
-  const SymmetricFactors factors(correlation);
-  if (!(factors.reciprocal_condition() > kSingular)) return std::nullopt;
-  LinearFit fit{MatrixXd(cross.rows(), columns), VectorXd(columns)};
-  for (Index t = 0; t < columns; ++t) {
-    fit.coefficients.col(t) = scale.cwiseInverse().cwiseProduct(
-        factors.solve(VectorXd(scale.cwiseInverse().cwiseProduct(cross.col(t)))));
-    fit.explained[t] = fit.coefficients.col(t).dot(cross.col(t));
-  }
-  return fit;
-}
-
-/// The candidate and its form that explain most of a column, and what they say.
-struct ChosenLaw {
-  std::size_t candidate = 0;
-  std::vector<int> form;
-  double score = 0;  ///< share explained, less what so many free constants explain by chance
-  VectorXd coefficients;
-};
-
-/// The best candidate for each column of the trials.
-std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
-                                  const LawTrials& trials) {
-  const Index columns = trials.squares.size();
-  std::vector<ChosenLaw> best(static_cast<std::size_t>(columns));
-  const double count = std::log(static_cast<double>(trials.rows));
-  for (std::size_t c = 0; c < candidates.size(); ++c)
-    for (const std::vector<int>& form : candidates[c].forms()) {
-      const std::optional<LinearFit> fit = fit_of(trials.candidates[c], form, columns);
-      if (!fit) continue;
-      const double penalty = count * candidates[c].constants(form);
-      for (Index t = 0; t < columns; ++t) {
-        const double score = (fit->explained[t] - penalty) / trials.squares[t];
-        ChosenLaw& chosen = best[static_cast<std::size_t>(t)];
-        if (score > chosen.score && candidates[c].admits(fit->coefficients.col(t)))
-          chosen = {c, form, score, fit->coefficients.col(t)};
-      }
-    }
-  return best;
-}
-
-/// Of what can be explained of a column, down to the squares `least`: the share that a law does.
-double explained_by_law(const LawTrials& trials, Index column, const ChosenLaw& law, double least) {
-  if (law.form.empty()) return 0;
-  const LawTrials::OfCandidate& of = trials.candidates[law.candidate];
-  const VectorXd& b = law.coefficients;
-  const MatrixXd gram = of.gram(law.form, law.form);
-  const VectorXd cross = of.cross(law.form, column);
-  const double explained = 2 * b.dot(cross) - b.dot(gram * b);
-  const double before = trials.squares[column];
-  return before > least ? explained / (before - least) : 0;
 }
 
 /// A formula fitted to all frames, with its force following the state.
@@ -211,7 +135,8 @@ class LawSearch {
     ForceLaw law;
     law.candidates = static_cast<int>(candidates_.size());
     const LawTrials first = trials(FrameHalf::kFirst), second = trials(FrameHalf::kSecond);
-    const std::vector<ChosenLaw> chosen = choose_law(candidates_, first);
+    std::vector<ChosenLaw> chosen = choose_law(candidates_, first);
+    if (split_ == Split::kFrames) choose_what_sticks(first, second, chosen);
     if (chosen[0].form.empty()) return law;
     take_names(candidates_[chosen[0].candidate], law);
     law.confirmed = explained_by_law(second, 0, chosen[0], left_by_force(FrameHalf::kSecond));
@@ -250,6 +175,56 @@ class LawSearch {
     return true;
   }
 
+  /// One part with a law whose force follows the state, each column without what the unknowns imitate then: the
+  /// recorded one (first) and the random ones, and what the law's force along the motion found does.
+  struct FollowingTrial {
+    MatrixXd values;
+    VectorXd law;
+  };
+  FollowingTrial following_trial(const FittedForm& fitted, FrameHalf half,
+                                 const MatrixXd& noise) const {
+    std::vector<NodeForces> forces = forces_of(fitted.law, fitted.form, fitted.coefficients);
+    for (std::size_t r = 0; r < forces.size(); ++r)
+      for (std::size_t k = 0; k < forces[r].columns.size(); ++k) {
+        MatrixXd& columns = forces[r].columns[k];
+        columns.conservativeResize(Eigen::NoChange, 1 + kRandomSeries);
+        columns.rightCols(kRandomSeries) = random_[r].columns[k];
+      }
+    const LawPart part = law_part(linear_, forces, half);
+    MatrixXd columns(part.value.size(), 2 + kRandomSeries);
+    columns << part.forces.col(0), part.value, part.forces.rightCols(kRandomSeries) + noise;
+    columns = without_nuisance(part, columns);
+    return {columns.rightCols(1 + kRandomSeries), columns.col(0)};
+  }
+
+  /// Friction in joints is chosen and confirmed with its force following the state, for the recorded force and the
+  /// random ones: what sticks has no rate but noise, so a force along the motion found is wrong there.
+  void choose_what_sticks(const LawTrials& first, const LawTrials& second,
+                          std::vector<ChosenLaw>& chosen) const {
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const CandidateLaw& law = candidates_[c];
+      const std::vector<int>& form = law.forms().front();
+      if (form.size() != 1 || !law.sticks(form)) continue;
+      const FittedForm fitted = fit(law, form, {}, FrameHalf::kFirst);
+      if (!std::isfinite(fitted.squares) || !law.admits(fitted.coefficients)) continue;
+      const FollowingTrial in_first = following_trial(fitted, FrameHalf::kFirst, first.noise);
+      const FollowingTrial in_second = following_trial(fitted, FrameHalf::kSecond, second.noise);
+      const double penalty = std::log(static_cast<double>(first.rows)) * law.constants(form);
+      for (std::size_t t = 0; t < chosen.size(); ++t) {
+        const auto column = static_cast<Index>(t);
+        const VectorXd value = in_first.values.col(column);
+        const VectorXd coefficient =
+            VectorXd::Constant(1, in_first.law.dot(value) / in_first.law.squaredNorm());
+        const double left = (value - coefficient[0] * in_first.law).squaredNorm();
+        const double score = (first.squares[column] - left - penalty) / first.squares[column];
+        if (score <= chosen[t].score || !law.admits(coefficient)) continue;
+        const double after =
+            (in_second.values.col(column) - coefficient[0] * in_second.law).squaredNorm();
+        chosen[t] = {c, form, score, coefficient, second.squares[column] - after};
+      }
+    }
+  }
+
   LawTrials trials(FrameHalf half) {
     LawTrials trials;
     const LinearProblem linear =
@@ -263,8 +238,10 @@ class LawSearch {
     };
     MatrixXd values(part.value.size(), 1 + kRandomSeries);
     values << part.value, part.forces;
-    for (Index s = 1; s <= kRandomSeries; ++s)
-      for (Index i = 0; i < part.seen; ++i) values(i, s) += normal_number(numbers_);
+    trials.noise.setZero(values.rows(), kRandomSeries);
+    for (Index s = 0; s < kRandomSeries; ++s)
+      for (Index i = 0; i < part.seen; ++i) trials.noise(i, s) = normal_number(numbers_);
+    values.rightCols(kRandomSeries) += trials.noise;
     project(values);
     trials.squares = values.colwise().squaredNorm().transpose();
     trials.rows = values.rows();
@@ -430,7 +407,12 @@ class LawSearch {
         };
         // As many coordinates of the links as turns.
         for (Index i = 0; i < turns(); ++i) differentiate(i);
-        for (Index i = 0; law.against() && i < turns(); ++i) differentiate(chain_.coordinates + i);
+        if (law.sticks(form))
+          by_state.middleCols(chain_.coordinates, turns()) =
+              law.resistance(state, form, coefficients);
+        else
+          for (Index i = 0; law.against() && i < turns(); ++i)
+            differentiate(chain_.coordinates + i);
         for (Index i = motion.state.rows(); i < state.size(); ++i) differentiate(i);
       }
     }
@@ -439,15 +421,15 @@ class LawSearch {
 
   /// The coefficients and numbers of least squares, by Gauss-Newton steps. `first`: coefficients to begin
   /// with, or none.
-  FittedForm fit(CandidateLaw law, const std::vector<int>& form, VectorXd first = {}) const {
+  FittedForm fit(CandidateLaw law, const std::vector<int>& form, VectorXd first = {},
+                 FrameHalf half = FrameHalf::kBoth) const {
     FittedForm best{.law = law, .form = form, .coefficients = {}, .covariance = {}};
     const auto terms = static_cast<Index>(form.size());
     const Index numbers = law.numbers(form).size();
     VectorXd coefficients = std::move(first);
     for (int loop = 0; loop <= (numbers > 0 ? kMostLoops : kClosedLoops); ++loop) {
       const bool open = coefficients.size() == 0;
-      const LawPart part =
-          law_part(with_memory(law), forces_of(law, form, coefficients), FrameHalf::kBoth);
+      const LawPart part = law_part(with_memory(law), forces_of(law, form, coefficients), half);
       MatrixXd columns(part.value.size(), part.forces.cols() + 1);
       columns << part.forces, part.value;
       const MatrixXd left = without_nuisance(part, columns);

@@ -7,6 +7,7 @@
 
 #include "common/number_text.hpp"
 #include "common/toml_quoted.hpp"
+#include "description/expression_syntax.hpp"
 #include "identify/forces/place_kinematics.hpp"
 
 namespace catena {
@@ -62,7 +63,9 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
       formula.curve ? " No formula fits: the law is a curve of straight pieces between knots."
       : formula.kind == Kind::kRelaxing ? " What relaxes is a spring before a dashpot (Maxwell): "
                                           "its length z follows z' = rate - z/lag."
-                                        : "";
+      : formula.kind == Kind::kTorque
+          ? " The tension is that of weight and of turning at constant rates."
+          : "";
   std::string text =
       fmt::format("format = 1\nkind = \"effect\"\nid = \"{}\"\ntitle = {}\ndescription = {}\n", id,
                   toml_quoted("Discovered: " + title), toml_quoted(words + more));
@@ -110,6 +113,11 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
                                   : fmt::format("(-{}spring*{}_stretch)", where.factor, id);
     text += fmt::format("\n[[force]]\nat = \"{}\"\nalong = \"{}\"\nvalue = \"{}{}\"\n", where.at,
                         formula.along, gate, value);
+    return text;
+  }
+  if (formula.kind == Kind::kTorque) {
+    declare("torque",
+            fmt::format("(-sqrt({}^2 + tension_floor^2)*({}))", kSteadyTension, formula.energy));
     return text;
   }
   if (formula.kind == Kind::kMass)

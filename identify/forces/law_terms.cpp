@@ -128,14 +128,16 @@ const LawTermText& text_of(TermKind kind) {
       {TermKind::kInverseSquare, {"pull", nullptr, -2, "pull/({x})^2", "-pull/({z})"}},
       {TermKind::kInverseCube, {"pull", nullptr, -3, "pull/({x})^3", "-pull/(2*({q}))"}},
       {TermKind::kFriction,
-       {"friction", nullptr, 0, "friction x sign of {x}", "friction*(sqrt({q} + step^2) - step)"}},
+       {"friction", nullptr, 0, "friction x sign of {x}", "friction*(sqrt({q} + step^2) - step)",
+        false, "friction*({z})/sqrt({q} + step^2)"}},
       {TermKind::kViscous, {"linear", nullptr, 1, "linear x {x}", "linear*({q})/2"}},
       {TermKind::kSquare,
        {"quadratic", nullptr, 2, "quadratic x |{x}| x {x}", "quadratic*({q} + floor^2)^(3/2)/3"}},
       {TermKind::kCube, {"cubic", nullptr, 3, "cubic x {x}^3", "cubic*({q})^2/4"}},
       {TermKind::kSaturating,
        {"friction", "saturation", 0, "friction x {x}/sqrt({x}^2 + saturation^2)",
-        "friction*(sqrt({q} + saturation^2) - saturation)"}},
+        "friction*(sqrt({q} + saturation^2) - saturation)", false,
+        "friction*({z})/sqrt({q} + saturation^2)"}},
       {TermKind::kFalling,
        {"linear", "saturation", 1, "linear x {x}/(1 + ({x}/saturation)^2)",
         "linear*saturation^2*log(1 + ({q})/saturation^2)/2"}},
@@ -219,6 +221,15 @@ const LawGrammar& velocity_grammar() {
     add_shapes(forms, TermKind::kFalling, {0.1, 0.2, 0.4, 0.8});
     forms.push_back({sign, {TermKind::kFalling, 0.1}});
     forms.push_back({sign, {TermKind::kFalling, 0.2}});
+    return grammar(forms);
+  }();
+  return kGrammar;
+}
+
+const LawGrammar& friction_grammar() {
+  static const LawGrammar kGrammar = [] {
+    Forms forms = {{{TermKind::kFriction}}};
+    add_shapes(forms, TermKind::kSaturating, {0.15, 0.3, 0.6});
     return grammar(forms);
   }();
   return kGrammar;

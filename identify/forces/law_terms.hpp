@@ -58,8 +58,9 @@ inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
 struct LawTermText {
   const char *amplitude, *shape;
   int power = 0;
-  const char *words, *energy;  ///< of the time: its force instead
-  bool moment = false;         ///< whether it has one
+  const char *words, *energy;   ///< of the time: its force instead
+  bool moment = false;          ///< whether it has one
+  const char* slope = nullptr;  ///< of the energy, where a force may be over the tension
 };
 const LawTermText& text_of(TermKind kind);
 
@@ -76,6 +77,7 @@ const LawGrammar& position_grammar();
 const LawGrammar& distance_grammar();
 const LawGrammar& angle_grammar();
 const LawGrammar& velocity_grammar();
+const LawGrammar& friction_grammar();  ///< of these friction alone
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
 /// Between these times, s.

@@ -52,11 +52,15 @@ constexpr NamesOfVariable kNames[] = {
     {LawVariable::kJointRate, false, "moment", "joint rate", "rad/s", "joint_rate"},
     {LawVariable::kRelaxingJointAngle, false, "moment", "relaxing joint angle", "rad",
      "joint_rate"},
+    {LawVariable::kRateUnderTension, false, "moment over the tension", "joint rate", "rad/s",
+     "joint_rate"},
     {LawVariable::kCurvature, true, "bending moment", "curvature", "1/m", "joint_angle/spacing"},
     {LawVariable::kCurvatureRate, false, "bending moment", "rate of curvature", "1/(m s)",
      "joint_rate/spacing"},
     {LawVariable::kRelaxingCurvature, false, "bending moment", "relaxing curvature", "1/m",
      "joint_rate/spacing"},
+    {LawVariable::kCurvatureRateUnderTension, false, "bending moment over the tension",
+     "rate of curvature", "1/(m s)", "joint_rate/spacing"},
     {LawVariable::kTimeOfSideForce, true, "side force", "time", "s",
      "velocity_side + offset*cos(angle)*rate"},
     {LawVariable::kTimeOfDownForce, true, "down force", "time", "s",
@@ -135,6 +139,11 @@ std::optional<LawVariable> relaxing_of(LawVariable variable) {
   }
 }
 
+bool over_tension(LawVariable variable) {
+  return variable == LawVariable::kRateUnderTension ||
+         variable == LawVariable::kCurvatureRateUnderTension;
+}
+
 std::string symbols_of(LawVariable variable, bool in_space) {
   if (in_space) switch (variable) {
       case LawVariable::kSidePosition:
@@ -173,7 +182,8 @@ LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
   const bool moment = site.kind == SiteKind::kJoint || site.kind == SiteKind::kJoints;
   LawNames names{row.force,
                  row.name,
-                 moment                               ? "N m"
+                 over_tension(variable)               ? "m"
+                 : moment                             ? "N m"
                  : variable == LawVariable::kLinkRate ? "N"  // N m per metre
                  : site.kind == SiteKind::kCable      ? "N/m"
                                                       : "N",
@@ -181,7 +191,8 @@ LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
                  symbols_of(variable, in_space),
                  {}};
   if (site.kind == SiteKind::kJoint && site.joint == 0) {
-    names.force = "torque at the support";
+    names.force =
+        over_tension(variable) ? "torque at the support over the tension" : "torque at the support";
     names.variable = timed_of(variable)                             ? names.variable
                      : variable == LawVariable::kJointAngle         ? "angle of link 1"
                      : variable == LawVariable::kRelaxingJointAngle ? "relaxing angle of link 1"
@@ -244,6 +255,27 @@ std::string site_in_words(const LawSite& site) {
   return "";
 }
 
+VectorXd steady_tensions(const LawChain& chain, const VectorXd& state) {
+  const Index links = chain.lengths.size();
+  // Gravity less the acceleration: of the mass centre of every link, and of the end of the last one.
+  Eigen::Matrix2Xd centre(2, links), along(2, links);
+  Vector2d end(0, chain.gravity);
+  for (Index k = 0; k < links; ++k) {
+    const double angle = state[k], rate = state[chain.coordinates + k];
+    along.col(k) << std::sin(angle), std::cos(angle);
+    const Vector2d towards = rate * rate * chain.lengths[k] * along.col(k);
+    centre.col(k) = end + 0.5 * towards;
+    end += towards;
+  }
+  VectorXd tensions(links);
+  Vector2d pull = chain.load * end;
+  for (Index k = links - 1; k >= 0; --k) {
+    pull += chain.masses[k] * centre.col(k);
+    tensions[k] = pull.dot(along.col(k));
+  }
+  return tensions;
+}
+
 std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
                                      const ChainVector& fixed_point, const LawChain& chain,
                                      const VectorXd& state) {
@@ -270,6 +302,7 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
     elements.push_back({down.dot(faster) - turning.dot(side) - chain.gravity, down.transpose(), 1});
     return elements;
   }
+  const VectorXd tensions = over_tension(variable) ? steady_tensions(chain, state) : VectorXd();
   const auto add_joint = [&](Index joint, double spacing, double weight) {
     const Index of = has_potential(variable) ? 0 : chain.coordinates;
     LawElement& element = elements.emplace_back();
@@ -281,7 +314,8 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
       element.value -= state[of + joint - 1];
     }
     element.value /= spacing;
-    element.weight = weight;
+    element.weight =
+        tensions.size() > 0 ? weight * std::hypot(tensions[joint], kTensionFloor) : weight;
   };
   switch (site.kind) {
     case SiteKind::kPlace: {
@@ -352,12 +386,13 @@ std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain
       break;
     case SiteKind::kJoint:
       if (!chain.in_space)
-        add({LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle});
+        add({LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle,
+             LawVariable::kRateUnderTension});
       break;
     case SiteKind::kJoints:
       if (!chain.in_space)
-        add({LawVariable::kCurvature, LawVariable::kCurvatureRate,
-             LawVariable::kRelaxingCurvature});
+        add({LawVariable::kCurvature, LawVariable::kCurvatureRate, LawVariable::kRelaxingCurvature,
+             LawVariable::kCurvatureRateUnderTension});
       break;
   }
   return variables;

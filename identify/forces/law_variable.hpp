@@ -49,10 +49,12 @@ enum class LawVariable {
   kJointAngle,
   kJointRate,
   kRelaxingJointAngle,
+  kRateUnderTension,  ///< the rate again; the force is over the tension
   // of every joint
   kCurvature,
   kCurvatureRate,
   kRelaxingCurvature,
+  kCurvatureRateUnderTension,
   // of a place, or of a joint
   kTimeOfSideForce,
   kTimeOfDownForce,
@@ -66,6 +68,9 @@ bool has_potential(LawVariable variable);
 
 /// The position or angle x that a relaxing variable z follows, z' = x' - z / lag; nothing for others.
 std::optional<LawVariable> relaxing_of(LawVariable variable);
+
+/// Whether the force is over the tension there: friction that the tension presses.
+bool over_tension(LawVariable variable);
 
 /// The position or angle along which a force acts that depends on the time; nothing for others.
 std::optional<LawVariable> timed_of(LawVariable variable);
@@ -85,7 +90,8 @@ std::string symbols_of(LawVariable variable, bool in_space);
 std::string site_in_words(const LawSite& site);
 
 /// The variable at one piece of a site, or one component of it: its value, its derivative by the turns of the links (by
-/// how fast they turn where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint).
+/// how fast they turn where it is a velocity), and the length that the piece stands for, m (1 at a place or a joint);
+/// times the size of the tension, N, where the force is over that.
 struct LawElement {
   double value = 0;
   Eigen::VectorXd gradient;
@@ -95,11 +101,19 @@ struct LawElement {
 /// The chain that laws act on, and coordinates of its model, of which those of the links are the first.
 struct LawChain : LinkChain {
   Eigen::Index coordinates = 0;
-  double gravity = 0;  ///< m/s^2
+  double gravity = 0;      ///< m/s^2
+  Eigen::VectorXd masses;  ///< of the links, kg
+  double load = 0;         ///< kg
 
   /// Turns of all links: their angles, in space turns about three axes.
   Eigen::Index turns() const { return lengths.size() * (in_space ? 3 : 1); }
 };
+
+/// The steady tension (docs/effects.md) in every joint, N, from the support on, in the plane. `state`: (q, v, z).
+Eigen::VectorXd steady_tensions(const LawChain& chain, const Eigen::VectorXd& state);
+
+/// N: the size of a tension T is sqrt(T^2 + floor^2), in effects, too.
+inline constexpr double kTensionFloor = 1e-3;
 
 /// `state`: (q, v, z), and behind it what the variable remembers (law_memory.hpp). `fixed_point`: m, for
 /// the distance.

@@ -216,9 +216,10 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   if (missing.one_place)
     pushed = moment ? LawSite{SiteKind::kJoint, missing.best->arc_length, missing.best->joint}
                     : LawSite{SiteKind::kPlace, missing.best->arc_length};
-  missing.law = law_of_force(missing.one_place ? paths : with_all,
-                             {chain, problem.model().coordinates(), chain.gravity},
-                             sites_of(missing, chain), pushed);
+  missing.law =
+      law_of_force(missing.one_place ? paths : with_all,
+                   {chain, problem.model().coordinates(), chain.gravity, chain.masses, chain.load},
+                   sites_of(missing, chain), pushed);
   return true;
 }
 

@@ -28,6 +28,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLength = 0.4, kGravity = 9.81;  // m, m/s^2
+constexpr double kMass = 0.05, kLoad = 0.2;       // kg, of a link and of the load
 constexpr double kTime = 0.05;                    // s
 constexpr double kStretch = 0.3;                  // of everything that relaxes, m, rad or 1/m
 /// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
@@ -47,7 +48,11 @@ VectorXd state_of(int links, double first, double step, double rate, double rate
 }
 
 LawChain chain_of(int links, bool in_space) {
-  return {{lengths_of(links), in_space}, in_space ? 3 * links : links, kGravity};
+  return {{lengths_of(links), in_space},
+          in_space ? 3 * links : links,
+          kGravity,
+          VectorXd::Constant(links, kMass),
+          kLoad};
 }
 
 /// The same in the plane or, with azimuths, in space.
@@ -116,7 +121,8 @@ std::vector<MadeLaw> laws_of_all_pairs(bool in_space) {
         made.found.variable = law.variable_name();
         made.found.site = site;
         made.found.place = site.arc_length;
-        made.of_any_links = energies.empty() && site.arc_length == kInside;
+        made.of_any_links =
+            energies.empty() && (site.arc_length == kInside || site.kind == SiteKind::kJoints);
         made.found.formula = law.formula(
             form, made.coefficients, 1e-4 * MatrixXd::Identity(terms + numbers, terms + numbers));
         if (!energies.insert(made.found.formula.energy).second) continue;
@@ -193,8 +199,11 @@ void check_effects_of_all_laws(bool in_space) {
     VectorXd plain = model.default_parameters();
     for (Index i = 0; i < plain.size(); ++i)
       if (!std::isfinite(plain[i])) plain[i] = 0.1;
-    for (Index k = 0; k < links; ++k)
+    for (Index k = 0; k < links; ++k) {
       plain[model.parameter_index(fmt::format("length_{}", k + 1))] = lengths_of(links)[k];
+      plain[model.parameter_index(fmt::format("mass_{}", k + 1))] = kMass;
+    }
+    plain[model.parameter_index("load_mass")] = kLoad;
     // A one-sided spring acts in one of them at least.
     const VectorXd states[] = {state_on(chain, 0.3, -0.7, 1.1, -1.8),
                                state_on(chain, -1, 0.45, 0.7, 0.9)};
@@ -239,8 +248,23 @@ TEST_CASE("one effect of every law does the law's force in chains in space") {
   check_effects_of_all_laws(true);
 }
 
+TEST_CASE("what holds a joint makes its force of the rates") {
+  const LawChain chain = chain_of(2, false);
+  const VectorXd state = state_of(2, 0.3, -0.7, 1.1, -1.8);
+  int sticking = 0;
+  for (const MadeLaw& made : laws_of_all_pairs(false)) {
+    if (!made.law.sticks(made.form)) continue;
+    ++sticking;
+    CAPTURE(made.found.formula.text);
+    const VectorXd force = made.law.force(state, made.form) * made.coefficients;
+    const MatrixXd resistance = made.law.resistance(state, made.form, made.coefficients);
+    CHECK((resistance * state.tail(2) - force).norm() < 1e-12 * force.norm());
+  }
+  CHECK(sticking > 3);
+}
+
 TEST_CASE("a law against a velocity that drives it is refused, term by term") {
-  const LawChain chain{{lengths_of(2)}, 2, kGravity};
+  const LawChain chain = chain_of(2, false);
   LawMotion motion{MatrixXd(4, 2), {0, 1}};
   motion.state << state_of(2, 0.1, 0, 0.1, 0), state_of(2, 1, 0, 1, 0);
   const std::vector<LawMotion> visited = {motion};

@@ -2,6 +2,7 @@
 #include "identify/forces/missing_force.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -400,6 +401,29 @@ TEST_CASE("dry friction of the support: a sign alone, and its moment") {
   const CandidateLaw::Constant& friction = found.law->formula.constants.at(0);
   CAPTURE(friction.value);
   CHECK(std::abs(friction.value - hidden.pivot_friction) < 0.05 * hidden.pivot_friction);
+}
+
+TEST_CASE("friction that holds joints, with the tension and without") {
+  testing::Film film = short_film();
+  film.camera.duration = 5;
+  film.camera.markers = 12;
+  truth::Hidden pressed, plain;
+  pressed.tension_friction = 0.003;  // m
+  plain.joint_friction = 0.045;      // N m
+  for (const auto& [hidden, force] : {std::pair(pressed, "bending moment over the tension"),
+                                      std::pair(plain, "bending moment")}) {
+    const MissingForce found = force_in(testing::film(film, hidden));
+    REQUIRE(found.law.has_value());
+    REQUIRE(found.law->found);
+    CHECK(found.law->formula.text ==
+          fmt::format("{} = -friction x sign of rate of curvature", force));
+    CHECK(found.law->site.kind == SiteKind::kJoints);
+    // Where the cable snaps, its tension is not the steady one: only the other friction has a size to compare.
+    if (hidden.joint_friction == 0) continue;
+    const CandidateLaw::Constant& friction = found.law->formula.constants.at(0);
+    CAPTURE(friction.value);
+    CHECK(std::abs(friction.value - hidden.joint_friction) < 0.1 * hidden.joint_friction);
+  }
 }
 
 TEST_CASE("a force in time that follows no law has none") {

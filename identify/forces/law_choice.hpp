@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "identify/forces/candidate_law.hpp"
+
+namespace catena {
+
+/// The recorded part (first) and random ones, without what the unknowns imitate, and what the terms of
+/// every candidate have to do with them.
+struct LawTrials {
+  struct OfCandidate {
+    Eigen::MatrixXd gram, cross;  // terms x terms, terms x columns
+  };
+  std::vector<OfCandidate> candidates;
+  Eigen::VectorXd squares;  // of each column
+  Eigen::MatrixXd noise;    // in the random ones
+  Eigen::Index rows = 0, seen = 0;
+};
+
+/// A formula fitted to columns of trials: its coefficients, and how much it takes off the squares.
+struct LinearFit {
+  Eigen::MatrixXd coefficients;  // terms x columns
+  Eigen::VectorXd explained;
+};
+std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
+                                const std::vector<int>& form, Eigen::Index columns);
+
+/// The candidate and its form that explain most of a column, and what they say.
+struct ChosenLaw {
+  std::size_t candidate = 0;
+  std::vector<int> form;
+  double score = 0;  ///< share explained, less what so many free constants explain by chance
+  Eigen::VectorXd coefficients;
+  /// Of the squares of the second part, where its force follows the state there.
+  std::optional<double> explained_in_second = std::nullopt;
+};
+
+/// The best candidate for each column of the trials.
+std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
+                                  const LawTrials& trials);
+
+/// Of what can be explained of a column, down to the squares `least`: the share that a law does.
+double explained_by_law(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law, double least);
+
+}  // namespace catena
