@@ -47,8 +47,8 @@ class WorkFolder {
   std::optional<FolderLock> lock_;
 };
 
-/// Removes the work folders of that prefix in `parent` whose processes have ended: what is called so, has
-/// a name as long and is for its owner alone.
+/// Removes the work folders in `parent` whose processes have ended. A work folder has this prefix, a name of the
+/// length that WorkFolder gives, and the permissions 0700.
 void remove_abandoned(const std::filesystem::path& parent, const std::string& prefix);
 
 }  // namespace catena

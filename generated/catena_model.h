@@ -179,14 +179,14 @@ typedef struct catena_model {
   void (*positions_across_tangent)(const void* context, const catena_point* at,
                                    const catena_point* along, double* dacross);
   void (*velocities_across)(const void* context, const catena_point* at, double* across_rate);
-  /* What holds the support exerts on the chain, then what holds the far end, where it is held: forces (N)
-     and moments (N m) by components side, down, across, force[3 or 6] and moment[3 or 6]. In the plane
-     force[2] and moment[1], positive towards +theta. at->a is read. Null where nothing tells them. */
+  /* What holds the support, then each of the k held places, exerts on the chain: forces (N) and moments
+     (N m) by components side, down, across, force[3 + 3 k] and moment[3 + 3 k]. In the plane force[2] and
+     moment[1], positive towards +theta. at->a is read. Null where nothing tells them. */
   void (*reactions)(const void* context, const catena_point* at, double* force, double* moment);
-  /* Where the far end is held, null elsewhere. The last three coordinates are then those of the
-     constraint: their second derivatives are the force that the end exerts on what holds it, their
-     values and rates enter no equation. apart[3]: from where it is held to the far end of the last link, m;
-     rate[3]: its time derivative. */
+  /* Where k links have a held far end, null elsewhere. The last 3 k coordinates are then those of the
+     constraints: their second derivatives are the forces that the links exert on what holds them, their
+     values and rates enter no equation. apart[3 k]: from where each is held to its link's far end, m;
+     rate[3 k]: its time derivative. */
   void (*gap)(const void* context, const catena_point* at, double* apart, double* rate);
   void (*gap_tangent)(const void* context, const catena_point* at, const catena_point* along,
                       double* dapart, double* drate);

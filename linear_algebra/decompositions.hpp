@@ -24,6 +24,8 @@ Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& matrix,
 
 /// A = P' L D L' P of an n x n symmetric, semidefinite matrix.
 ///
+///     const Eigen::MatrixXd normal{{4, 2}, {2, 3}};
+///     const Eigen::VectorXd right{{8, 8}};
 ///     const SymmetricFactors factors(normal);
 ///     const Eigen::VectorXd step = factors.solve(right);
 class SymmetricFactors {

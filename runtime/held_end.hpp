@@ -8,14 +8,14 @@
 
 namespace catena {
 
-/// The constraint of a held end keeps a gap closed, but does not close it: a motion starts from a state
-/// that is closed. Models in space with table().gap only.
+/// A held end needs a start that satisfies its constraint, which a motion only keeps. This function finds one. Models
+/// in space with table().gap only.
 ///
-/// Of all links the same vector nu is added to the directions, and the sums are given the length one: nu is
-/// the least of sum l_i |q_i + nu| - nu . (end - support), which is convex. It closes the gap where it is no
-/// -q_i. Parallel links say nothing of a shape, so they are bent before: about as a cable that sags, in the
-/// plane of the links and of the line from the support to the end. To the rates, made perpendicular to the
-/// directions, another vector is added in the same way, so that the end moves as what holds it.
+/// It adds one vector nu to all link directions and normalises them. nu minimises the convex function
+/// sum l_i |q_i + nu| - nu . (end - support), and then closes the gap, unless it is a -q_i. Parallel links do not
+/// determine a shape. They are bent first, about as a cable that sags, in the plane of the links and of the line from
+/// the support to the end. The rates are made perpendicular to the directions, and another vector is added to them in
+/// the same way, so that the end moves with what holds it.
 ///
 ///     const Model model = Model::load("held.so");  // in space, its far end held
 ///     const Eigen::VectorXd parameters = model.default_parameters();

@@ -47,7 +47,8 @@ class Model {
   /// Whether it moves in space: q has three components for each link, and positions have three.
   bool in_space() const { return table_->positions_across != nullptr; }
 
-  /// The functions of the table, with its context; shapes and units are those of catena_model.h.
+  /// The functions of the table, with its context; shapes and units are those of catena_model.h, which also says
+  /// which of them may be null.
   void residual(const catena_point& at, double* r) const {
     table_->residual(table_->context, &at, r);
   }

@@ -61,8 +61,7 @@ enum class CatenaryFit {
 /// parameter of the model); other parameters are not used, as (2.53) is a uniform cable without
 /// stiffness. If the held point is below the support, the cable goes straight down and up again.
 /// Throws ImpossibleValue on parameters outside the bounds of the model, if the held point is
-/// farther away than the cable is long or is not
-/// finite, and if kEndHeld finds no neighbouring catenary (few links).
+/// farther away than the cable is long or is not finite, and if kEndHeld finds no neighbouring catenary (few links).
 State catenary(const Model& model, const Eigen::VectorXd& parameters, const CablePoint& held,
                CatenaryFit fit = CatenaryFit::kEndHeld);
 

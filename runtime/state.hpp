@@ -11,8 +11,8 @@ namespace catena {
 struct State {
   /// Model::coordinates() entries: the angles of the links from the downward vertical (rad), then
   /// the coordinates that effects add. In space: the components side of all links, then down, then
-  /// across, of a vector along each link, of any length but zero. A held end adds three, last: minus its
-  /// force (N), integrated twice over time; they enter no equation.
+  /// across, of a vector along each link, of any length but zero. Each held place adds three, last: minus
+  /// its force (N), integrated twice over time; they enter no equation.
   Eigen::VectorXd q;
   Eigen::VectorXd v;  ///< dq/dt, as many
   Eigen::VectorXd z;  ///< Model::states() extra states of effects

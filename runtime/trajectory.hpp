@@ -18,8 +18,8 @@ struct Trajectory {
   Eigen::MatrixXd energy;
 };
 
-/// Of a model in space: gives the vectors q along its links the length one and their rates v no part
-/// along them. Lengths drift by the error of the steps; nothing else depends on them.
+/// In space: gives the link vectors q the length one and removes the part of their rates v that is along them.
+/// These lengths drift by the error of the steps; nothing else depends on them.
 void normalise_directions(Trajectory& trajectory, int links);
 
 }  // namespace catena

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "truth/camera.hpp"
+#include "truth/film_camera.hpp"
 
 namespace truth {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "truth/camera.hpp"
+#include "truth/film_camera.hpp"
 
 namespace truth {
 

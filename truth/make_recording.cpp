@@ -9,8 +9,8 @@
 #include <iterator>
 #include <utility>
 
-#include "truth/camera.hpp"
 #include "truth/files.hpp"
+#include "truth/film_camera.hpp"
 #include "truth/kept_motion.hpp"
 #include "truth/rod.hpp"
 

@@ -13,8 +13,7 @@
 namespace catena::checking {
 
 /// The chain's equations from its energies: kinematics (2.24)-(2.27) with the unit vectors q of the links,
-/// energies (2.3)-(2.9) with the
-/// load's potential m_c g h_c, which (2.9) leaves out, Rayleigh dissipation, and
+/// energies (2.3)-(2.9) with the load's potential m_c g h_c, which (2.9) leaves out, Rayleigh dissipation, and
 ///   d/dt(dL/dthetadot_i) - dL/dtheta_i + dD/dthetadot_i - T_i = 0.
 /// Nothing is simplified or assumed about the result. Every part keeps its body, joint or torque.
 /// Indices run from 1 to n. Heights are measured from the straight chain (2.7). A call costs about

@@ -32,9 +32,9 @@
 // with the constraints |q_i| = 1 and their multipliers, and what is along q_i says that |q_i|^2 has no
 // acceleration. |q_i| may drift by rounding and errors of steps; the motion does not see it.
 //
-// A held end: the constraint g = (far end of link n) - (where it is held) = 0, or of any other link that is
-// held, enters as a kinetic energy
-// mu'. g', bilinear in the rates, with three further coordinates mu. Euler-Lagrange makes of it
+// A held end: the constraint g = (far end of link n) - (where it is held) = 0, or that of any other link that is
+// held, enters as a kinetic energy mu'. g', bilinear in the rates, with three further coordinates mu.
+// Euler-Lagrange makes of it
 //
 //     ... + (dg/dq)' mu'' in the equations of q,      g'' = 0 in those of mu:
 //
@@ -257,6 +257,13 @@ class Chain {
   void add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i);
   /// What follows the name of a state; in space it is a vector.
   std::vector<std::string> state_components() const;
+  /// factor times direction, by axis.
+  struct AlongVector {
+    std::string name;
+    std::vector<ex> direction;
+    ex factor;
+  };
+  static std::optional<AlongVector> along_one_vector(const ex& term, const Surroundings& here);
   /// In space: an odd function of the sizes of vectors, such as joint_rate and states, as a vector, by axis.
   std::vector<ex> evaluate_vector(const Effect& effect, const Expression& expression, Place place,
                                   Link i, const char* unit);
@@ -265,6 +272,9 @@ class Chain {
   /// The point where effects act at a place, and the directions of its link; by axis.
   std::vector<ex> point_at(Place place, Link i) const;
   std::vector<ex> direction_at(Place place, Link i) const;
+  /// How what is defined at a place is numbered and called.
+  static int index_at(Place place, Link i);
+  static std::string at_load(Place place);
   ex effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i);
 
   Description description_;

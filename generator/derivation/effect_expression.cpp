@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/derivation/effect_expression.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -161,6 +163,13 @@ Value evaluated(const Expression& expression, const ExpressionContext& context) 
 }
 
 }  // namespace
+
+bool has_meaning(const Expression& expression, const ExpressionContext& known) {
+  const std::set<std::string> names = names_in(expression);
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return name == "pi" || known.symbols.contains(name);
+  });
+}
 
 ex parse_expression(const Expression& expression, const ExpressionContext& context,
                     const Unit& expected) {

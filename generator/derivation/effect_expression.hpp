@@ -29,6 +29,9 @@ struct ExpressionContext {
   }
 };
 
+/// Whether all names in an expression are known there.
+bool has_meaning(const Expression& expression, const ExpressionContext& known);
+
 /// Throws InputError "file:line: key: in "text": ..." that names the sub-term, both units or the
 /// nearest symbol, and what to do.
 GiNaC::ex parse_expression(const Expression& expression, const ExpressionContext& context,

@@ -10,10 +10,6 @@
 namespace catena {
 
 /// Compares two arrays entry by entry and keeps the first difference.
-///
-///     EntryComparison mass("M");
-///     mass.entry("(1, 2)", difference);
-///     const Proof proof = mass.proof();
 class EntryComparison {
  public:
   explicit EntryComparison(const std::string& what);

@@ -44,14 +44,14 @@ void require_only(const Form& form, const std::string& family, int i, bool allow
 // Linearisation::change_of_state says.
 Differential along_border(Chain& chain, const Weights& weights, size_t coordinate) {
   Definitions& definitions = chain.definitions();
-  const auto seeded = [&] {
+  const auto along_coordinate = [&] {
     Differential along(definitions, [](const std::string& family) { return family + "_held"; });
     along.set(chain.coordinates()[coordinate], weights.position);
     along.set(chain.rates()[coordinate], weights.velocity);
     along.set(chain.accelerations()[coordinate], weights.acceleration);
     return along;
   };
-  Differential along = seeded(), with_states_held = seeded();
+  Differential along = along_coordinate(), with_states_held = along_coordinate();
   for (size_t k = 0; k < chain.states().size() && !weights.velocity.is_zero(); ++k) {
     const ex& state = chain.states()[k];
     const ex change = with_states_held.of(chain.state_rates()[k]);

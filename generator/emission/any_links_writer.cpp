@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "common/input_error.hpp"
 #include "generator/emission/model_functions.hpp"
@@ -24,13 +25,19 @@ constexpr int kCompared[] = {kFewest, 24, 60, 240};
 // What is the same for every number of links, the statements apart.
 void require_alike(const ModelFunctions& a, const ModelFunctions& b) {
   const auto head = [](const ModelFunctions& model) {
-    std::vector<std::string> words{structure_text(model), model.accelerations};
+    std::vector<std::string> words{model.accelerations, model.summary.why_not};
     words.insert(words.end(), model.terms.begin(), model.terms.end());
     for (const EnergyItem& item : model.energies) words.push_back(item.name);
     for (const Function& function : model.functions) words.push_back(function.name);
     return words;
   };
-  if (head(a) != head(b) || a.mass != b.mass || a.newton != b.newton || a.observes != b.observes)
+  const auto structure = [](const ModelSummary& s) {
+    return std::tuple(s.structured, s.mass_structured, s.mass_symmetric, s.mass_rank,
+                      s.newton_upper_rank, s.newton_lower_rank, s.block, s.border,
+                      s.stiffness_tridiagonal, s.damping_tridiagonal);
+  };
+  if (head(a) != head(b) || structure(a.summary) != structure(b.summary) || a.mass != b.mass ||
+      a.newton != b.newton || a.observes != b.observes)
     throw std::logic_error("the functions or the matrices differ between numbers of links");
 }
 

@@ -54,7 +54,7 @@ ModelFunctions FunctionBuilder::build() {
   s.states = static_cast<int>(table.states.size());
   s.signals = static_cast<int>(table.signals.size());
   s.parameters = static_cast<int>(table.parameters.size());
-  seed_tangent();
+  set_tangent_directions();
   residual();
   if (has_all()) terms();
   if (s.states > 0) state_rates();
@@ -77,7 +77,7 @@ ModelFunctions FunctionBuilder::build() {
 }
 
 // The differential of every input is an input of its own, "d_<family>".
-void FunctionBuilder::seed_tangent() {
+void FunctionBuilder::set_tangent_directions() {
   for (int k = 0, count = definitions_.size(); k < count; ++k) {
     const Symbol symbol = definitions_[k];
     if (symbol.is_input && symbol.family != "pi") {

@@ -44,7 +44,7 @@ class FunctionBuilder {
   // what they share
   bool in_space() const { return description_.space == Space::kThreeDimensional; }
   bool has_all() const { return result_.set == FunctionSet::kAll; }
-  void seed_tangent();
+  void set_tangent_directions();
   std::vector<Output> tangents_of(std::vector<Output> outputs);
   Substitution without_acceleration(Chain& chain);
   Statements body(const std::vector<Output>& outputs, const Inputs& inputs) {

@@ -68,17 +68,17 @@ std::string escaped(const std::string& text) {
 }
 
 // "left ={}& a + b \\ & + c": as many terms on a line as fit
-std::string equation(const std::string& left, const std::vector<std::string>& terms,
+std::string equation(const std::string& left, const std::vector<LatexTerm>& terms,
                      std::size_t width = kLineWidth) {
   std::string text = left + " ={}& ";
   std::string line;
-  for (const std::string& term : terms) {
-    if (!line.empty() && latex_width(line) + latex_width(term) > width) {
+  for (const LatexTerm& term : terms) {
+    const std::string shown = &term == &terms.front() ? joined_terms({term}) : with_sign(term);
+    if (!line.empty() && latex_width(line) + latex_width(shown) > width) {
       text += line + " \\\\\n  & ";
       line.clear();
     }
-    const bool first = text.ends_with("={}& ") && line.empty();
-    line += (line.empty() ? "" : " ") + (first ? joined_terms({term}) : term);
+    line += (line.empty() ? "" : " ") + shown;
   }
   return text + (terms.empty() ? "0" : line);
 }
@@ -103,9 +103,8 @@ std::string matrix(const std::string& left, std::size_t rows, std::size_t column
 }
 
 std::string in_document(const LatexEquations& equations) {
-  const bool whole = equations.latex.starts_with("\\begin{align*}");
   return escaped(equations.words) + "\n" +
-         (whole ? equations.latex : "\\[\n  " + equations.latex + "\\]\n") + "\n";
+         (equations.aligned ? equations.latex : "\\[\n  " + equations.latex + "\\]\n") + "\n";
 }
 
 void append(std::vector<LatexEquations>& to, const std::vector<LatexEquations>& more) {
@@ -215,12 +214,12 @@ class Document {
   void lagrangian(std::vector<LatexEquations>& found) {
     Chain chain(description_, links_);
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
-    std::vector<std::string> terms;
+    std::vector<LatexTerm> terms;
     const auto add = [&](const ex& energy) {
-      for (const std::string& term : latex.terms(energy)) terms.push_back(term);
+      for (const LatexTerm& term : latex.terms(energy)) terms.push_back(term);
     };
     ex kinetic = 0, gravity = 0;
-    std::vector<std::string> elastic;
+    std::vector<LatexTerm> elastic;
     for (const EnergyItem& item : chain.energies()) {
       for (const ex& part : item.parts) {
         if (item.name == "kinetic") kinetic += part;
@@ -236,22 +235,22 @@ class Document {
   }
 
   // - 1/2 k_i (theta_i - theta_{i-1})^2: the square stays one
-  static std::string spring(Chain& chain, const LatexPolynomial& latex, const ex& energy) {
+  static LatexTerm spring(Chain& chain, const LatexPolynomial& latex, const ex& energy) {
     for (const int k : chain.definitions().symbols_of(energy)) {
       const Symbol& angle = chain.definitions()[k];
       if (angle.family != "joint_angle") continue;
       LatexStyle style;
       style.leading_link = angle.index;
-      std::vector<std::string> terms = latex.terms(angle.value, style);
+      std::vector<LatexTerm> terms = latex.terms(angle.value, style);
       std::stable_partition(terms.begin(), terms.end(),
-                            [](const std::string& term) { return term.starts_with("+"); });
+                            [](const LatexTerm& term) { return !term.negative; });
       const std::string inside = joined_terms(terms);
       const std::string stiffness = "k_{" + std::to_string(angle.index) + "}";
-      return "- \\frac{1}{2} " + stiffness +
-             (angle.index == 1 && inside == "\\theta_{1}" ? " \\theta_{1}^{2}"
-                                                          : " \\left(" + inside + "\\right)^{2}");
+      const bool alone = GiNaC::is_a<GiNaC::symbol>(latex.written_out(angle.value));
+      return {true, "\\frac{1}{2} " + stiffness + " " +
+                        (alone ? inside : "\\left(" + inside + "\\right)") + "^{2}"};
     }
-    return "- \\frac{1}{2} " + latex.of(2 * energy);
+    return {true, "\\frac{1}{2} " + latex.of(2 * energy)};
   }
 
   std::string euler_lagrange() {
@@ -264,13 +263,13 @@ class Document {
       LatexStyle by_coefficient;
       by_coefficient.by_coefficient = true;
       by_coefficient.leading_link = static_cast<int>(i) + 1;
-      std::vector<std::string> first, second;
-      if (!own.empty()) first.push_back("+ " + own);
+      std::vector<LatexTerm> first, second;
+      if (!own.empty()) first.push_back({false, own});
       second = first;
-      for (const std::string& term : latex.terms(force, by_coefficient)) first.push_back(term);
-      for (const std::string& term : latex.terms(force)) second.push_back(term);
+      for (const LatexTerm& term : latex.terms(force, by_coefficient)) first.push_back(term);
+      for (const LatexTerm& term : latex.terms(force)) second.push_back(term);
       for (const Effect& effect : description_.effects) {
-        if (has_generalised_force(effect)) first.push_back("+ " + generalised_force(effect, i));
+        if (has_generalised_force(effect)) first.push_back({false, generalised_force(effect, i)});
       }
       std::string text = "\\frac{d}{dt} \\left(\\frac{\\partial L}{\\partial " +
                          coordinate(i, "\\dot") + "}\\right) - \\frac{\\partial L}{\\partial " + q +
@@ -303,19 +302,22 @@ class Document {
     }
     rest_moments();
     if (!rest_.empty()) text += " + \\vec{E}";
-    found.push_back({"Worked out, they read", text + "\n"});
+    found.push_back({"Worked out, they read", text + "\n", false});
     const std::string all = coordinates_in_order();
-    if (!all.empty()) found.push_back({"where the coordinates are", all});
+    if (!all.empty()) found.push_back({"where the coordinates are", all, false});
   }
 
   void inertia(std::vector<LatexEquations>& found) {
     Chain chain(description_, links_, "kinetic");
     const LatexPolynomial latex(chain.definitions(), names_, abbreviations_);
     const std::size_t n = chain.coordinates().size();
-    found.push_back(
-        {"with the symmetric mass matrix", matrix("M", n, n, [](std::size_t i, std::size_t j) {
-           return "M_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) + "}";
-         })});
+    found.push_back({"with the symmetric mass matrix",
+                     matrix("M", n, n,
+                            [](std::size_t i, std::size_t j) {
+                              return "M_{" + number(i) + (i > 8 || j > 8 ? "," : "") + number(j) +
+                                     "}";
+                            }),
+                     false});
     std::vector<std::string> equations;
     for (std::size_t i = 0; i < n; ++i) {
       const ex row = latex.written_out(chain.residual()[i]);
@@ -391,8 +393,8 @@ class Document {
         return latex.of(latex.written_out(chain.residual()[i]).coeff(variables[j]));
       });
     };
-    found.push_back({"The damping matrix is", read("C", "friction")});
-    found.push_back({"and the stiffness matrix", read("K", "elastic")});
+    found.push_back({"The damping matrix is", read("C", "friction"), false});
+    found.push_back({"and the stiffness matrix", read("K", "elastic"), false});
   }
 
   // K theta less the elastic moments: what the angles at rest add
@@ -431,7 +433,8 @@ class Document {
     found.push_back(
         {"and the external torques",
          matrix("\\vec{T}", chain.coordinates().size(), 1,
-                [&](std::size_t i, std::size_t) { return torque(i).empty() ? "0" : torque(i); })});
+                [&](std::size_t i, std::size_t) { return torque(i).empty() ? "0" : torque(i); }),
+         false});
   }
 
   std::string effect_text(const Effect& effect) {
@@ -449,7 +452,7 @@ class Document {
     std::vector<std::string> equations;
     for (; explained_ < abbreviations_.entries.size(); ++explained_) {
       const LatexAbbreviations::Entry& entry = abbreviations_.entries[explained_];
-      equations.push_back(equation(entry.left, entry.terms));
+      equations.push_back(equation(entry.name + (entry.squared ? "^{2}" : ""), entry.terms));
     }
     if (equations.empty()) return {};
     return {{"with", display(equations)}};

@@ -13,8 +13,9 @@ inline constexpr int kMostLatexLinks = 20;
 
 /// What the derivation found, as one reads it.
 struct LatexEquations {
-  std::string words;  ///< LaTeX that leads to them: "The Lagrangian is"
-  std::string latex;  ///< an environment of displayed mathematics, amsmath
+  std::string words;    ///< LaTeX that leads to them: "The Lagrangian is"
+  std::string latex;    ///< amsmath
+  bool aligned = true;  ///< an environment align*; else what stands between \[ and \]
 };
 
 /// For so many links the Lagrangian, the equations of Euler and Lagrange and the matrices of (3.4),

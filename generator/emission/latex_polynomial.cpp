@@ -18,7 +18,6 @@ using GiNaC::numeric;
 namespace {
 
 constexpr std::size_t kLongestInside = 20;  // letters under a root or in a function
-constexpr std::string_view kOpening = "\\left(", kClosing = "\\right)";
 
 std::string with_power(const std::string& base, int power) {
   return power == 1 ? base : base + "^{" + std::to_string(power) + "}";
@@ -44,9 +43,7 @@ std::string number_text(const numeric& value) {
   return "\\frac{" + digits(value.numer()) + "}{" + below + "}";
 }
 
-std::string in_parentheses(const std::string& text) {
-  return std::string(kOpening) + text + std::string(kClosing);
-}
+std::string in_parentheses(const std::string& text) { return "\\left(" + text + "\\right)"; }
 
 std::string function_name(const ex& function) {
   static const std::map<std::string, std::string> names = {
@@ -68,7 +65,7 @@ class LatexTerms {
   LatexTerms(const LatexPolynomial& writer, const LatexStyle& style)
       : writer_(writer), style_(style) {}
 
-  std::vector<std::string> of(const ex& expanded) {
+  std::vector<LatexTerm> of(const ex& expanded) {
     read(expanded);
     combine_trigonometry(sum_);
     return style_.by_coefficient ? by_coefficient() : by_factor();
@@ -148,7 +145,7 @@ class LatexTerms {
     return std::pair(style_.inertia_last ? -lengths : lengths, links);
   }
 
-  std::vector<std::string> by_factor() const {
+  std::vector<LatexTerm> by_factor() const {
     std::map<Powers, MonomialSum> groups;
     for (const auto& [powers, value] : sum_) {
       const auto [coefficients, rest] = split(powers);
@@ -157,23 +154,22 @@ class LatexTerms {
     std::vector<std::pair<Powers, MonomialSum>> ordered(groups.begin(), groups.end());
     std::stable_sort(ordered.begin(), ordered.end(),
                      [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
-    std::vector<std::string> terms;
+    std::vector<LatexTerm> terms;
     for (const auto& [rest, coefficients] : ordered) terms.push_back(term(coefficients, rest));
     return terms;
   }
 
-  std::vector<std::string> by_coefficient() const {
+  std::vector<LatexTerm> by_coefficient() const {
     std::map<Powers, MonomialSum> groups;
     for (const auto& [powers, value] : sum_) {
       const auto [coefficients, rest] = split(powers);
       groups[coefficients][rest] = value;
     }
-    std::vector<std::string> terms;
+    std::vector<LatexTerm> terms;
     for (const auto& [coefficients, rests] : groups) {
-      auto [sign, scale, inside] = factored(rests);
-      std::string text = spaced(scale, factors(coefficients));
-      if (!inside.empty()) text = spaced(text, inside);
-      terms.push_back((sign ? "- " : "+ ") + (text.empty() ? "1" : text));
+      const Factored part = factored(rests);
+      const std::string text = spaced(spaced(part.scale, factors(coefficients)), part.as_factor());
+      terms.push_back({part.negative, text.empty() ? "1" : text});
     }
     return terms;
   }
@@ -181,7 +177,10 @@ class LatexTerms {
   struct Factored {
     bool negative;
     std::string scale;  // "\frac{1}{2}", empty for one
-    std::string inside;
+    std::string sum;    // empty for one
+    bool several;       // terms
+
+    std::string as_factor() const { return several ? in_parentheses(sum) : sum; }
   };
 
   // A sum as sign, number and sum; the number leaves the largest coefficient at one. Leads: the
@@ -203,9 +202,9 @@ class LatexTerms {
       if (!text.empty()) text += part.is_negative() ? " - " : " + ";
       text += size;
     }
-    const bool one = text == "1";
-    if (sum.size() > 1) text = in_parentheses(text);
-    return {negative, largest.is_equal(1) ? "" : number_text(largest), one ? "" : text};
+    const bool one = sum.size() == 1 && sum.begin()->first.empty();
+    return {negative, largest.is_equal(1) ? "" : number_text(largest), one ? "" : text,
+            sum.size() > 1};
   }
 
   // \frac{m_1}{4}, 2 m_1, m_1, 1
@@ -218,21 +217,19 @@ class LatexTerms {
     return "\\frac{" + above + "}{" + number_text(number.denom()) + "}";
   }
 
-  std::string term(const MonomialSum& coefficients, const Powers& rest) const {
-    const auto [negative, scale, inside] = factored(coefficients);
-    if (rest.empty() && !negative && scale.empty() && coefficients.size() > 1) {
-      return "+ " +
-             inside.substr(kOpening.size(), inside.size() - kOpening.size() - kClosing.size());
-    }
+  LatexTerm term(const MonomialSum& coefficients, const Powers& rest) const {
+    const Factored part = factored(coefficients);
+    if (rest.empty() && !part.negative && part.scale.empty() && part.several)
+      return {false, part.sum};
     Powers lengths, others;
     for (const auto& entry : rest) {
       const bool first =
           style_.order == LatexStyle::kLengthsFirst && entry.first.role == Role::kLength;
       (first ? lengths : others).insert(entry);
     }
-    std::string text = spaced(spaced(scale, factors(lengths)), spaced(inside, factors(others)));
-    if (text.empty()) text = "1";
-    return (negative ? "- " : "+ ") + text;
+    const std::string text =
+        spaced(spaced(part.scale, factors(lengths)), spaced(part.as_factor(), factors(others)));
+    return {part.negative, text.empty() ? "1" : text};
   }
 
   std::string factors(const Powers& powers) const {
@@ -319,7 +316,6 @@ ex LatexPolynomial::written_out(const ex& expression) const {
 
 std::string LatexPolynomial::symbol(int number, int power) const {
   const Symbol& symbol = definitions_[number];
-  const auto in_parentheses = [](const std::string& text) { return "\\left(" + text + "\\right)"; };
   if (symbol.is_input) {
     const auto known = effect_names_.find(symbol.family);
     const std::string name = known != effect_names_.end() ? known->second
@@ -344,23 +340,18 @@ std::string LatexPolynomial::symbol(int number, int power) const {
 
 std::string LatexPolynomial::abbreviation(const ex& value) const {
   const bool root = GiNaC::is_a<GiNaC::power>(value);
-  const std::vector<std::string> all =
+  const std::vector<LatexTerm> all =
       GiNaC::is_a<GiNaC::function>(value)
-          ? std::vector{"+ " + function_name(value) + in_parentheses(of(value.op(0)))}
+          ? std::vector{LatexTerm{false, function_name(value) + in_parentheses(of(value.op(0)))}}
           : terms(root ? value.op(0) : value);
-  const std::string ending = root ? "^{2}" : "";
-  for (const LatexAbbreviations::Entry& entry : abbreviations_.entries) {
-    if (entry.terms == all && entry.left.ends_with("^{2}") == root) {
-      return entry.left.substr(0, entry.left.size() - ending.size());
-    }
-  }
-  const std::string name = "R_{" + std::to_string(abbreviations_.entries.size() + 1) + "}";
-  abbreviations_.entries.push_back({name + ending, all});
-  return name;
+  for (const LatexAbbreviations::Entry& entry : abbreviations_.entries)
+    if (entry.terms == all && entry.squared == root) return entry.name;
+  abbreviations_.entries.push_back(
+      {"R_{" + std::to_string(abbreviations_.entries.size() + 1) + "}", root, all});
+  return abbreviations_.entries.back().name;
 }
 
-std::vector<std::string> LatexPolynomial::terms(const ex& expression,
-                                                const LatexStyle& style) const {
+std::vector<LatexTerm> LatexPolynomial::terms(const ex& expression, const LatexStyle& style) const {
   return LatexTerms(*this, style).of(written_out(expression));
 }
 
@@ -382,11 +373,16 @@ std::size_t latex_width(const std::string& latex) {
   return letters;
 }
 
-std::string joined_terms(const std::vector<std::string>& terms) {
+std::string with_sign(const LatexTerm& term) { return (term.negative ? "- " : "+ ") + term.text; }
+
+std::string joined_terms(const std::vector<LatexTerm>& terms) {
   if (terms.empty()) return "0";
   std::string text;
-  for (const std::string& term : terms) text += text.empty() ? term : " " + term;
-  return text.starts_with("+ ") ? text.substr(2) : text;
+  for (const LatexTerm& term : terms) {
+    const bool plain = text.empty() && !term.negative;
+    text += (text.empty() ? "" : " ") + (plain ? term.text : with_sign(term));
+  }
+  return text;
 }
 
 }  // namespace catena

@@ -26,12 +26,21 @@ struct LatexStyle {
 /// Names of the symbols of effects: family -> LaTeX ("\mathrm{coefficient}").
 using LatexNames = std::map<std::string, std::string>;
 
+/// A term of a sum; the sign stands apart.
+struct LatexTerm {
+  bool negative = false;
+  std::string text;  ///< "(m_1/2 + m_c) g l_1 \sin\theta_1"
+
+  bool operator==(const LatexTerm&) const = default;
+};
+
 /// R_1, R_2, ...: what is too long to stand in a term. One list for all expressions of a text, so
 /// that equal ones have one name.
 struct LatexAbbreviations {
   struct Entry {
-    std::string left;  ///< "R_{1}", or "R_{1}^{2}" of a root
-    std::vector<std::string> terms;
+    std::string name;  ///< "R_{1}"
+    bool squared;      ///< a root: the terms are those of its square
+    std::vector<LatexTerm> terms;
   };
   std::vector<Entry> entries;
 };
@@ -42,10 +51,9 @@ class LatexPolynomial {
   LatexPolynomial(const Definitions& definitions, LatexNames effect_names,
                   LatexAbbreviations& abbreviations);
 
-  /// The terms of an expression, each with its sign: "- (m_1/2 + m_c) g l_1 \sin\theta_1". Empty
-  /// for zero. All definitions are written out but functions, roots and divisors, which are shown
+  /// The terms of an expression. Empty for zero. All definitions are written out but functions, roots and divisors, which are shown
   /// with their arguments written out.
-  std::vector<std::string> terms(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
+  std::vector<LatexTerm> terms(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
 
   /// The terms one after the other, without a leading plus; "0" if there are none.
   std::string of(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
@@ -65,8 +73,11 @@ class LatexPolynomial {
   mutable std::map<int, std::string> abbreviated_;  // number of a definition -> "R_{1}"
 };
 
-/// Terms with signs, joined: no leading plus.
-std::string joined_terms(const std::vector<std::string>& terms);
+/// "+ a", "- a"
+std::string with_sign(const LatexTerm& term);
+
+/// "a + b - c", without a leading plus; "0" if there are none.
+std::string joined_terms(const std::vector<LatexTerm>& terms);
 
 /// How many letters wide LaTeX is in print, about.
 std::size_t latex_width(const std::string& latex);

@@ -9,8 +9,8 @@ namespace catena {
 
 // Numbers of a case by their keys. Each throws InputError with file, line, key, value and rule.
 
-/// Squares of what is beyond are no numbers of a computer, and products of several are none soon. A model has the same
-/// limit for its parameters.
+/// Squares and products of several numbers beyond these limits overflow or vanish. A model has the same limits for
+/// its parameters.
 inline constexpr double kLeastPositive = 1e-50, kGreatestPositive = 1e50;
 
 /// A number between `least` and `greatest`; `absent` where the key is not there.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/baseline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,7 +105,11 @@ void hold_out(Case& the_case, DiagnosisContext& context, std::vector<std::string
     if (begin < end)
       the_case.experiments[s].fit_until = end - kThresholds.held_out_share * (end - begin);
   }
-  notes.emplace_back("the case holds nothing out: the last 30 % of each recording were not fitted");
+  const bool windows = std::any_of(the_case.experiments.begin(), the_case.experiments.end(),
+                                   [](const ExperimentSpec& spec) { return spec.window > 0; });
+  notes.push_back(fmt::format(
+      "the case holds nothing out: the last {:.0f} % of each recording{} were not fitted",
+      100 * kThresholds.held_out_share, windows ? ", and the windows that reach into it," : ""));
 }
 
 Case for_the_search(Case the_case) {

@@ -42,7 +42,6 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
       std::max(0.0, result.removed) / (variance * result.autocorrelation), static_cast<int>(added));
   const double misfit_before = std::pow(fit_gap(base, noise).misfit, 2);
   const double misfit_after = std::pow(fit_gap(larger, noise).misfit, 2);
-  result.misfit_removed = misfit_before - misfit_after;
   result.misfit_share = misfit_before > 0 ? 1 - misfit_after / misfit_before : 0;
   return result;
 }

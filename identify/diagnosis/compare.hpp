@@ -17,7 +17,6 @@ struct Comparison {
   double autocorrelation = 1;  ///< autocorrelation factor of the larger model's residuals
   double criterion = 0;        ///< change of the Bayesian information criterion; negative: better
   double log10_p = 0;          ///< of so large a fall by chance, for one model tried
-  double misfit_removed = 0;   ///< fall of the squared misfit, m^2 or rad^2
   double misfit_share = 0;     ///< fall of the squared misfit, as a share of what it was
 };
 
@@ -36,8 +35,8 @@ double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& n
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
 /// s noise that both share (what even the better one leaves, at least a tenth), that error could
 /// put the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the
-/// noise. Decided is a lead larger than that by what chance explains at odds of one in a thousand, if
-/// the one ahead predicts what was held out as well: a lead that is lost there shows freedom, not truth.
+/// noise. The data decide if the lead exceeds this bound plus what chance gives at odds of one in a thousand, and if
+/// the better model also predicts the held-out part as well: a lead that is lost there shows freedom, not truth.
 struct Decision {
   bool decided = false;
   double difference = 0;  ///< d, fitted and held-out parts

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/normal_quantile.hpp"
 #include "identify/diagnosis/explanation.hpp"
 #include "identify/diagnosis/gap_test.hpp"
 #include "identify/diagnosis/links.hpp"
@@ -49,7 +50,7 @@ struct FinalParameter {
   double standard_error = 0;  ///< allowing for autocorrelation; infinite in null directions
 
   /// Half the width of the interval of 95 %.
-  double half_width() const { return 1.96 * standard_error; }
+  double half_width() const { return kNormalQuantile95 * standard_error; }
 };
 
 /// What a diagnosis found.

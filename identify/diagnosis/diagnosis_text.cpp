@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/normal_quantile.hpp"
 #include "common/whole_file.hpp"
 #include "identify/diagnosis/sealed_part.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -153,7 +154,7 @@ results::MissingForce entry_of(const MissingForce& force) {
                                           history.rows, history.size, history.deviation));
   }
   for (const MissingForce::Parameter& parameter : force.parameters) {
-    const double half = 1.96 * parameter.deviation;
+    const double half = kNormalQuantile95 * parameter.deviation;
     entry.parameters.push_back({parameter.name, parameter.unit, "", parameter.value,
                                 parameter.deviation,
                                 results::Interval{parameter.value - half, parameter.value + half}});
@@ -206,13 +207,13 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
                         in_milli(rms_of(held)), in_milli(sealed_rms(model)), fit.ratio());
   };
   for (const Stage& stage : d.stages) {
-    std::string change =
-        stage.added.empty() && stage.removed.empty() ? "baseline"
-        : stage.removed == kTooFewLinks ? fmt::format("{} links after all", stage.links)
-        : stage.added.empty()           ? "without " + stage.removed
-        : stage.added == kTooFewLinks   ? fmt::format("{} links instead", stage.links)
-        : stage.removed.empty()         ? "+ " + stage.added
-                                        : "+ " + stage.added + " for " + stage.removed;
+    std::string change = stage.added.empty() && stage.removed.empty() ? "baseline"
+                         : stage.removed == kTooFewLinks
+                             ? fmt::format("back to {} links", stage.links)
+                         : stage.added.empty()         ? "without " + stage.removed
+                         : stage.added == kTooFewLinks ? fmt::format("{} links", stage.links)
+                         : stage.removed.empty()       ? "+ " + stage.added
+                                                 : "+ " + stage.added + " for " + stage.removed;
     row(change, stage.fit, stage.held_out, stage.model);
   }
   if (!d.effects.empty())

@@ -147,7 +147,7 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
   }
   found = std::move(before);
   found.notes.push_back(
-      fmt::format("the law of \"{}\" was fitted as an effect, but does not stand{}", title,
+      fmt::format("the law of \"{}\" was fitted as an effect, but was not accepted{}", title,
                   replaces ? " against " + listed(found.effects) : ""));
   return false;
 }

@@ -5,8 +5,7 @@
 
 namespace catena {
 
-/// Neither an effect nor more links may be worth anything alone: a damped pivot holds a whole link.
-/// Tries the best explanations of the last look with twice the links. Enters links and effect if
+/// An effect may help only together with more links: a damped pivot holds a whole link. Tries the best explanations of the last look with twice the links. Enters links and effect if
 /// that is acceptable; whether it was.
 bool add_with_more_links(DiagnosisState& state);
 

@@ -63,7 +63,7 @@ struct GapIn {
 /// Whether what is left where there is a gap is no more than noise and errors of laws
 /// (DiagnosisThresholds::law_error) leave by chance. Laws are wrong by a share of what they explain:
 /// of what is left without them (`without_laws`). What is exact, a mass or the tilt of a camera, has
-/// no such errors: beside it a gap is a gap.
+/// no such errors, so it excuses no remaining gap.
 bool only_errors_of_laws(const Remainder& left, const Remainder& without_laws, GapIn gap);
 
 /// Whether a model leaves no gap, or only errors of its laws. `without_laws`: the model with those

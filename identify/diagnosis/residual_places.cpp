@@ -70,14 +70,13 @@ void by_point(const Experiment& experiment, const MatrixXd& residual, ResidualPl
   const auto largest =
       static_cast<std::size_t>(std::max_element(places.point_rms.begin(), places.point_rms.end()) -
                                places.point_rms.begin());
-  places.largest_point = places.points[largest];
   if (points > 1)
     places.words.push_back(
         fmt::format("{} at {}",
                     places.point_rms[largest] > kClearlyLargest * std::sqrt(mean_square(residual))
                         ? "largest"
-                        : "slightly largest",
-                    places.largest_point));
+                        : "a little larger",
+                    places.points[largest]));
 }
 
 /// `predicted`: gives the speed of the motion.
@@ -92,14 +91,14 @@ void by_speed(const Experiment& experiment, const MatrixXd& residual, const Matr
   }
   std::sort(squares.begin(), squares.end());
   const std::size_t third = squares.size() / 3;
+  double slow = 0, fast = 0;  // mean squares in the slowest and the fastest third of the motion
   for (std::size_t k = 0; k < third; ++k) {
-    places.slow_rms += squares[k].second / static_cast<double>(third);
-    places.fast_rms += squares[squares.size() - 1 - k].second / static_cast<double>(third);
+    slow += squares[k].second / static_cast<double>(third);
+    fast += squares[squares.size() - 1 - k].second / static_cast<double>(third);
   }
-  places.slow_rms = std::sqrt(places.slow_rms);
-  places.fast_rms = std::sqrt(places.fast_rms);
-  if (places.fast_rms > kBySpeed * places.slow_rms) places.words.push_back("at high speed");
-  if (places.slow_rms > kBySpeed * places.fast_rms) places.words.push_back("at low speed");
+  const double slow_rms = std::sqrt(slow), fast_rms = std::sqrt(fast);
+  if (fast_rms > kBySpeed * slow_rms) places.words.push_back("at high speed");
+  if (slow_rms > kBySpeed * fast_rms) places.words.push_back("at low speed");
 }
 
 void by_time(const Experiment& experiment, const MatrixXd& residual, ResidualPlaces& places) {
@@ -115,10 +114,7 @@ void by_time(const Experiment& experiment, const MatrixXd& residual, ResidualPla
 void by_frequency(const FittedModel& model, const std::vector<double>& sigmas,
                   ResidualPlaces& places) {
   const std::vector<double> lines = strongest_frequencies(model, sigmas, 1);
-  if (!lines.empty()) {
-    places.strongest_frequency = lines.front();
-    places.words.push_back(fmt::format("strongest at {:.2g} Hz", lines.front()));
-  }
+  if (!lines.empty()) places.words.push_back(fmt::format("strongest at {:.2g} Hz", lines.front()));
 }
 
 }  // namespace

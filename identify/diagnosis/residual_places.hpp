@@ -13,11 +13,8 @@ namespace catena {
 struct ResidualPlaces {
   /// "largest at marker 12 (the load)", "at high speed", "after 2 s"
   std::vector<std::string> words;
-  std::string largest_point;
-  std::vector<std::string> points;    ///< of the experiment looked at
-  std::vector<double> point_rms;      ///< m or rad
-  double slow_rms = 0, fast_rms = 0;  ///< in the slowest and the fastest third of the motion
-  double strongest_frequency = 0;     ///< Hz, of the residuals
+  std::vector<std::string> points;  ///< of the experiment looked at
+  std::vector<double> point_rms;    ///< m or rad
 };
 
 /// Of the fitted part of the first experiment that has one. `sigmas`: the noise of every experiment,

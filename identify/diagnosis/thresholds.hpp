@@ -20,7 +20,9 @@ struct PlausibleErrors {
   double shutter = 0.015;  ///< s: in which a picture is read, a cable's length of it
 };
 
-/// Every number on which a verdict depends. Each says its unit, its reason, and the evidence.
+/// The limits that were chosen and on which a verdict depends. Each says its unit, its reason, and the evidence. What is
+/// no choice (Student's t, the relative error of a level) and what a numerical method needs (blocks, grids, steps)
+/// stands where it is used; the limits of noise stand in identify/noise, those of laws in identify/forces.
 ///
 /// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
 /// varied since. The rates of docs/power.md are evidence for all of them together. Numbers of trials
@@ -51,7 +53,8 @@ struct DiagnosisThresholds {
   /// passes there.
   double gap_size = 1.15;
 
-  // What is left when an explanation was added (verdict.cpp)
+  // What is left when an explanation was added (verdict.cpp, remainder.cpp, prediction_errors.cpp,
+  // predictive_accuracy.cpp)
 
   /// What the law of a right effect gets wrong, as a share of what the effect explains: its
   /// coefficient is no constant, and links are no cable. Measured coefficients of drag and of friction
@@ -127,7 +130,8 @@ struct DiagnosisThresholds {
   /// encoder, the same unknowns leave 2.3 mrad at a tolerance of 1e-6, and 3.2 at 1e-8 and less.
   double simulation_error = 0.1;
 
-  // How far is looked? (search.cpp, refits.cpp, pairs.cpp, look_back.cpp)
+  // How far is looked? (diagnosis_state.cpp, diagnose.cpp, search.cpp, candidate_scores.cpp, refits.cpp,
+  // pairs.cpp, look_back.cpp, trim.cpp)
 
   /// RMS over noise, above which the linear score may rank wrongly: more is refitted, from more
   /// starts. Evidence: at strength 10, 43 of 43 names were right.

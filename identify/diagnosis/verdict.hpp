@@ -36,8 +36,7 @@ FittedModel without_laws(DiagnosisState& state, const FittedModel& model,
 std::vector<std::string> standing_effects(const Diagnosis& found);
 
 /// Divides the misfit among the effects, fits the final model as `asked` says, and tells what the
-/// stages amount to. Throws
-/// std::runtime_error where it cannot be simulated, ModelError where it cannot be made.
+/// stages amount to. Throws std::runtime_error where it cannot be simulated, ModelError where it cannot be made.
 void conclude(DiagnosisState& state, const Case& asked);
 
 /// Without the effects found, a force of no known form does as well or better: none of them is certain.

@@ -42,7 +42,7 @@ std::shared_ptr<const NoiseModel> white_noise(double level) {
 
 }  // namespace
 
-Problem shortened(const Problem& problem, double seconds) {
+Problem first_seconds(const Problem& problem, double seconds) {
   std::vector<Experiment> experiments = problem.experiments();
   for (Experiment& experiment : experiments) {
     const std::vector<double>& time = experiment.recording.time;

@@ -9,7 +9,7 @@ namespace catena {
 // fit. Each function returns a new problem with the same unknowns.
 
 /// Only the first `seconds` (s) after the start of each experiment are fitted, two frames at least.
-Problem shortened(const Problem& problem, double seconds);
+Problem first_seconds(const Problem& problem, double seconds);
 
 /// The relative tolerance of the optimiser is another.
 Problem with_tolerance(const Problem& problem, double tolerance);
@@ -21,7 +21,7 @@ Problem with_defect_weight(const Problem& problem, double weight);
 /// its start: far from the data a robust loss hardly slopes.
 Problem without_loss(const Problem& problem);
 
-/// As precise as the way to a minimum needs it: simulated with a relative tolerance of 1e-4
+/// A rough version for the first steps of a fit: simulated with a relative tolerance of 1e-4
 /// (absolute ones in proportion), every so many frames only, the optimiser's tolerance 1e-2.
 Problem rough(const Problem& problem);
 

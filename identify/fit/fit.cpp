@@ -200,7 +200,7 @@ FitResult fit(const Problem& problem, const FitOptions& options,
   const bool robust = problem.the_case().error.loss != Loss::kNone;
   const Problem plain = robust ? without_loss(problem) : problem;
   for (const double seconds : spec.growing_windows) {
-    FitResult shorter = fit_beginning(shortened(plain, seconds), next, least_squares);
+    FitResult shorter = fit_beginning(first_seconds(plain, seconds), next, least_squares);
     add_effort(shorter, before);
     if (!finished(shorter)) return shorter;
     next.start = shorter.x;

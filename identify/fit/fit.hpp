@@ -57,7 +57,7 @@ struct FitResult {
   Eigen::VectorXd noise_seen_at;
 };
 
-/// What came before counts too; errors of other problems on the way are no errors of the last.
+/// Adds the effort of an earlier fit to `total`. Its errors are not taken over: they are those of another problem.
 void add_effort(FitResult& total, const FitResult& before);
 
 struct Progress {

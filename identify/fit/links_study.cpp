@@ -11,7 +11,7 @@
 
 namespace catena {
 
-Case with_links(const Case& the_case, int links) {
+Case case_for_links(const Case& the_case, int links) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(the_case.file.string() + ": " + what +
                      "; a study of the number of links needs a case that holds for any number");
@@ -53,7 +53,7 @@ std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int
                                      const FitOptions& options, const LeastSquares& least_squares) {
   std::vector<LinksResult> results;
   for (const int count : links) {
-    const Case other = with_links(the_case, count);
+    const Case other = case_for_links(the_case, count);
     const Problem problem(other, model_of(other));
     LinksResult result;
     result.links = count;

@@ -19,7 +19,7 @@ struct LinksResult {
 
 /// The case with another number of links. Throws InputError where the case says things that only
 /// hold for its own number: numbers per link, single joints, ranges.
-Case with_links(const Case& the_case, int links);
+Case case_for_links(const Case& the_case, int links);
 
 /// Fits the case with each number of links.
 std::vector<LinksResult> links_study(const Case& the_case, const std::vector<int>& links,

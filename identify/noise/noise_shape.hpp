@@ -50,8 +50,8 @@ class ExpectedPower {
 };
 
 /// The shape that explains `power` best, by Whittle's likelihood and the Bayesian information
-/// criterion. `use`: the frequencies that show the noise. What they leave open is decided by the
-/// others, so that what can be noise is taken as noise. `count`: the residuals behind `power`.
+/// criterion. `use`: the frequencies that show the noise. Where they leave several shapes
+/// possible, the other frequencies decide, in favour of noise. `count`: the residuals behind `power`.
 NoiseShape fit_noise_shape(const ExpectedPower& expected, const Eigen::VectorXd& power,
                            const std::vector<bool>& use, double count);
 

@@ -133,7 +133,7 @@ int study_links(const Case& the_case, const IdentifyOptions& options) {
   IdentifyOptions single = options;  // a study takes one fit for each number of links
   single.refits = {};
   for (const int links : options.links_study) {
-    Case other = with_links(the_case, links);
+    Case other = case_for_links(the_case, links);
     other.optimiser.starts = 1;
     Evaluation start;
     const WorkEstimate one = estimate_of(Problem(other, model_of(other, options)), single, start);
@@ -184,7 +184,7 @@ void find_errors(const Problem& problem, const IdentifyOptions& options, RunLog&
 }
 
 /// How well joined windows meet: nothing to say where none are joined.
-std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluation) {
+std::string largest_shooting_defect(const Problem& problem, const Evaluation& evaluation) {
   const SoftConstraints defects = shooting_defects_of(problem, evaluation);
   const Eigen::Index n = problem.model().coordinates();
   double angle = 0, rate = 0;
@@ -192,7 +192,7 @@ std::string largest_joint_gap(const Problem& problem, const Evaluation& evaluati
     (i % (2 * n) < n ? angle : rate) =
         std::max(i % (2 * n) < n ? angle : rate, std::abs(defects.value[i]));
   if (defects.value.size() == 0) return "";
-  return fmt::format("; the largest of {} gaps between windows is {:.2g} rad and {:.2g} rad/s",
+  return fmt::format("; the largest of {} shooting defects is {:.2g} rad and {:.2g} rad/s",
                      defects.value.size() / (2 * n), angle, rate);
 }
 
@@ -295,7 +295,7 @@ int identify_case(const IdentifyOptions& options) {
     if (found.starts.size() > 1) std::cout << waterfall(problem, found.starts);
     std::cout << profile_table(problem, found.profiles);
     if (const char* strategy = strategy_of(problem); strategy != std::string("whole"))
-      std::cout << "taken in " << strategy << largest_joint_gap(problem, found.after) << "\n";
+      std::cout << "taken in " << strategy << largest_shooting_defect(problem, found.after) << "\n";
     std::cout << fmt::format(
                      "error ({}) {} before, {} after; {} evaluations, {} failed, {:.2f} s, {:.4f} "
                      "s of a core; {}\n",

@@ -12,7 +12,7 @@
 namespace catena {
 namespace {
 
-struct Worst {
+struct ColumnWidth {
   std::size_t width = 0;
   void see(const std::string& text) { width = std::max(width, text.size()); }
 };
@@ -22,10 +22,6 @@ const Gap* find(const std::vector<Gap>& gaps, const Gap& like) {
     if (gap.experiment == like.experiment && gap.part == like.part) return &gap;
   return nullptr;
 }
-
-}  // namespace
-
-namespace {
 
 /// One line for the fit and one for the validation, over all experiments (of one kind).
 std::string gap_summary(const Problem& problem, const Evaluation* before, const Evaluation& after) {
@@ -66,7 +62,7 @@ std::string gap_table(const Problem& problem, const Evaluation* before, const Ev
   if (problem.experiments().size() > kMostRows) return gap_summary(problem, before, after);
   const std::vector<Gap> gaps = gaps_of(problem, after);
   const std::vector<Gap> earlier = before ? gaps_of(problem, *before) : std::vector<Gap>{};
-  Worst name;
+  ColumnWidth name;
   name.see("experiment");
   for (const Experiment& experiment : problem.experiments()) name.see(experiment.spec.name);
   std::string out = fmt::format("{:<{}}  {:<8}  {:>8}", "experiment", name.width, "part", "values");
@@ -98,7 +94,7 @@ std::string measured_error(const Problem& problem, double error) {
 
 std::string parameter_table(const Problem& problem, const FitResult& fit,
                             const std::optional<Uncertainty>& uncertainty) {
-  Worst name;
+  ColumnWidth name;
   name.see("parameter");
   for (const Unknown& unknown : problem.unknowns())
     if (unknown.group != Unknown::Group::kInitial) name.see(unknown.name);
@@ -134,7 +130,7 @@ std::string parameter_table(const Problem& problem, const FitResult& fit,
 }
 
 std::string identifiability_table(const Problem& problem, const Uncertainty& uncertainty) {
-  Worst name;
+  ColumnWidth name;
   name.see("parameter");
   for (const Unknown& unknown : problem.unknowns()) name.see(unknown.name);
   std::string out = fmt::format("{:<{}}  {:>12}  {:>14}  verdict\n", "parameter", name.width,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/normal_quantile.hpp"
 #include "identify/report/report_figures.hpp"
 #include "identify/report/residuals.hpp"
 #include "identify/report/spectrum.hpp"
@@ -387,7 +388,7 @@ Figure bands(const ForceHistory& history, const std::vector<std::size_t>& rows,
   for (const std::size_t i : rows) {
     figure.series.push_back({history.rows[i], history.time, history.value[i], Mark::kLine, colour});
     Series ends{history.rows[i] + ", 95 %", {}, {}, Mark::kLine, colour + 3};
-    for (const double sign : {-1.96, 1.96}) {
+    for (const double sign : {-kNormalQuantile95, kNormalQuantile95}) {
       for (std::size_t k = 0; k < history.time.size(); ++k) {
         ends.x.push_back(history.time[k]);
         ends.y.push_back(history.value[i][k] + sign * history.deviation[i][k]);

@@ -12,6 +12,12 @@
 namespace catena::report {
 namespace {
 
+/// "time / s"; the label alone where there is no unit.
+std::string axis_title(const Axis& axis) {
+  if (axis.unit.empty() || axis.unit == "1") return axis.label;
+  return axis.label.empty() ? axis.unit : fmt::format("{} / {}", axis.label, axis.unit);
+}
+
 std::string csv_heading(const Axis& axis, const std::string& otherwise) {
   const std::string title = axis_title(axis);
   return csv_field(title.empty() ? otherwise : title);
@@ -37,11 +43,6 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string csv_field(double value) { return std::isnan(value) ? "" : shortest_number(value); }
-
-std::string axis_title(const Axis& axis) {
-  if (axis.unit.empty() || axis.unit == "1") return axis.label;
-  return axis.label.empty() ? axis.unit : fmt::format("{} / {}", axis.label, axis.unit);
-}
 
 void check(const Figure& figure) {
   const auto fail = [&](const std::string& what) {

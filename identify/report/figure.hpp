@@ -67,9 +67,6 @@ struct Figure {
   bool y_downwards = false;   ///< y grows downwards, as "down" does
 };
 
-/// "time / s"; the label alone where there is no unit.
-std::string axis_title(const Axis& axis);
-
 /// Throws std::invalid_argument, naming figure and series, where x and y differ in length, a heat
 /// map is not rows by x, or the id is no file name.
 void check(const Figure& figure);

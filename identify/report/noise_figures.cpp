@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/normal_quantile.hpp"
 #include "identify/report/report_figures.hpp"
 #include "identify/report/residuals.hpp"
 
@@ -17,7 +18,6 @@ namespace {
 constexpr std::size_t kFewestValues = 20;  // values, for either figure
 constexpr std::size_t kMostLags = 60;
 constexpr std::size_t kQuantiles = 200;
-constexpr double kTwoSided = 1.959963984540054;  // of the normal distribution, 95 %
 
 struct Channel {
   std::string name;
@@ -93,7 +93,7 @@ Figure autocorrelation_of(const std::string& point, const std::vector<Channel>& 
     if (figure.rules.empty())
       for (const double side : {-1.0, 1.0})
         figure.rules.push_back(
-            {false, side * kTwoSided / std::sqrt(size), side > 0 ? "white noise" : ""});
+            {false, side * kNormalQuantile95 / std::sqrt(size), side > 0 ? "white noise" : ""});
     figure.series.push_back(std::move(series));
   }
   return figure;

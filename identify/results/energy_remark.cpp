@@ -16,7 +16,7 @@ std::string energy_remark(const Simulation& simulation) {
   const double moved = std::max(changes, kRounding * energy.cwiseAbs().maxCoeff());
   if (!(simulation.energy_imbalance > kGreatestShare * moved)) return "";
   return fmt::format(
-      "the energy balance is off by {:.2g} J, {:.0f} % of the {:.2g} J that change form; "
+      "the energy balance is off by {:.2g} J, {:.0f} % of the {:.2g} J that are converted; "
       "give a smaller relative_tolerance under [simulation]",
       simulation.energy_imbalance, 100 * simulation.energy_imbalance / moved, moved);
 }

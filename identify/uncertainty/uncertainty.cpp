@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/in_quotes.hpp"
+#include "common/normal_quantile.hpp"
 #include "common/number_text.hpp"
 #include "common/special_values.hpp"
 #include "identify/fit/error.hpp"
@@ -19,8 +20,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 95 % two-sided
 
 /// d(unknown)/d(scaled unknown).
 VectorXd ranges(const Problem& problem, const VectorXd& x) {
@@ -247,18 +246,18 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
     if (lost[static_cast<std::size_t>(j)]) deviation[j] = kInfinite;
     estimate.standard_error = deviation[j] * std::abs(range[j]);
     if (unknown.scale == Scale::kLogarithmic) {
-      estimate.lower = x[j] * std::exp(-kQuantile * deviation[j]);
-      estimate.upper = x[j] * std::exp(kQuantile * deviation[j]);
+      estimate.lower = x[j] * std::exp(-kNormalQuantile95 * deviation[j]);
+      estimate.upper = x[j] * std::exp(kNormalQuantile95 * deviation[j]);
     } else {
-      estimate.lower = x[j] - kQuantile * estimate.standard_error;
-      estimate.upper = x[j] + kQuantile * estimate.standard_error;
+      estimate.lower = x[j] - kNormalQuantile95 * estimate.standard_error;
+      estimate.upper = x[j] + kNormalQuantile95 * estimate.standard_error;
     }
     const double near = 1e-6 * std::abs(x[j]);
     if (lost[static_cast<std::size_t>(j)])
       estimate.verdict = Verdict::kStructurallyNot;
     else if (expected_noise <= 0 && (x[j] <= unknown.least + near || x[j] >= unknown.most - near))
       estimate.verdict = Verdict::kAtBound;
-    else if (kQuantile * deviation[j] > 1)
+    else if (kNormalQuantile95 * deviation[j] > 1)
       estimate.verdict = Verdict::kPracticallyNot;
     out.estimates.push_back(estimate);
     for (Index i = 0; i <= j; ++i)
@@ -269,7 +268,7 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   for (Index i = unknowns; i-- > 0;) {  // the weakest first
     WeakDirection weak;
     weak.deviation = i >= rank ? kInfinite : 1 / out.singular_values[i];
-    if (kQuantile * weak.deviation <= 1) break;
+    if (kNormalQuantile95 * weak.deviation <= 1) break;
     weak.direction = all.vectors.col(i);
     weak.text = describe(problem, weak.direction);
     Index largest;
@@ -290,8 +289,8 @@ Estimate noise_estimate(const ChannelNoise& channel, const Uncertainty& uncertai
           : 0;
   const double relative =
       std::sqrt((1 + square) / (1 - square) / (2 * static_cast<double>(channel.count)));
-  return {channel.deviation * relative, channel.deviation * std::exp(-kQuantile * relative),
-          channel.deviation * std::exp(kQuantile * relative), Verdict::kIdentifiable};
+  return {channel.deviation * relative, channel.deviation * std::exp(-kNormalQuantile95 * relative),
+          channel.deviation * std::exp(kNormalQuantile95 * relative), Verdict::kIdentifiable};
 }
 
 }  // namespace catena

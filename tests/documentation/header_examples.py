@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 CHECKOUT, COMPILER = pathlib.Path(sys.argv[1]), sys.argv[2:]
-INSTALLED = ("common", "description", "generated", "runtime", "identify")
+INSTALLED = ("common", "description", "generated", "linear_algebra", "runtime", "identify")
 INDENTED = re.compile(r"^ *///? {4,}(.*)$|^ *///?$")
 STATEMENT = re.compile(r"[;{] *(//.*)?$")
 

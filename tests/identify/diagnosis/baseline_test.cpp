@@ -40,7 +40,10 @@ int frames_held_out(const std::string& more) {
   DiagnosisContext context({}, {}, folder.path(), fit_least_squares, {});
   std::vector<std::string> notes;
   hold_out(the_case, context, notes);
-  CHECK(notes.size() == 1);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0] == std::string("the case holds nothing out: the last 30 % of each recording") +
+                        (more.empty() ? "" : ", and the windows that reach into it,") +
+                        " were not fitted");
   const Problem problem(the_case, Model::built_in(2));
   int frames = 0;
   for (const Experiment& experiment : problem.experiments())

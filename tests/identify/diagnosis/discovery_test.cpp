@@ -9,7 +9,7 @@
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
-#include "tests/identify/diagnosis/two_links.hpp"
+#include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -49,7 +49,7 @@ TEST_CASE("a law is sought beside the effect that closes the gap, and does not t
   CHECK(found.verdict == DiagnosisVerdict::kNamed);
   CHECK(found.effects == std::vector<std::string>{"load_drag"});
   CHECK(any_note(found, "without load_drag: its law: force along the velocity = "));
-  CHECK(any_note(found, "the law of ", "does not stand against load_drag"));
+  CHECK(any_note(found, "the law of ", "was not accepted against load_drag"));
   CHECK(found.law.empty());
 
   const Diagnosis unasked = dragged({"load_drag"}, false);

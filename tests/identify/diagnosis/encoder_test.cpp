@@ -12,7 +12,7 @@
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
-#include "tests/identify/diagnosis/two_links.hpp"
+#include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;

@@ -10,7 +10,7 @@
 
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
-#include "tests/identify/diagnosis/two_links.hpp"
+#include "tests/identify/diagnosis/two_link_case.hpp"
 
 using namespace catena;
 

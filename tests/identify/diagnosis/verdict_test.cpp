@@ -7,7 +7,7 @@
 #include "identify/diagnosis/diagnosis_text.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
-#include "tests/identify/diagnosis/two_links.hpp"
+#include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;

@@ -19,8 +19,8 @@
 #include "linear_algebra/decompositions.hpp"
 #include "runtime/any_links.hpp"
 #include "tests/identify/recordings.hpp"
-#include "truth/camera.hpp"
 #include "truth/files.hpp"
+#include "truth/film_camera.hpp"
 
 namespace catena::testing {
 

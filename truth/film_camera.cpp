@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "truth/camera.hpp"
+#include "truth/film_camera.hpp"
 
 #include <algorithm>
 #include <cmath>
