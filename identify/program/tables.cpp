@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "identify/fit/error.hpp"
 #include "identify/uncertainty/profile.hpp"
@@ -23,22 +25,36 @@ const Gap* find(const std::vector<Gap>& gaps, const Gap& like) {
   return nullptr;
 }
 
-/// One line for the fit and one for the validation, over all experiments (of one kind).
-std::string gap_summary(const Problem& problem, const Evaluation* before, const Evaluation& after) {
-  std::string out;
-  for (const Part part : {Part::kFit, Part::kValidation}) {
-    const auto rms = [&](const Evaluation& evaluation) {
-      const Residuals residuals = residuals_of(problem, evaluation, part);
-      return 1e3 * residuals.value.norm() / std::sqrt(static_cast<double>(residuals.value.size()));
-    };
-    const auto count = residuals_of(problem, after, part).value.size();
-    if (count == 0) continue;
-    const char* unit = problem.experiments().front().spec.kind == DataKind::kAngles ? "mrad" : "mm";
-    out += fmt::format("{:<8}  {:>8} values  RMS", part == Part::kFit ? "fit" : "validate", count);
-    if (before) out += fmt::format("  {:.4g} {} before", rms(*before), unit);
-    out += fmt::format("  {:.4g} {}{}\n", rms(after), unit, before ? " after" : "");
+/// A line for the fit and one for the validation of all experiments with markers, and of all with angles.
+std::string gap_summary(const Problem& problem, const std::vector<Gap>& before,
+                        const std::vector<Gap>& after) {
+  std::string out = fmt::format("{} experiments\n", problem.experiments().size());
+  for (const bool angles : {false, true}) {
+    for (const Part part : {Part::kFit, Part::kValidation}) {
+      const auto total = [&](const std::vector<Gap>& gaps) {
+        std::pair<Eigen::Index, double> found;  // residuals, RMS
+        for (const Gap& gap : gaps) {
+          const auto i = static_cast<std::size_t>(gap.experiment);
+          if (gap.part != part ||
+              (problem.experiments()[i].spec.kind == DataKind::kAngles) != angles)
+            continue;
+          found.first += gap.count;
+          found.second += static_cast<double>(gap.count) * gap.rms * gap.rms;
+        }
+        found.second = std::sqrt(found.second / static_cast<double>(found.first));
+        return found;
+      };
+      const auto [count, rms] = total(after);
+      if (count == 0) continue;
+      const char* unit = angles ? "mrad" : "mm";
+      out +=
+          fmt::format("{:<8}  {:>8} values  RMS", part == Part::kFit ? "fit" : "validate", count);
+      if (!before.empty())
+        out += fmt::format("  {:.4g} {} before", 1e3 * total(before).second, unit);
+      out += fmt::format("  {:.4g} {}{}\n", 1e3 * rms, unit, before.empty() ? "" : " after");
+    }
   }
-  return fmt::format("{} experiments\n", problem.experiments().size()) + out;
+  return out;
 }
 
 }  // namespace
@@ -59,9 +75,9 @@ std::string simulation_table(const Motion& motion) {
 
 std::string gap_table(const Problem& problem, const Evaluation* before, const Evaluation& after) {
   constexpr std::size_t kMostRows = 8;
-  if (problem.experiments().size() > kMostRows) return gap_summary(problem, before, after);
   const std::vector<Gap> gaps = gaps_of(problem, after);
   const std::vector<Gap> earlier = before ? gaps_of(problem, *before) : std::vector<Gap>{};
+  if (problem.experiments().size() > kMostRows) return gap_summary(problem, earlier, gaps);
   ColumnWidth name;
   name.see("experiment");
   for (const Experiment& experiment : problem.experiments()) name.see(experiment.spec.name);

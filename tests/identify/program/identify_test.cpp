@@ -64,6 +64,27 @@ TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it"
   }
 }
 
+TEST_CASE("of many experiments, markers and angles have lines of their own") {
+  const Twin twin;
+  std::string text = testing::kFit;
+  for (int i = 2; i <= 8; ++i)
+    text.insert(text.find("[error]"),
+                "[[experiment]]\nname = \"swing " + std::to_string(i) +
+                    "\"\ndata = \"swing/positions.csv\"\nkind = \"markers\"\n\n");
+  // One angle in one frame, 0.05 rad from where the chain starts.
+  twin.folder.write("angle.csv", "time_s,angle_rad\n0,0.65\n");
+  text.insert(text.find("[error]"),
+              "[[experiment]]\nname = \"angle\"\ndata = \"angle.csv\"\nkind = \"angles\"\n"
+              "angles = [{name = \"first\", column = \"angle_rad\", link = 1}]\n\n");
+  const ProcessResult run = run_catena(
+      {"simulate", twin.folder.write("many.toml", text), "--output", twin.folder.path() / "many"});
+  CHECK_MESSAGE(run.exit_status == 0, run.output);
+  INFO(run.output);
+  CHECK(run.output.find("9 experiments\n") != std::string::npos);
+  CHECK(run.output.find("1 values  RMS  50 mrad\n") != std::string::npos);
+  CHECK(run.output.find(" mm\nvalidate") != std::string::npos);
+}
+
 TEST_CASE("an interrupted fit leaves the best so far and exits with 130") {
   const Twin twin;
   // a long fit: many links, many starts
