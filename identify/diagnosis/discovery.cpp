@@ -92,7 +92,7 @@ void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<Fo
   std::vector<std::string> all = base.effects, undecided;
   std::vector<std::pair<std::string, std::string>> added;  // ids and words
   for (const ForceLaw& rival : rivals) {
-    if (added.size() == static_cast<std::size_t>(kThresholds.law.rivals)) break;
+    if (added.size() == static_cast<std::size_t>(kLawThresholds.rivals)) break;
     added.emplace_back(add_to_library(state.context, base.model, rival).id,
                        rival.formula.text + site_in_words(rival.site));
     all.push_back(added.back().first);

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 
-#include "identify/forces/missing_force.hpp"
-
 namespace catena {
 
 /// Standard deviations of what a case states and a camera reports, each as a ruler, a balance and a
@@ -22,7 +20,8 @@ struct PlausibleErrors {
 
 /// The limits that were chosen and on which a verdict depends. Each says its unit, its reason, and the evidence. What is
 /// no choice (Student's t, the relative error of a level) and what a numerical method needs (blocks, grids, steps)
-/// stands where it is used; the limits of noise stand in identify/noise, those of laws in identify/forces.
+/// stands where it is used; the limits of noise stand in identify/noise, those of a missing force and of its law in
+/// identify/forces (MissingForceThresholds, LawThresholds).
 ///
 /// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
 /// varied since. The rates of docs/power.md are evidence for all of them together. Numbers of trials
@@ -118,10 +117,6 @@ struct DiagnosisThresholds {
   /// Share of the squared misfit that more links must remove. Chosen; half of `worthwhile`, for a
   /// cable has no links and their number needs no name.
   double links_worthwhile = 0.05;
-
-  /// Is a force missing, and does it follow a law? (forces/missing_force.cpp, force_law.cpp)
-  MissingForceThresholds force;
-  LawThresholds law;
 
   // How closely is simulated? (close_simulation.cpp)
 

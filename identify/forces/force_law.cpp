@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "common/normal_quantile.hpp"
 #include "identify/forces/law_choice.hpp"
 #include "identify/forces/law_response.hpp"
 #include "identify/forces/place_kinematics.hpp"
@@ -22,7 +23,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr LawThresholds kLawThresholds;
 /// Fits in which the force follows the state; more where there are numbers to be found, at most so many of
 /// their steps at a time, until they move by less than such a part of one.
 constexpr int kClosedLoops = 3, kMostLoops = 16;
@@ -81,8 +81,8 @@ std::string with_constants(const CandidateLaw::Formula& formula) {
   std::string words = formula.text;
   for (const CandidateLaw::Constant& constant : formula.constants)
     words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
-                         constant.value - 1.96 * constant.deviation,
-                         constant.value + 1.96 * constant.deviation, constant.unit);
+                         constant.value - kNormalQuantile95 * constant.deviation,
+                         constant.value + kNormalQuantile95 * constant.deviation, constant.unit);
   return words;
 }
 
@@ -163,10 +163,9 @@ class LawSearch {
   /// Whether a push was certainly after the first frame and before the last one. At the first one it is a start that
   /// differs from the one assumed, and no law.
   bool is_between_ends(const ForceLaw& law) const {
-    constexpr double kQuantile = 1.96;  // 95 %
     for (const CandidateLaw::Constant& constant : law.formula.constants) {
       if (constant.name != "moment") continue;
-      const double error = kQuantile * constant.deviation;
+      const double error = kNormalQuantile95 * constant.deviation;
       for (const LawMotion& motion : motions_of(paths_))
         if (!(constant.value - error > motion.time.front() &&
               constant.value + error < motion.time.back()))

@@ -27,6 +27,7 @@ struct LawThresholds {
   /// costs a fit. Chosen.
   int rivals = 3;
 };
+inline constexpr LawThresholds kLawThresholds;
 
 /// What the missing force goes with: a formula of few constants, or nothing.
 ///

@@ -45,6 +45,7 @@ std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
                                   const LawTrials& trials);
 
 /// Of what can be explained of a column, down to the squares `least`: the share that a law does.
-double explained_by_law(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law, double least);
+double explained_by_law(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law,
+                        double least);
 
 }  // namespace catena

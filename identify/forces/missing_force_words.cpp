@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/normal_quantile.hpp"
 #include "identify/forces/force_pattern.hpp"
 
 namespace catena {
@@ -33,8 +34,8 @@ Strongest strongest_of(const std::vector<MissingForce::OverTime>& densities) {
 }
 
 std::string sized(double value, double deviation, const std::string& unit) {
-  return fmt::format("{:.3g} {} ({:.3g} to {:.3g})", value, unit, value - 1.96 * deviation,
-                     value + 1.96 * deviation);
+  return fmt::format("{:.3g} {} ({:.3g} to {:.3g})", value, unit,
+                     value - kNormalQuantile95 * deviation, value + kNormalQuantile95 * deviation);
 }
 
 /// "a side force" and the like, by what most of the mean square is. `squares`: to each direction.
