@@ -71,8 +71,8 @@ TEST_CASE("of many experiments, markers and angles have lines of their own") {
     text.insert(text.find("[error]"),
                 "[[experiment]]\nname = \"swing " + std::to_string(i) +
                     "\"\ndata = \"swing/positions.csv\"\nkind = \"markers\"\n\n");
-  // One angle in one frame, 0.05 rad from where the chain starts.
-  twin.folder.write("angle.csv", "time_s,angle_rad\n0,0.65\n");
+  // One angle in two frames, 0.05 rad from where the chain starts.
+  twin.folder.write("angle.csv", "time_s,angle_rad\n0,0.65\n1e-4,0.65\n");
   text.insert(text.find("[error]"),
               "[[experiment]]\nname = \"angle\"\ndata = \"angle.csv\"\nkind = \"angles\"\n"
               "angles = [{name = \"first\", column = \"angle_rad\", link = 1}]\n\n");
@@ -81,7 +81,7 @@ TEST_CASE("of many experiments, markers and angles have lines of their own") {
   CHECK_MESSAGE(run.exit_status == 0, run.output);
   INFO(run.output);
   CHECK(run.output.find("9 experiments\n") != std::string::npos);
-  CHECK(run.output.find("1 values  RMS  50 mrad\n") != std::string::npos);
+  CHECK(run.output.find("2 values  RMS  50 mrad\n") != std::string::npos);
   CHECK(run.output.find(" mm\nvalidate") != std::string::npos);
 }
 
