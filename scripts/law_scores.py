@@ -13,6 +13,7 @@ PLACES = {"link_centre": "middle_", "load": "load_"}
 STEP = 1e-5  # of differences, m, m/s, rad, rad/s
 GRAVITY = 9.81  # m/s^2, of make_recording
 LINK_ENDS = 2  # every so many-th marker is the end of a link
+SLIDES = 0.02  # rad/s: slower than this the truth rounds the sign of a rate (by 1 % there)
 
 
 def columns(file):
@@ -39,15 +40,15 @@ class Law:
                            if name.startswith("discovered_law.")}  # fmt: skip
         self.constants |= {"here": 1.0, "offset": 0.0, "gravity": GRAVITY}  # at its place
         self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
-        self.potential = "potential" in law
-        self.at = self.along = None
-        if "torque" in law:  # over the tension, which depends on the whole chain
-            return
+        self.potential, self.torque = "potential" in law, "torque" in law
+        self.cable = case["cable"]
         self.remembers = "state" in law
-        energy = law["force" if "force" in law else "potential" if self.potential else "dissipation"][0]
+        kind = next(kind for kind in ("force", "torque", "potential", "dissipation") if kind in law)
+        energy = law[kind][0]
         self.along = energy.get("along")  # of what remembers, or depends on the time: `value` is the force
         one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))
         self.at = energy["at"] if one_place else None
+        self.joints = None if one_place else {"joint": slice(None), "pivot": slice(1)}.get(energy["at"])
         self.energy = compile(energy["value"].replace("^", "**"), "effect", "eval")
 
     def _energy(self, state):
@@ -72,6 +73,15 @@ class Law:
         return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) - self.mass * state.get(f"acceleration_{name}", 0.0)
                 for name in names]  # fmt: skip
 
+    def joint_moments(self, rates, tensions, spacings):
+        """Of friction in joints, N m: of all, 0 where it does not act."""
+        moments = [0.0] * len(rates)
+        for i in range(len(rates))[self.joints]:
+            state = {"joint_rate": rates[i], "steady_tension": tensions[i], "spacing": spacings[i]}
+            moments[i] = self._energy(state) if self.torque else (
+                self._energy(state | {"joint_rate": rates[i] - STEP}) - self._energy(state | {"joint_rate": rates[i] + STEP})) / (2 * STEP)
+        return moments
+
     def histories(self, true, where):
         """Its parts over time, where it remembers or depends on the time: of `true`, by frames."""
         time, forces = true["time_s"], [0.0] * len(true["time_s"])
@@ -91,10 +101,47 @@ class Law:
         return [nothing, forces] if "down" in self.along else [forces, nothing]
 
 
+def steady_tensions(angles, rates, cable):
+    """Of every joint, N: docs/effects.md. `angles`, `rates`: of the joints."""
+    count = len(angles)
+    link = cable["length"] / count
+    mass, fall, falls = cable["density"] * link, (0.0, GRAVITY), []
+    directions, angle, rate = [], 0.0, 0.0
+    for i in range(count):
+        angle, rate = angle + angles[i], rate + rates[i]
+        along = (math.sin(angle), math.cos(angle))
+        directions.append(along)
+        falls.append([f + rate * rate * link / 2 * a for f, a in zip(fall, along)])  # of the middle of a link
+        fall = [f + rate * rate * link * a for f, a in zip(fall, along)]
+    pull, tensions = [cable["load_mass"] * f for f in fall], []
+    for along, at_middle in zip(reversed(directions), reversed(falls)):
+        pull = [p + mass * f for p, f in zip(pull, at_middle)]
+        tensions.insert(0, sum(p * a for p, a in zip(pull, along)))
+    return tensions
+
+
+def friction_error(law, true):
+    """Of dry friction in joints, where they slide: what sticks has no curve."""
+    count = sum(1 for name in true if re.fullmatch(r"joint_\d+_rate", name))
+    link = law.cable["length"] / count
+    spacings = [link / 2] + [link] * (count - 1)
+    errors, truths = [], []
+    for k in range(len(true["time_s"])):
+        angles, rates, sizes = ([true[f"joint_{i + 1}_{of}"][k] for i in range(count)] for of in ("angle", "rate", "friction"))
+        said = law.joint_moments(rates, steady_tensions(angles, rates, law.cable), spacings)
+        for moment, rate, size in zip(said, rates, sizes):
+            if abs(rate) > SLIDES:
+                truths.append(-math.copysign(size, rate))
+                errors.append(moment - truths[-1])
+    return rms(errors) / rms(truths) if any(truths) else None
+
+
 def curve_error(found, forces):
     """Root mean square, over the true motion, of the law's force less the true one at the same state, over that of the
     true one. None where the law acts where no force is."""
     law, true = Law(found), columns(forces)
+    if law.joints:
+        return friction_error(law, true)
     if law.at == "joint":
         there, states = [true["joint_moment"]], ("joint_angle", "joint_rate")
         where = ""

@@ -239,6 +239,10 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
         outside->joint_moment = -against;
       }
     }
+    if (outside)
+      outside->joints[k] = {angle, rate,
+                            h.joint_friction + h.tension_friction * norm(carried + lack[k]) +
+                                (i == 0 ? h.pivot_friction : 0)};
     if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
     if (i == 0)
       moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
@@ -302,6 +306,7 @@ class Midpoint {
   OutsideForces outside() const {
     OutsideForces outside;
     outside.time = time() - 0.5 * step_;
+    outside.joints.resize(static_cast<std::size_t>(chain_.links()));
     VectorXd r(v_.size());
     chain_.residual(outside.time, 0.5 * (q_before_ + q_), 0.5 * (v_before_ + v_),
                     (v_ - v_before_) / step_, memory_, r, &outside);

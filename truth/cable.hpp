@@ -30,16 +30,21 @@ struct Motion {
 };
 
 /// The hidden laws that are in no library (hidden.hpp): what they do at mid-cable, at the load and in
-/// the joint at mid-cable, and the motion there.
+/// the joint at mid-cable, dry friction in every joint, and the motion there.
 struct OutsideForces {
   struct AtPoint {
     Vector position, velocity, acceleration;  // m, m/s, m/s^2
     double angle = 0;                         // rad, of the link
     Vector force;                             // N, on the cable or the load
   };
+  struct Joint {
+    double angle = 0, rate = 0;  // rad, rad/s
+    double friction = 0;         // N m, dry, against the rate while the joint slides
+  };
   double time = 0;  // s
   AtPoint middle, load;
   double joint_angle = 0, joint_rate = 0, joint_moment = 0;  // rad, rad/s, N m that opens the joint
+  std::vector<Joint> joints;                                 // the support first
 };
 
 struct Integration {

@@ -78,7 +78,11 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
     for (const char* what : {"side", "down", "velocity_side", "velocity_down", "acceleration_side",
                              "acceleration_down", "angle", "force_side", "force_down"})
       text.append(",").append(where).append(what);
-  text += ",joint_angle,joint_rate,joint_moment\n";
+  text += ",joint_angle,joint_rate,joint_moment";
+  for (std::size_t i = 0; !forces.empty() && i < forces.front().joints.size(); ++i)
+    for (const char* what : {"angle", "rate", "friction"})
+      text += ",joint_" + std::to_string(i + 1) + "_" + what;
+  text += '\n';
   for (const OutsideForces& row : forces) {
     text += number(row.time);
     const auto add = [&](std::initializer_list<double> values) {
@@ -89,6 +93,8 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
            at->acceleration.side, at->acceleration.down, at->angle, at->force.side,
            at->force.down});
     add({row.joint_angle, row.joint_rate, row.joint_moment});
+    for (const OutsideForces::Joint& joint : row.joints)
+      add({joint.angle, joint.rate, joint.friction});
     text += '\n';
   }
   write_text(text, path);

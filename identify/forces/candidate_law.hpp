@@ -66,6 +66,8 @@ class CandidateLaw {
   /// Whether fits of both could find the same law: they differ by nothing but numbers.
   bool differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
                           const std::vector<int>& other_form) const;
+  /// The same law with sharp steps and edges: for an effect, whose fit needs no force that is linear in the state.
+  CandidateLaw sharp() const;
   /// The same law on another chain.
   CandidateLaw on(const LawChain& chain) const;
 

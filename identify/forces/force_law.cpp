@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "common/normal_quantile.hpp"
@@ -74,17 +75,6 @@ struct FittedForm {
 
   double constants() const { return law.constants(form); }
 };
-
-/// "side force = -linear x (side position - rest), linear = 0.3 (0.296 to 0.304) N/m, ...": with
-/// intervals of 95 %, where there are any.
-std::string with_constants(const CandidateLaw::Formula& formula) {
-  std::string words = formula.text;
-  for (const CandidateLaw::Constant& constant : formula.constants)
-    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
-                         constant.value - kNormalQuantile95 * constant.deviation,
-                         constant.value + kNormalQuantile95 * constant.deviation, constant.unit);
-  return words;
-}
 
 /// The motions found.
 std::vector<LawMotion> motions_of(const ForcePaths& paths) {
@@ -460,47 +450,78 @@ class LawSearch {
     return best;
   }
 
-  /// The simplest formula that the data do not decide against; the others, too.
-  void read_formula(const std::vector<Close>& close, ForceLaw& law) {
+  /// Formulas that were fitted to the same linear equations.
+  struct ComparedForms {
     std::vector<FittedForm> fits;
-    double least = HUGE_VAL, inflation = 1;
-    for (const Close& of : close) {
-      FittedForm fitted = fit(candidates_[of.candidate], of.form);
+    double inflation = 1;
+    std::size_t best = 0;
+
+    double criterion(const FittedForm& fitted) const {
+      return fitted.squares / inflation + fitted.constants() * std::log(fitted.freedom);
+    }
+  };
+  /// Fits them, each from where it begins. The best is the simplest that the data do not decide against. Nothing where
+  /// none makes a law.
+  std::optional<ComparedForms> compared(const std::vector<FittedForm>& begins) const {
+    ComparedForms all;
+    double least = HUGE_VAL, lowest = HUGE_VAL;
+    for (const FittedForm& begin : begins) {
+      FittedForm fitted = fit(begin.law, begin.form, begin.coefficients);
       if (!std::isfinite(fitted.squares) || !fitted.law.admits(fitted.coefficients)) continue;
       if (fitted.squares < least) {
         least = fitted.squares;
-        inflation = std::max(1.0, fitted.squares / fitted.freedom);
+        all.inflation = std::max(1.0, fitted.squares / fitted.freedom);
       }
-      fits.push_back(std::move(fitted));
+      all.fits.push_back(std::move(fitted));
     }
-    const auto criterion = [&](const FittedForm& fitted) {
-      return fitted.squares / inflation + fitted.constants() * std::log(fitted.freedom);
+    if (all.fits.empty()) return std::nullopt;
+    for (const FittedForm& fitted : all.fits) lowest = std::min(lowest, all.criterion(fitted));
+    const auto rank = [&](const FittedForm& fitted) {
+      const bool decided_against = all.criterion(fitted) > lowest + kLawThresholds.undecided;
+      return std::tuple(decided_against, fitted.constants(), all.criterion(fitted));
     };
-    double lowest = HUGE_VAL;
-    for (const FittedForm& fitted : fits) lowest = std::min(lowest, criterion(fitted));
-    const FittedForm* best = nullptr;
-    for (const FittedForm& fitted : fits) {
-      if (criterion(fitted) > lowest + kLawThresholds.undecided) continue;
-      const auto rank = [&](const FittedForm& f) { return std::pair(f.constants(), criterion(f)); };
-      if (!best || rank(fitted) < rank(*best)) best = &fitted;
-    }
-    if (!best) {
-      law.found = false;
-      return;
-    }
-    for (const FittedForm& fitted : fits)
-      if (&fitted != best && criterion(fitted) < criterion(*best) + kLawThresholds.undecided) {
-        take_law(fitted, inflation, law.rivals.emplace_back());
-      }
-    FittedForm found = *best;
+    for (std::size_t i = 1; i < all.fits.size(); ++i)
+      if (rank(all.fits[i]) < rank(all.fits[all.best])) all.best = i;
+    return all;
+  }
+
+  /// The best formula, and those that the data do not tell from it. The motion found follows the noise, which costs a
+  /// formula with an edge more than one with many constants. So laws with a potential are compared again about the
+  /// motion of the best. There a friction would gain by a second term that mends its smooth sign.
+  void read_formula(const std::vector<Close>& close, ForceLaw& law) {
+    std::vector<FittedForm> begins;
+    for (const Close& of : close)
+      begins.push_back({.law = candidates_[of.candidate],
+                        .form = of.form,
+                        .coefficients = {},
+                        .covariance = {}});
+    std::optional<ComparedForms> all = compared(begins);
+    law.found = all.has_value();
+    if (!law.found) return;
+    FittedForm found = all->fits[all->best];
     follow(found);
+    const std::optional<ComparedForms> again =
+        found.law.against() ? std::nullopt : compared(all->fits);
+    if (again) {
+      const bool other = again->best != all->best || again->fits.size() != all->fits.size();
+      all = again;
+      if (other) {
+        found = all->fits[all->best];
+        follow(found);
+      }
+    }
+    const FittedForm& best = all->fits[all->best];
+    for (const FittedForm& fitted : all->fits)
+      if (&fitted != &best &&
+          all->criterion(fitted) < all->criterion(best) + kLawThresholds.undecided)
+        take_law(fitted, all->inflation, law.rivals.emplace_back());
     take_law(found, std::max(1.0, found.squares / found.freedom), law);
   }
 
   void take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {
     take_names(fitted.law, law);
     law.formula =
-        fitted.law.formula(fitted.form, fitted.coefficients, inflation * fitted.covariance);
+        fitted.law.sharp().formula(fitted.form, fitted.coefficients, inflation * fitted.covariance);
     law.place = law.site.arc_length;
     const Index terms = fitted.coefficients.size();
     if (law.site.kind == SiteKind::kPlace && !at_end(law.place, chain_.lengths.sum()))
@@ -515,31 +536,6 @@ class LawSearch {
   std::vector<CandidateLaw> candidates_;
   Split split_;
 };
-
-std::string chance_words(double value) {
-  return value <= 1 / (1.0 + kRandomSeries) ? fmt::format("chance below {:.2g}", value)
-                                            : fmt::format("chance {:.2g}", value);
-}
-
-void describe_law(ForceLaw& law) {
-  const std::string tested = fmt::format(
-      "chosen of {} in {}, it explains {:.0f} % of what a force can explain in the second ({})",
-      law.candidates, law.chosen_in(), 100 * law.share_confirmed(), chance_words(law.chance));
-  if (law.found) {
-    law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
-    law.words.push_back(tested);
-    if (law.formula.curve)
-      law.words.emplace_back("no formula fits: it is a curve of straight pieces between knots");
-    for (const ForceLaw& rival : law.rivals)
-      law.words.push_back("these data do not tell it from: " + with_constants(rival.formula) +
-                          site_in_words(rival.site));
-  } else if (law.force.empty()) {
-    law.words.push_back("a force in time, no law: none of the candidates explains it");
-  } else {
-    law.words.push_back(fmt::format("a force in time, no law; the best is {} against {}{}: {}",
-                                    law.force, law.variable, site_in_words(law.site), tested));
-  }
-}
 
 }  // namespace
 
@@ -571,7 +567,6 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
                                .run();
     if (timed.found) law = timed;
   }
-  describe_law(law);
   return law;
 }
 

@@ -8,9 +8,12 @@ namespace catena {
 
 namespace {
 
+/// Of a sine an edge is 2 % of the largest value.
+constexpr double kSignWidth = 0.05, kEdgeWidth = 0.03;
+
 /// max(y, 0), smooth: the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
-double positive_part(double y) {
-  const double size = std::hypot(y, kEdgeWidth);
+double positive_part(double y, double width) {
+  const double size = std::hypot(y, width);
   return 0.25 * (y + size) * (y + size) / size;
 }
 
@@ -68,11 +71,11 @@ double value_of(const LawTerm& term, double u) {
       return u * u * u;
     case TermKind::kUpperStop:
     case TermKind::kBend:
-      return positive_part(u - term.shape);
+      return positive_part(u - term.shape, term.width);
     case TermKind::kLowerStop:
-      return -positive_part(term.shape - u);
+      return -positive_part(term.shape - u, term.width);
     case TermKind::kDeadZone:
-      return positive_part(u - term.shape) - positive_part(-u - term.shape);
+      return positive_part(u - term.shape, term.width) - positive_part(-u - term.shape, term.width);
     case TermKind::kUpperExponential:
       return std::exp(u / term.shape);
     case TermKind::kLowerExponential:
@@ -84,6 +87,7 @@ double value_of(const LawTerm& term, double u) {
     case TermKind::kInverseCube:
       return 1 / (u * u * u);
     case TermKind::kFriction:
+      return u / std::hypot(u, term.width);
     case TermKind::kSaturating:
       return u / std::hypot(u, term.shape);
     case TermKind::kSquare:
@@ -96,6 +100,20 @@ double value_of(const LawTerm& term, double u) {
       return 0.5 * (1 + std::tanh((u - term.moment) / term.shape));
   }
   return 0;
+}
+
+double relative_width(TermKind kind) {
+  switch (kind) {
+    case TermKind::kFriction:
+      return kSignWidth;
+    case TermKind::kUpperStop:
+    case TermKind::kLowerStop:
+    case TermKind::kDeadZone:
+    case TermKind::kBend:
+      return kEdgeWidth;
+    default:
+      return 0;
+  }
 }
 
 const LawTermText& text_of(TermKind kind) {

@@ -44,13 +44,15 @@ struct LawTerm {
   TermKind kind = TermKind::kLinear;
   double shape = 0;   ///< in units of the half width, s of the time; 0: it has none
   double moment = 0;  ///< s, of terms that have one
+  double width = 0;   ///< of a step or an edge, in units of the half width
 };
 
 double value_of(const LawTerm& term, double u);
 
-/// Width of the step of a sign, over the variable's root mean square, and of the edge of a stop, over the half
-/// width: a step is not linear in a state. Effects have them as constants `step` and `edge_width`.
-inline constexpr double kSignWidth = 0.05, kEdgeWidth = 0.02;
+/// Width of the step of a sign, over the variable's root mean square, and of the edge of a stop, over its standard
+/// deviation; 0 for terms that are smooth. A step is not linear in a state. The largest value may be that of one snap
+/// of the cable. Effects have them, sharper, as constants `step` and `edge_width`.
+double relative_width(TermKind kind);
 
 /// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the
 /// power of the variable's unit, words and energy, in which {x} is the variable in words, {z} in the language

@@ -8,6 +8,7 @@
 
 #include "common/normal_quantile.hpp"
 #include "identify/forces/force_pattern.hpp"
+#include "identify/noise/cosine_spectrum.hpp"
 
 namespace catena {
 
@@ -105,6 +106,42 @@ void describe_everywhere(MissingForce& missing) {
       "a force at one place alone explains less: the best one is {}", missing.best->name));
 }
 
+/// "side force = -linear x (side position - rest), linear = 0.3 (0.296 to 0.304) N/m, ...": with
+/// intervals of 95 %, where there are any.
+std::string with_constants(const CandidateLaw::Formula& formula) {
+  std::string words = formula.text;
+  for (const CandidateLaw::Constant& constant : formula.constants)
+    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
+                         constant.value - kNormalQuantile95 * constant.deviation,
+                         constant.value + kNormalQuantile95 * constant.deviation, constant.unit);
+  return words;
+}
+
+std::string chance_words(double value) {
+  return value <= 1 / (1.0 + kRandomSeries) ? fmt::format("chance below {:.2g}", value)
+                                            : fmt::format("chance {:.2g}", value);
+}
+
+void describe_law(ForceLaw& law) {
+  const std::string tested = fmt::format(
+      "chosen of {} in {}, it explains {:.0f} % of what a force can explain in the second ({})",
+      law.candidates, law.chosen_in(), 100 * law.share_confirmed(), chance_words(law.chance));
+  if (law.found) {
+    law.words.push_back("its law: " + with_constants(law.formula) + site_in_words(law.site));
+    law.words.push_back(tested);
+    if (law.formula.curve)
+      law.words.emplace_back("no formula fits: it is a curve of straight pieces between knots");
+    for (const ForceLaw& rival : law.rivals)
+      law.words.push_back("these data do not tell it from: " + with_constants(rival.formula) +
+                          site_in_words(rival.site));
+  } else if (law.force.empty()) {
+    law.words.push_back("a force in time, no law: none of the candidates explains it");
+  } else {
+    law.words.push_back(fmt::format("a force in time, no law; the best is {} against {}{}: {}",
+                                    law.force, law.variable, site_in_words(law.site), tested));
+  }
+}
+
 }  // namespace
 
 void describe(MissingForce& missing) {
@@ -140,6 +177,7 @@ void describe(MissingForce& missing) {
       "forces explain {:.0f} % of the squared residuals (log evidence {:.4g}); the data resolve {} "
       "of {} patterns",
       100 * missing.share, missing.log_evidence, resolved, missing.patterns.size()));
+  if (missing.law) describe_law(*missing.law);
   if (missing.law && (missing.one_place || missing.law->found))
     missing.words.insert(missing.words.end(), missing.law->words.begin(), missing.law->words.end());
 }

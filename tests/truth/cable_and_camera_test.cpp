@@ -388,3 +388,27 @@ TEST_CASE("what the hidden laws in no library do, where they act") {
         doctest::Approx(potential(forces.front()) - potential(forces.back())).epsilon(0.01));
   CHECK(largest > 0.1);
 }
+
+TEST_CASE("dry friction in every joint, where it slides") {
+  const Cable cable{.links = 4};
+  Hidden joints, tension;
+  joints.joint_friction = 0.01;
+  joints.pivot_friction = 0.02;
+  tension.tension_friction = 0.003;
+  const std::vector<double> start(4, 0.2), time = frames(1, 100);
+  for (const truth::OutsideForces& now : truth::outside_forces(cable, joints, start, time)) {
+    REQUIRE(now.joints.size() == 4);
+    CHECK(now.joints[0].friction == doctest::Approx(0.03));
+    CHECK(now.joints[3].friction == doctest::Approx(0.01));
+    CHECK(now.joints[2].angle == now.joint_angle);
+    CHECK(now.joints[2].rate == now.joint_rate);
+  }
+  // A straight cable that is let go near the vertical: its tension is nearly the weight below.
+  const double link = cable.density * cable.length / 4;
+  const truth::OutsideForces first = truth::outside_forces(cable, tension, start, time).front();
+  for (std::size_t i = 0; i < 4; ++i)
+    CHECK(first.joints[i].friction ==
+          doctest::Approx(0.003 * cable.gravity *
+                          (cable.load_mass + static_cast<double>(4 - i) * link) * std::cos(0.2))
+              .epsilon(0.01));
+}

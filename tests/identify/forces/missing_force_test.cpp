@@ -418,11 +418,40 @@ TEST_CASE("friction that holds joints, with the tension and without") {
     CHECK(found.law->formula.text ==
           fmt::format("{} = -friction x sign of rate of curvature", force));
     CHECK(found.law->site.kind == SiteKind::kJoints);
+    // As sharp as the truth, which rounds it over 0.008 rad/s.
+    const auto& fixed = found.law->formula.fixed;
+    const auto step =
+        std::find_if(fixed.begin(), fixed.end(), [](const auto& of) { return of.name == "step"; });
+    REQUIRE(step != fixed.end());
+    CHECK(step->value * film.cable().length / film.links < 0.01);
     // Where the cable snaps, its tension is not the steady one: only the other friction has a size to compare.
     if (hidden.joint_friction == 0) continue;
     const CandidateLaw::Constant& friction = found.law->formula.constants.at(0);
     CAPTURE(friction.value);
     CHECK(std::abs(friction.value - hidden.joint_friction) < 0.1 * hidden.joint_friction);
+  }
+}
+
+TEST_CASE(
+    "play of a joint: a dead zone, not the curve that follows the noise of the motion found") {
+  testing::Film film = short_film();
+  film.camera.duration = 5;
+  film.camera.markers = 12;
+  film.camera.seed = 62074;
+  truth::Hidden hidden;
+  hidden.joint_stop = 1;  // N m/rad
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->formula.text == "moment = -spring x ((joint angle) beyond -gap to gap)");
+  const auto& constants = found.law->formula.constants;
+  REQUIRE(constants.size() == 2);
+  const double truth[] = {hidden.joint_stop, hidden.joint_gap};
+  for (const std::size_t i : {0, 1}) {
+    CAPTURE(constants[i].name);
+    CAPTURE(constants[i].value);
+    CHECK(std::abs(constants[i].value - truth[i]) < 3 * constants[i].deviation);
+    CHECK(constants[i].deviation < 0.05 * truth[i]);
   }
 }
 
