@@ -976,56 +976,60 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   sines_and_cosines<12>(at.q, sine + 1, cosine + 1);
   T span_side_acceleration[13];
   T span_down_acceleration[13];
-  T newton_joint_down_acceleration_gain[13];
-  T newton_joint_side_acceleration_gain[13];
-  span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
-      - theta_dot[1] * theta_dot[1] * sine[1]);
-  span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-      + theta_ddot[1] * sine[1]);
-  newton_joint_down_acceleration_gain[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-      * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
-  newton_joint_side_acceleration_gain[1] = length[1] * (cosine[1] * ca
-      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
-      + theta_dot[1] * cosine[1] * cq));
-  matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[1][0] = length[1] * cosine[1];
-  matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
-  matrix.below[0] = T(0);
-  matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+  {
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]);
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+        + theta_ddot[1] * sine[1]);
+    const T newton_joint_down_acceleration_gain = length[1] * (theta_dot[1] * (theta_dot[1]
+        * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+    const T newton_joint_side_acceleration_gain = length[1] * (cosine[1] * ca
+        - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+        + theta_dot[1] * cosine[1] * cq));
+    matrix.upper_row[0][0] = -length[1] * sine[1];
+    matrix.upper_row[1][0] = length[1] * cosine[1];
+    matrix.lower_column[0][0] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][0] = newton_joint_side_acceleration_gain;
+    matrix.below[0] = T(0);
+    matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+  }
   for (int i = 2; i <= 11; ++i) {
     span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
     span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    newton_joint_down_acceleration_gain[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
-        * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
-    newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
+    const T newton_joint_down_acceleration_gain = length[i] * (theta_dot[i] * (theta_dot[i]
+        * sine[i] * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
+    const T newton_joint_side_acceleration_gain = length[i] * (cosine[i] * ca
         - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
         + theta_dot[i] * cosine[i] * cq));
     matrix.upper_row[0][i - 1] = -length[i] * sine[i];
     matrix.upper_row[1][i - 1] = length[i] * cosine[i];
-    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
-    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
+    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain;
     matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
     matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
   }
-  span_side_acceleration[12] = length[12] * (theta_ddot[12] * cosine[12]
-      - theta_dot[12] * theta_dot[12] * sine[12]);
-  span_down_acceleration[12] = -length[12] * (theta_dot[12] * theta_dot[12] * cosine[12]
-      + theta_ddot[12] * sine[12]);
-  newton_joint_down_acceleration_gain[12] = length[12] * (theta_dot[12] * (theta_dot[12]
-      * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
-      + sine[12] * ca));
-  newton_joint_side_acceleration_gain[12] = length[12] * (cosine[12] * ca
-      - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
-      + theta_dot[12] * cosine[12] * cq));
-  matrix.upper_row[0][11] = T(0);
-  matrix.upper_row[1][11] = T(0);
-  matrix.lower_column[0][11] = newton_joint_down_acceleration_gain[12];
-  matrix.lower_column[1][11] = newton_joint_side_acceleration_gain[12];
-  matrix.below[11] = -(stiffness[12] * cq + damping[12] * cv);
-  matrix.above[11] = T(0);
+  {
+    span_side_acceleration[12] = length[12] * (theta_ddot[12] * cosine[12]
+        - theta_dot[12] * theta_dot[12] * sine[12]);
+    span_down_acceleration[12] = -length[12] * (theta_dot[12] * theta_dot[12] * cosine[12]
+        + theta_ddot[12] * sine[12]);
+    const T newton_joint_down_acceleration_gain = length[12] * (theta_dot[12] * (theta_dot[12]
+        * sine[12] * cq - T(2) * cosine[12] * cv) - (theta_ddot[12] * cosine[12] * cq
+        + sine[12] * ca));
+    const T newton_joint_side_acceleration_gain = length[12] * (cosine[12] * ca
+        - theta_ddot[12] * sine[12] * cq - theta_dot[12] * (T(2) * sine[12] * cv
+        + theta_dot[12] * cosine[12] * cq));
+    matrix.upper_row[0][11] = T(0);
+    matrix.upper_row[1][11] = T(0);
+    matrix.lower_column[0][11] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][11] = newton_joint_side_acceleration_gain;
+    matrix.below[11] = -(stiffness[12] * cq + damping[12] * cv);
+    matrix.above[11] = T(0);
+  }
+  const FromOne<T> newton_joint_down_acceleration_gain(matrix.lower_column[0]);
+  const FromOne<T> newton_joint_side_acceleration_gain(matrix.lower_column[1]);
   T joint_side_acceleration[13];
   T joint_down_acceleration[13];
   joint_side_acceleration[1] = span_side_acceleration[1];

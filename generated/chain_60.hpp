@@ -976,56 +976,60 @@ void newton_matrix(const Point<T>& at, const T& ca, const T& cv, const T& cq,
   sines_and_cosines<60>(at.q, sine + 1, cosine + 1);
   T span_side_acceleration[61];
   T span_down_acceleration[61];
-  T newton_joint_down_acceleration_gain[61];
-  T newton_joint_side_acceleration_gain[61];
-  span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
-      - theta_dot[1] * theta_dot[1] * sine[1]);
-  span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-      + theta_ddot[1] * sine[1]);
-  newton_joint_down_acceleration_gain[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-      * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
-  newton_joint_side_acceleration_gain[1] = length[1] * (cosine[1] * ca
-      - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
-      + theta_dot[1] * cosine[1] * cq));
-  matrix.upper_row[0][0] = -length[1] * sine[1];
-  matrix.upper_row[1][0] = length[1] * cosine[1];
-  matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-  matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
-  matrix.below[0] = T(0);
-  matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+  {
+    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+        - theta_dot[1] * theta_dot[1] * sine[1]);
+    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+        + theta_ddot[1] * sine[1]);
+    const T newton_joint_down_acceleration_gain = length[1] * (theta_dot[1] * (theta_dot[1]
+        * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
+    const T newton_joint_side_acceleration_gain = length[1] * (cosine[1] * ca
+        - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+        + theta_dot[1] * cosine[1] * cq));
+    matrix.upper_row[0][0] = -length[1] * sine[1];
+    matrix.upper_row[1][0] = length[1] * cosine[1];
+    matrix.lower_column[0][0] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][0] = newton_joint_side_acceleration_gain;
+    matrix.below[0] = T(0);
+    matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+  }
   for (int i = 2; i <= 59; ++i) {
     span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
         - theta_dot[i] * theta_dot[i] * sine[i]);
     span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
         + theta_ddot[i] * sine[i]);
-    newton_joint_down_acceleration_gain[i] = length[i] * (theta_dot[i] * (theta_dot[i] * sine[i]
-        * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
-    newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
+    const T newton_joint_down_acceleration_gain = length[i] * (theta_dot[i] * (theta_dot[i]
+        * sine[i] * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq + sine[i] * ca));
+    const T newton_joint_side_acceleration_gain = length[i] * (cosine[i] * ca
         - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
         + theta_dot[i] * cosine[i] * cq));
     matrix.upper_row[0][i - 1] = -length[i] * sine[i];
     matrix.upper_row[1][i - 1] = length[i] * cosine[i];
-    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
-    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
+    matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain;
     matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
     matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
   }
-  span_side_acceleration[60] = length[60] * (theta_ddot[60] * cosine[60]
-      - theta_dot[60] * theta_dot[60] * sine[60]);
-  span_down_acceleration[60] = -length[60] * (theta_dot[60] * theta_dot[60] * cosine[60]
-      + theta_ddot[60] * sine[60]);
-  newton_joint_down_acceleration_gain[60] = length[60] * (theta_dot[60] * (theta_dot[60]
-      * sine[60] * cq - T(2) * cosine[60] * cv) - (theta_ddot[60] * cosine[60] * cq
-      + sine[60] * ca));
-  newton_joint_side_acceleration_gain[60] = length[60] * (cosine[60] * ca
-      - theta_ddot[60] * sine[60] * cq - theta_dot[60] * (T(2) * sine[60] * cv
-      + theta_dot[60] * cosine[60] * cq));
-  matrix.upper_row[0][59] = T(0);
-  matrix.upper_row[1][59] = T(0);
-  matrix.lower_column[0][59] = newton_joint_down_acceleration_gain[60];
-  matrix.lower_column[1][59] = newton_joint_side_acceleration_gain[60];
-  matrix.below[59] = -(stiffness[60] * cq + damping[60] * cv);
-  matrix.above[59] = T(0);
+  {
+    span_side_acceleration[60] = length[60] * (theta_ddot[60] * cosine[60]
+        - theta_dot[60] * theta_dot[60] * sine[60]);
+    span_down_acceleration[60] = -length[60] * (theta_dot[60] * theta_dot[60] * cosine[60]
+        + theta_ddot[60] * sine[60]);
+    const T newton_joint_down_acceleration_gain = length[60] * (theta_dot[60] * (theta_dot[60]
+        * sine[60] * cq - T(2) * cosine[60] * cv) - (theta_ddot[60] * cosine[60] * cq
+        + sine[60] * ca));
+    const T newton_joint_side_acceleration_gain = length[60] * (cosine[60] * ca
+        - theta_ddot[60] * sine[60] * cq - theta_dot[60] * (T(2) * sine[60] * cv
+        + theta_dot[60] * cosine[60] * cq));
+    matrix.upper_row[0][59] = T(0);
+    matrix.upper_row[1][59] = T(0);
+    matrix.lower_column[0][59] = newton_joint_down_acceleration_gain;
+    matrix.lower_column[1][59] = newton_joint_side_acceleration_gain;
+    matrix.below[59] = -(stiffness[60] * cq + damping[60] * cv);
+    matrix.above[59] = T(0);
+  }
+  const FromOne<T> newton_joint_down_acceleration_gain(matrix.lower_column[0]);
+  const FromOne<T> newton_joint_side_acceleration_gain(matrix.lower_column[1]);
   T joint_side_acceleration[61];
   T joint_down_acceleration[61];
   joint_side_acceleration[1] = span_side_acceleration[1];

@@ -1061,57 +1061,62 @@ struct Chain {
     sines_and_cosines(links, at.q, sine + 1, cosine + 1);
     T span_side_acceleration[links + 1];
     T span_down_acceleration[links + 1];
-    T newton_joint_down_acceleration_gain[links + 1];
-    T newton_joint_side_acceleration_gain[links + 1];
-    span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
-        - theta_dot[1] * theta_dot[1] * sine[1]);
-    span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
-        + theta_ddot[1] * sine[1]);
-    newton_joint_down_acceleration_gain[1] = length[1] * (theta_dot[1] * (theta_dot[1] * sine[1]
-        * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq + sine[1] * ca));
-    newton_joint_side_acceleration_gain[1] = length[1] * (cosine[1] * ca
-        - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
-        + theta_dot[1] * cosine[1] * cq));
-    matrix.upper_row[0][0] = -length[1] * sine[1];
-    matrix.upper_row[1][0] = length[1] * cosine[1];
-    matrix.lower_column[0][0] = newton_joint_down_acceleration_gain[1];
-    matrix.lower_column[1][0] = newton_joint_side_acceleration_gain[1];
-    matrix.below[0] = T(0);
-    matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+    {
+      span_side_acceleration[1] = length[1] * (theta_ddot[1] * cosine[1]
+          - theta_dot[1] * theta_dot[1] * sine[1]);
+      span_down_acceleration[1] = -length[1] * (theta_dot[1] * theta_dot[1] * cosine[1]
+          + theta_ddot[1] * sine[1]);
+      const T newton_joint_down_acceleration_gain = length[1] * (theta_dot[1] * (theta_dot[1]
+          * sine[1] * cq - T(2) * cosine[1] * cv) - (theta_ddot[1] * cosine[1] * cq
+          + sine[1] * ca));
+      const T newton_joint_side_acceleration_gain = length[1] * (cosine[1] * ca
+          - theta_ddot[1] * sine[1] * cq - theta_dot[1] * (T(2) * sine[1] * cv
+          + theta_dot[1] * cosine[1] * cq));
+      matrix.upper_row[0][0] = -length[1] * sine[1];
+      matrix.upper_row[1][0] = length[1] * cosine[1];
+      matrix.lower_column[0][0] = newton_joint_down_acceleration_gain;
+      matrix.lower_column[1][0] = newton_joint_side_acceleration_gain;
+      matrix.below[0] = T(0);
+      matrix.above[0] = -(stiffness[2] * cq + damping[2] * cv);
+    }
     for (int i = 2; i <= links - 1; ++i) {
       span_side_acceleration[i] = length[i] * (theta_ddot[i] * cosine[i]
           - theta_dot[i] * theta_dot[i] * sine[i]);
       span_down_acceleration[i] = -length[i] * (theta_dot[i] * theta_dot[i] * cosine[i]
           + theta_ddot[i] * sine[i]);
-      newton_joint_down_acceleration_gain[i] = length[i] * (theta_dot[i] * (theta_dot[i]
+      const T newton_joint_down_acceleration_gain = length[i] * (theta_dot[i] * (theta_dot[i]
           * sine[i] * cq - T(2) * cosine[i] * cv) - (theta_ddot[i] * cosine[i] * cq
           + sine[i] * ca));
-      newton_joint_side_acceleration_gain[i] = length[i] * (cosine[i] * ca
+      const T newton_joint_side_acceleration_gain = length[i] * (cosine[i] * ca
           - theta_ddot[i] * sine[i] * cq - theta_dot[i] * (T(2) * sine[i] * cv
           + theta_dot[i] * cosine[i] * cq));
       matrix.upper_row[0][i - 1] = -length[i] * sine[i];
       matrix.upper_row[1][i - 1] = length[i] * cosine[i];
-      matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain[i];
-      matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain[i];
+      matrix.lower_column[0][i - 1] = newton_joint_down_acceleration_gain;
+      matrix.lower_column[1][i - 1] = newton_joint_side_acceleration_gain;
       matrix.below[i - 1] = -(stiffness[i] * cq + damping[i] * cv);
       matrix.above[i - 1] = -(stiffness[i + 1] * cq + damping[i + 1] * cv);
     }
-    span_side_acceleration[links] = length[links] * (theta_ddot[links] * cosine[links]
-        - theta_dot[links] * theta_dot[links] * sine[links]);
-    span_down_acceleration[links] = -length[links] * (theta_dot[links] * theta_dot[links]
-        * cosine[links] + theta_ddot[links] * sine[links]);
-    newton_joint_down_acceleration_gain[links] = length[links] * (theta_dot[links]
-        * (theta_dot[links] * sine[links] * cq - T(2) * cosine[links] * cv)
-        - (theta_ddot[links] * cosine[links] * cq + sine[links] * ca));
-    newton_joint_side_acceleration_gain[links] = length[links] * (cosine[links] * ca
-        - theta_ddot[links] * sine[links] * cq - theta_dot[links] * (T(2) * sine[links] * cv
-        + theta_dot[links] * cosine[links] * cq));
-    matrix.upper_row[0][links - 1] = T(0);
-    matrix.upper_row[1][links - 1] = T(0);
-    matrix.lower_column[0][links - 1] = newton_joint_down_acceleration_gain[links];
-    matrix.lower_column[1][links - 1] = newton_joint_side_acceleration_gain[links];
-    matrix.below[links - 1] = -(stiffness[links] * cq + damping[links] * cv);
-    matrix.above[links - 1] = T(0);
+    {
+      span_side_acceleration[links] = length[links] * (theta_ddot[links] * cosine[links]
+          - theta_dot[links] * theta_dot[links] * sine[links]);
+      span_down_acceleration[links] = -length[links] * (theta_dot[links] * theta_dot[links]
+          * cosine[links] + theta_ddot[links] * sine[links]);
+      const T newton_joint_down_acceleration_gain = length[links] * (theta_dot[links]
+          * (theta_dot[links] * sine[links] * cq - T(2) * cosine[links] * cv)
+          - (theta_ddot[links] * cosine[links] * cq + sine[links] * ca));
+      const T newton_joint_side_acceleration_gain = length[links] * (cosine[links] * ca
+          - theta_ddot[links] * sine[links] * cq - theta_dot[links] * (T(2) * sine[links] * cv
+          + theta_dot[links] * cosine[links] * cq));
+      matrix.upper_row[0][links - 1] = T(0);
+      matrix.upper_row[1][links - 1] = T(0);
+      matrix.lower_column[0][links - 1] = newton_joint_down_acceleration_gain;
+      matrix.lower_column[1][links - 1] = newton_joint_side_acceleration_gain;
+      matrix.below[links - 1] = -(stiffness[links] * cq + damping[links] * cv);
+      matrix.above[links - 1] = T(0);
+    }
+    const FromOne<T> newton_joint_down_acceleration_gain(matrix.lower_column[0]);
+    const FromOne<T> newton_joint_side_acceleration_gain(matrix.lower_column[1]);
     T joint_side_acceleration[links + 1];
     T joint_down_acceleration[links + 1];
     joint_side_acceleration[1] = span_side_acceleration[1];

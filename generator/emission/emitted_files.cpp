@@ -96,7 +96,8 @@ EmittedFiles support_for(const Description& description) {
   const bool moves_load = std::any_of(description.effects.begin(), description.effects.end(),
                                       [](const Effect& effect) { return effect.moves_load(); });
   if (description.space == Space::kPlane) {
-    for (const char* name : {"angle_over_sine.hpp", "tangent_semiseparable.hpp"}) files.erase(name);
+    for (const char* name : {"angle_over_sine.hpp", "link_array.hpp", "tangent_semiseparable.hpp"})
+      files.erase(name);
     if (!moves_load)
       for (const char* name : {"block_quasiseparable.hpp", "bordered.hpp"}) files.erase(name);
   }

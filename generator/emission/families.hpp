@@ -46,6 +46,8 @@ struct Family {
   int sweep = -1;
   bool local = true;     ///< read only at the same link in the same sweep
   bool carried = false;  ///< or at the one before, and after the sweep at its last link
+  /// An output of the same sweep with these values, from which later sweeps read them.
+  const Output* kept = nullptr;
 };
 
 class Families {

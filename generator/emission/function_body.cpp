@@ -100,7 +100,7 @@ class Body {
     Sum value = polynomial(families_.definitions(), item.value, item.index, read);
     if (item.output != nullptr) return assignment(item, std::move(value), adds);
     const Family& family = families_.named(item.family);
-    if (item.index != kNoIndex && !family.local && !family.carried)
+    if (item.index != kNoIndex && !family.local && !family.carried && family.kept == nullptr)
       return Assignment{{"", family.name, {}},
                         ArrayPlace{{}, true, 0},
                         std::move(value),
@@ -130,7 +130,9 @@ class Body {
         return {symbol.family + (here ? "" : "_last"), {}};
       }
       if (family.local) return {symbol.family, {}};
-      return {symbol.family, place};
+      if (family.kept == nullptr) return {symbol.family, place};
+      if (sweep.has(families_.position(symbol.family))) return {symbol.family, {}};
+      return {symbol.family, place, true};
     };
     Statements statements;
     for (const size_t k : sweep.families) {
@@ -151,6 +153,15 @@ class Body {
     const std::set<int>& guard = families_.all[sweep.families.front()].guard;
     Statements statements;
     write_statements(sweep, guard.empty() ? body_ : statements);
+    for (const size_t k : sweep.families) {
+      const Family& family = families_.all[k];
+      if (family.kept == nullptr) continue;
+      Affine first = family.kept->place->base;
+      first += family.kept->place->at;
+      first += 1;
+      body_.push_back(
+          Input{InputKind::kArray, type_of(family), family.name, family.kept->array, first});
+    }
     if (!guard.empty())
       add_block({std::move(statements), inputs_of_guard(families_, switches_, guard)});
   }
@@ -189,10 +200,11 @@ class Body {
       last = std::max(last, largest);
       if (family.carried) {
         body_.push_back(Variable{type_of(family), family.name + "_last", {}});
-      } else if (!family.is_output && !family.local) {
+      } else if (!family.is_output && !family.local && family.kept == nullptr) {
         body_.push_back(Variable{type_of(family), family.name, largest + 1, family.zero});
       }
-      any_local = any_local || family.carried || (!family.is_output && family.local);
+      any_local = any_local || family.carried ||
+                  (!family.is_output && (family.local || family.kept != nullptr));
     }
     const int step = sweep.direction;
     const int begin = step > 0 ? first : last, behind = step > 0 ? last + 1 : first - 1;

@@ -102,8 +102,9 @@ class Templates {
     if (any_ && needs_links(function)) head += "  const int links = this->links();\n";
     head += before(function);
     const std::string after = this->after(function) + "}\n";
+    const Arrays arrays = model_.space == Space::kPlane ? Arrays::kPlain : Arrays::kAligned;
     return (any_ ? indented(head) : head) +
-           statements_text(function.statements, Language::kCpp, any_ ? 2 : 1) +
+           statements_text(function.statements, Language::kCpp, any_ ? 2 : 1, arrays) +
            (any_ ? indented(after) : after);
   }
 
@@ -433,7 +434,9 @@ std::string space_include(const ModelFunctions& functions) {
   if (functions.space == Space::kPlane) return bordered;
   return "#include \"angle_over_sine.hpp\"\n"
          "#include \"block_quasiseparable.hpp\"\n" +
-         bordered + "#include \"tangent_semiseparable.hpp\"\n";
+         bordered +
+         "#include \"link_array.hpp\"\n"
+         "#include \"tangent_semiseparable.hpp\"\n";
 }
 
 std::string matrix_types_text(const ModelFunctions& functions, NumberOfLinks links) {

@@ -36,7 +36,10 @@ size_t break_of(const std::string& text, size_t from) {
 
 class Printer {
  public:
-  Printer(Language language, int depth) : in_c_(language == Language::kC), depth_(depth) {}
+  Printer(Language language, int depth, Arrays arrays)
+      : in_c_(language == Language::kC),
+        aligned_(!in_c_ && arrays == Arrays::kAligned),
+        depth_(depth) {}
 
   std::string text() && { return std::move(text_); }
 
@@ -78,9 +81,11 @@ class Printer {
   }
 
   void operator()(const Variable& variable) {
-    line(type_text(variable.type) + " " + variable.name +
-         (variable.entries ? "[" + affine_text(*variable.entries) + "]" : "") +
-         (variable.zero ? " = {};" : ";"));
+    const std::string type = type_text(variable.type), end = variable.zero ? " = {};" : ";";
+    if (!variable.entries) return line(type + " " + variable.name + end);
+    const std::string entries = affine_text(*variable.entries);
+    line(aligned_ ? "LinkArray<" + type + ", " + entries + "> " + variable.name + end
+                  : type + " " + variable.name + "[" + entries + "]" + end);
   }
 
   void operator()(const NamedValue& named) {
@@ -201,6 +206,7 @@ class Printer {
   }
 
   bool in_c_;
+  bool aligned_;
   int depth_;
   std::string text_;
 };
@@ -213,8 +219,9 @@ std::string affine_text(const Affine& affine) {
          shift_text(affine.constant);
 }
 
-std::string statements_text(const Statements& statements, Language language, int depth) {
-  Printer printer(language, depth);
+std::string statements_text(const Statements& statements, Language language, int depth,
+                            Arrays arrays) {
+  Printer printer(language, depth, arrays);
   printer(statements);
   return std::move(printer).text();
 }

@@ -15,8 +15,12 @@ enum class Language { kCpp, kC };
 /// "12", "6 * links + 1".
 std::string affine_text(const Affine& affine);
 
+/// How a function's own arrays are declared in C++: as such, or as LinkArray (link_array.hpp).
+enum class Arrays { kPlain, kAligned };
+
 /// Indented by 2 * depth spaces; lines are broken before an operator where they are longer than 100
 /// characters. What depends on the number of links is an expression in `links`.
-std::string statements_text(const Statements& statements, Language language, int depth);
+std::string statements_text(const Statements& statements, Language language, int depth,
+                            Arrays arrays = Arrays::kPlain);
 
 }  // namespace catena

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generator/emission/sweeps.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -46,7 +47,11 @@ class Schedule {
         if (d.offset != 0 || read.sweep != family.sweep) read.local = false;
       }
     }
-    if (layout_ == Layout::kWholeSweeps) carry();
+    if (layout_ == Layout::kWholeSweeps) {
+      carry();
+    } else {
+      for (const Family& family : families_.all) keep(family);
+    }
     return std::move(sweeps_);
   }
 
@@ -142,7 +147,51 @@ class Schedule {
       layers.resize(std::max(layers.size(), layer + 1));
       layers[layer].push_back(k);
     }
-    for (const std::vector<size_t>& layer : layers) add_sweep(1, layer);
+    for (const std::vector<size_t>& layer : layers) {
+      const std::vector<size_t> alone = of_the_last(layer);
+      std::vector<size_t> others;
+      for (const size_t k : layer)
+        if (std::find(alone.begin(), alone.end(), k) == alone.end()) others.push_back(k);
+      if (!others.empty()) add_sweep(1, others);
+      if (!alone.empty()) add_sweep(1, alone);
+    }
+  }
+
+  // Families of a layer that only its last link has, which would cut it off the loop over all links: they may
+  // follow, where no other of the layer reads them, and they read none that needs no array else.
+  std::vector<size_t> of_the_last(const std::vector<size_t>& layer) const {
+    int last = kNoIndex;
+    for (const size_t k : layer) last = std::max(last, families_.all[k].items.rbegin()->first);
+    std::set<size_t> alone;
+    for (const size_t k : layer) {
+      const auto& items = families_.all[k].items;
+      if (items.size() == 1 && items.begin()->first == last) alone.insert(k);
+    }
+    const std::set<size_t> members(layer.begin(), layer.end());
+    const auto is_stored = [&](size_t k) {
+      return std::any_of(families_.all.begin(), families_.all.end(), [&](const Family& reader) {
+        return !members.contains(families_.position(reader.name)) && reads(reader, k);
+      });
+    };
+    for (bool fewer = true; fewer;) {
+      fewer = false;
+      for (const size_t k : layer) {
+        if (!alone.contains(k)) continue;
+        const bool stays = std::any_of(layer.begin(), layer.end(), [&](size_t other) {
+          if (alone.contains(other)) return false;
+          return reads(families_.all[other], k) ||
+                 (reads(families_.all[k], other) && !is_stored(other));
+        });
+        if (stays) fewer = alone.erase(k) > 0;
+      }
+    }
+    return alone.size() == layer.size() ? std::vector<size_t>()
+                                        : std::vector<size_t>(alone.begin(), alone.end());
+  }
+
+  bool reads(const Family& family, size_t k) const {
+    return std::any_of(family.dependencies.begin(), family.dependencies.end(),
+                       [&](const Dependency& d) { return families_.position(d.family) == k; });
   }
 
   // Of the families that have no sweep yet; what is always computed first.
@@ -177,6 +226,35 @@ class Schedule {
     for (size_t k = 0; k < families_.all.size(); ++k)
       families_.all[k].carried =
           !families_.all[k].is_output && !families_.all[k].local && !stored.count(k);
+  }
+
+  // Where an array of a matrix gets what another family stores, that family needs no array.
+  void keep(const Family& output) {
+    if (!output.is_output || !output.guard.empty() || !output.adds_to.empty()) return;
+    const Output& first = *output.items.begin()->second.output;
+    const GiNaC::ex& value = first.value;
+    if (first.array.owner != "matrix" || !first.place || !first.place->of_link ||
+        !GiNaC::is_a<GiNaC::symbol>(value))
+      return;
+    const Symbol& symbol = families_.definitions()[families_.definitions().number_of(value)];
+    if (families_.given(symbol)) return;
+    Family& family = families_.named(symbol.family);
+    if (family.local || family.kept != nullptr || family.along != output.along ||
+        family.sweep != output.sweep || family.items.size() != output.items.size() ||
+        !family.guard.empty())
+      return;
+    for (const auto& [link, item] : output.items) {
+      const auto of_family = family.items.find(link);
+      if (of_family == family.items.end() || item.output->place != first.place ||
+          !item.value.is_equal(families_.definitions()[of_family->second.number].symbol))
+        return;
+    }
+    for (const Family& other : families_.all) {
+      if (other.adds_to == family.name || other.adds_to == output.name) return;
+      for (const Dependency& d : other.dependencies)
+        if (other.sweep == family.sweep && d.family == family.name && d.offset != 0) return;
+    }
+    family.kept = &first;
   }
 
   Families& families_;

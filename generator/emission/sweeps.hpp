@@ -19,7 +19,7 @@ struct Sweep {
   }
 };
 
-/// Puts every family into a sweep and says where its values are read (Family::sweep, local, carried).
+/// Puts every family into a sweep and says where its values are read (Family::sweep, local, carried, kept).
 /// `layout`: kLoops or kWholeSweeps. Throws std::logic_error if there is no order of statements.
 std::vector<Sweep> schedule(Families& families, Layout layout);
 

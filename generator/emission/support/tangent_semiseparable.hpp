@@ -24,6 +24,8 @@
 // of x is at k * links + i, component c of link i in a vector of coordinates at c * links + i.
 #pragma once
 
+#include <cstddef>
+
 #include "pair.hpp"
 #include "scalar.hpp"
 
@@ -31,11 +33,16 @@ namespace catena {
 
 template <class T, int links, int rank, bool isotropic = false>
 struct TangentSemiseparable {
-  using Rows = T[isotropic ? 1 : 2 * rank][links];
-  Rows row, column;
-  T diagonal[isotropic ? 1 : 3][links];
-  T tangent[6][links], size[links];  ///< size: |q|
-  T right[2 * links];                ///< of the equations of x
+  /// An array begins at a multiple of a register of 8 numbers, where it has as many.
+  static constexpr int kPlaces = links < 8 ? links : (links + 7) / 8 * 8;
+  static constexpr std::size_t kAligned = links < 8 ? alignof(T) : 8 * sizeof(double);
+  using Rows = T[isotropic ? 1 : 2 * rank][kPlaces];
+  alignas(kAligned) Rows row;
+  alignas(kAligned) Rows column;
+  alignas(kAligned) T diagonal[isotropic ? 1 : 3][kPlaces];
+  alignas(kAligned) T tangent[6][kPlaces];
+  alignas(kAligned) T size[kPlaces];  ///< |q|
+  T right[2 * links];                 ///< of the equations of x
   T along[links];  ///< the inertia of q along itself, which to_dense() alone reads
 
   /// Adds |q| E x to a, which has what is known; overwrites `right`. Returns 0, or the 1-based number of a
@@ -189,14 +196,14 @@ struct TangentSemiseparable {
     return 0;
   }
 
-  /// What a link's solution is: solved - scaled . from.
+  /// What a link's solution is: solved + scaled . from.
   template <class Number>
   struct Row {
     Number scaled[2][rank], solved[2];
     Number solution(int k, const Number* from) const {
       Number rest = solved[k];
       CATENA_UNROLLED
-      for (int r = 0; r < rank; ++r) rest = negative_multiply_add(scaled[k][r], from[r], rest);
+      for (int r = 0; r < rank; ++r) rest = multiply_add(scaled[k][r], from[r], rest);
       return rest;
     }
   };
@@ -234,33 +241,28 @@ struct TangentSemiseparable {
   template <class Entry, class Number>
   [[gnu::always_inline]] bool eliminate(const Entry& entry, const T* x, Coupling<Number>& coupling,
                                         Row<Number>& result) const {
-    Number own[2][rank], y[2], block[3];
+    Number own[2][rank], y[2], block[2], beside;  // own, beside: with the opposite sign
     {
       Number other[2][rank], reached[2][rank];  // reached: rows of other W
       CATENA_UNROLLED
       for (int k = 0; k < 2; ++k) {
+        constexpr int kLast = isotropic ? 0 : 2;
         CATENA_UNROLLED
         for (int r = 0; r < rank; ++r) other[k][r] = part(entry, row, column, k, r);
         CATENA_UNROLLED
         for (int r = 0; r < rank; ++r) reached[k][r] = product(coupling, r, other[k]);
-      }
-      CATENA_UNROLLED
-      for (int k = 0; k < 3; ++k) {
-        block[k] = product(reached[k / 2], other[(k + 1) / 2]);
-        if constexpr (isotropic)
-          block[k] = (k == 1 ? number(y[0], 0) : entry(diagonal[0], diagonal[0])) - block[k];
-        else
-          block[k] = entry(diagonal[k], diagonal[k]) - block[k];
-      }
-      CATENA_UNROLLED
-      for (int k = 0; k < 2; ++k) {
+        block[k] = entry(diagonal[k * kLast], diagonal[k * kLast]);
+        CATENA_UNROLLED
+        for (int r = 0; r < rank; ++r)
+          block[k] = negative_multiply_add(reached[k][r], other[k][r], block[k]);
         y[k] = entry(x + k * links, x + k * links) - product(coupling.carried, other[k]);
         CATENA_UNROLLED
-        for (int r = 0; r < rank; ++r) own[k][r] = part(entry, column, row, k, r) - reached[k][r];
+        for (int r = 0; r < rank; ++r) own[k][r] = less_part(reached[k][r], entry, k, r);
       }
+      beside = product(reached[0], other[1]);
+      if constexpr (!isotropic) beside = beside - entry(diagonal[1], diagonal[1]);
     }
-    const Number beside = block[1];
-    const Number determinant = negative_multiply_add(beside, beside, block[0] * block[2]);
+    const Number determinant = negative_multiply_add(beside, beside, block[0] * block[1]);
     if (!all_positive(block[0], determinant)) {
       result.solved[0] = block[0];
       result.solved[1] = determinant;
@@ -270,11 +272,10 @@ struct TangentSemiseparable {
     Number adjusted[2][rank];  // adjugate own
     CATENA_UNROLLED
     for (int k = 0; k < 2; ++k) {
-      result.solved[k] =
-          negative_multiply_add(beside, y[1 - k], block[2 - 2 * k] * y[k]) * reciprocal;
+      result.solved[k] = multiply_add(beside, y[1 - k], block[1 - k] * y[k]) * reciprocal;
       CATENA_UNROLLED
       for (int r = 0; r < rank; ++r) {
-        adjusted[k][r] = negative_multiply_add(beside, own[1 - k][r], block[2 - 2 * k] * own[k][r]);
+        adjusted[k][r] = multiply_add(beside, own[1 - k][r], block[1 - k] * own[k][r]);
         result.scaled[k][r] = adjusted[k][r] * reciprocal;
       }
     }
@@ -287,9 +288,20 @@ struct TangentSemiseparable {
       }
       CATENA_UNROLLED
       for (int k = 0; k < 2; ++k)
-        coupling.carried[r] = multiply_add(own[k][r], result.solved[k], coupling.carried[r]);
+        coupling.carried[r] =
+            negative_multiply_add(own[k][r], result.solved[k], coupling.carried[r]);
     }
     return true;
+  }
+
+  /// A number less the entry of what couples a link to those left.
+  template <class Number, class Entry>
+  Number less_part(const Number& from, const Entry& entry, int k, int r) const {
+    if constexpr (isotropic)
+      return negative_multiply_add(entry(column[0], row[0]),
+                                   entry(tangent[3 * k + r], tangent[3 * k + r]), from);
+    else
+      return from - part(entry, column, row, k, r);
   }
 
   template <class Number>
@@ -318,9 +330,11 @@ struct TangentSemiseparable {
         sum[r] = negative_multiply_add(v[r][s], carried[s], sum[r]);
       }
     }
+    T reciprocal[rank];
     for (int k = 0; k < rank; ++k) {
+      reciprocal[k] = T(1) / a[k][k];
       for (int r = k + 1; r < rank; ++r) {
-        const T factor = a[r][k] / a[k][k];
+        const T factor = a[r][k] * reciprocal[k];
         for (int s = k + 1; s < rank; ++s)
           a[r][s] = negative_multiply_add(factor, a[k][s], a[r][s]);
         sum[r] = negative_multiply_add(factor, sum[k], sum[r]);
@@ -328,7 +342,7 @@ struct TangentSemiseparable {
     }
     for (int k = rank - 1; k >= 0; --k) {
       for (int s = k + 1; s < rank; ++s) sum[k] = negative_multiply_add(a[k][s], sum[s], sum[k]);
-      sum[k] = sum[k] / a[k][k];
+      sum[k] = sum[k] * reciprocal[k];
     }
     for (int r = 0; r < rank; ++r) {
       for (int s = 0; s < rank; ++s)

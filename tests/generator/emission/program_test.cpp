@@ -5,13 +5,16 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
 #include "common/input_error.hpp"
 #include "generator/emission/any_links_writer.hpp"
+#include "generator/emission/function_body.hpp"
 #include "generator/emission/program_pattern.hpp"
 #include "generator/emission/statement_text.hpp"
+#include "generator/emission/support/link_array.hpp"
 
 using namespace catena;
 
@@ -75,6 +78,46 @@ TEST_CASE("statements in C++ and in C") {
         "const double* const d_mass = along->p + 12;\nconst double gravity = at->p[25];\n"
         "{\n  const double y = -gravity;\n}\n"
         "matrix->row[1][12 + i - 1] = 3.00000000000000000e+09;\ndr[0] = 0.0;\n");
+}
+
+TEST_CASE("aligned arrays of C++ begin a register with entry 1") {
+  const Statements array{Variable{Type::kScalar, "x", 13, true}};
+  CHECK(statements_text(array, Language::kCpp, 0, Arrays::kAligned) ==
+        "LinkArray<T, 13> x = {};\n");
+  CHECK(statements_text(array, Language::kC, 0, Arrays::kAligned) == "double x[13] = {};\n");
+  const LinkArray<double, 13> numbers = {};
+  CHECK(reinterpret_cast<std::uintptr_t>(&numbers[1]) % 64 == 0);
+  CHECK(&numbers[12] - &numbers[0] == 12);
+}
+
+// a_i = x_i^2 is an entry of the matrix at every link, and read at the next one; the last link has a load.
+TEST_CASE(
+    "a loop goes to the last link, whose load follows, and what a matrix holds is stored once") {
+  constexpr int kLinks = 6;
+  Definitions definitions;
+  const GiNaC::ex load = definitions.input("load");
+  std::vector<GiNaC::ex> a{0};
+  std::vector<Output> outputs;
+  const auto output = [&](const std::string& name, int link, const GiNaC::ex& value) {
+    outputs.push_back({{"matrix", name, 0}, link, ArrayPlace{{}, true, -1}, value});
+  };
+  for (int i = 1; i <= kLinks; ++i) {
+    const GiNaC::ex x = definitions.input("x", i);
+    a.push_back(definitions.define("a", i, x * x));
+    output("column", i, a.back());
+  }
+  const GiNaC::ex loaded = definitions.define("loaded", kLinks, load * a[kLinks] + load);
+  for (int i = 2; i <= kLinks; ++i) output("row", i, a[i - 1] * (i == kLinks ? loaded : a[i]));
+  const Inputs inputs{{"load", Input{InputKind::kEntry, Type::kScalar, "load", {"at", "p", {}}, 0}},
+                      {"x", Input{InputKind::kArray, Type::kScalar, "x", {"at", "q", {}}, 0}}};
+  CHECK(cpp(function_body(definitions, outputs, inputs, Layout::kLoops)) ==
+        "const T load = at.p[0];\nconst FromOne<T> x(at.q);\n"
+        "for (int i = 1; i <= 6; ++i) {\n  const T a = x[i] * x[i];\n"
+        "  matrix.column[0][i - 1] = a;\n}\n"
+        "const FromOne<T> a(matrix.column[0]);\n"
+        "T loaded[7];\nloaded[6] = load * (T(1) + a[6]);\n"
+        "for (int i = 2; i <= 5; ++i) {\n  matrix.row[0][i - 1] = a[i - 1] * a[i];\n}\n"
+        "matrix.row[0][5] = a[5] * loaded[6];\n");
 }
 
 TEST_CASE("operations are counted, those of a loop for every step") {
