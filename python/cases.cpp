@@ -374,9 +374,7 @@ std::vector<std::string> channel_names(const Recording& recording) {
   return names;
 }
 
-}  // namespace
-
-void add_cases(py::module_& module) {
+void add_experiment(py::module_& module) {
   py::class_<Experiment>(module, "Experiment", "One recording of a case.")
       .def_property_readonly("name", [](const Experiment& e) { return e.spec.name; })
       .def_property_readonly("fitted", &Experiment::fitted)
@@ -397,7 +395,9 @@ void add_cases(py::module_& module) {
             return rows_per_time(self.cast<const Experiment&>().recording.measured, self);
           },
           "Frames x channels, m or rad; NaN where a point was not seen.");
+}
 
+void add_case(py::module_& module) {
   py::class_<LoadedCase>(module, "Case", "A case file with its model and its data.")
       .def(py::init([](const std::filesystem::path& file, const std::optional<py::dict>& recordings,
                        bool large_work) {
@@ -406,11 +406,10 @@ void add_cases(py::module_& module) {
            "case"_a, "recordings"_a = py::none(), py::kw_only(), "large_work"_a = false,
            "recordings: data that are no files, by the name of their [[experiment]]. Each is a "
            "DataFrame, a dict of columns or a structured array with the columns, units and axes "
-           "that "
-           "the file would have; or an array whose rows are frames: time_s, side_1_m, down_1_m, "
+           "that the file would have; or an array whose rows are frames: time_s, side_1_m, "
+           "down_1_m, "
            "side_2_m, ... What is odd about a case or its recordings is a UserWarning. large_work: "
-           "derive a "
-           "model that takes more than 10 minutes or 4 GB, too; else InputError.")
+           "derive a model that takes more than 10 minutes or 4 GB, too; else InputError.")
       .def(py::pickle([](const LoadedCase& s) { return s.state(); }, &case_from))
       .def_property_readonly("title",
                              [](const LoadedCase& s) { return s.problem->the_case().title; })
@@ -445,8 +444,7 @@ void add_cases(py::module_& module) {
       .def(
           "residuals", &LoadedCase::residuals, "x"_a = py::none(),
           "What least squares makes small: simulated minus measured of all points that were seen "
-          "in "
-          "fitted frames, m or rad, or over the noise where the case states it; then priors and "
+          "in fitted frames, m or rad, or over the noise where the case states it; then priors and "
           "gaps between joined windows with their weights. For other optimisers, which have losses "
           "of their own.")
       .def("jacobian", &LoadedCase::jacobian, "x"_a = py::none(),
@@ -459,10 +457,12 @@ void add_cases(py::module_& module) {
            "large_work InputError where it needs more than 10 minutes or 4 GB.")
       .def("identify", &identify, "progress"_a = py::none(), py::kw_only(), "large_work"_a = false,
            "Finds the unknowns by the method of the case. progress(evaluations, limit, error) is "
-           "called "
-           "during the search; an exception in it ends the search and is raised again. Raises "
+           "called during the search; an exception in it ends the search and is raised again. "
+           "Raises "
            "InputError, unless large_work, where it needs more than about 10 minutes or 4 GB.");
+}
 
+void add_identification(py::module_& module) {
   py::class_<Gap>(module, "Gap", "Differences between model and measurement, m or rad.")
       .def_readonly("experiment", &Gap::experiment)
       .def_property_readonly(
@@ -501,6 +501,14 @@ void add_cases(py::module_& module) {
       .def("case_text", &Identification::case_text_of, "directory"_a = ".",
            "The case with what was found as its starting values; paths in it are relative to "
            "directory.");
+}
+
+}  // namespace
+
+void add_cases(py::module_& module) {
+  add_experiment(module);
+  add_case(module);
+  add_identification(module);
 }
 
 }  // namespace catena::python

@@ -437,7 +437,7 @@ void add_model(py::module_& module) {
       "At rest on the catenary (2.53) from the support to where the end is held (m).");
 }
 
-void add_simulation(py::module_& module) {
+void add_simulation_classes(py::module_& module) {
   py::class_<Trajectory>(module, "Trajectory", "A motion, one row per time.")
       .def_property_readonly("time",
                              [](py::object self) {
@@ -487,7 +487,9 @@ void add_simulation(py::module_& module) {
                                             "A simulation with the gradient of one number.")
       .def_readonly("gradient", &AdjointSimulation::gradient,
                     "dJ with respect to every parameter and to the initial state.");
+}
 
+void add_simulation_functions(py::module_& module) {
   const SimulationOptions defaults;
   module.def(
       "simulate", &run, "model"_a, "parameters"_a, "initial"_a, "times"_a, py::kw_only(),
@@ -563,7 +565,8 @@ PYBIND11_MODULE(_core, module) {
   });
   module.attr("__version__") = CATENA_VERSION;
   add_model(module);
-  add_simulation(module);
+  add_simulation_classes(module);
+  add_simulation_functions(module);
   add_cases(module);
   add_diagnoses(module);
 }

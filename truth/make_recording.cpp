@@ -27,9 +27,8 @@ std::pair<std::string, double> split(const std::string& option, const std::strin
   return {text.substr(0, equals), std::stod(text.substr(equals + 1))};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// What the command line says.
+struct Options {
   truth::Cable cable;
   truth::Camera camera;
   truth::Integration integration;
@@ -39,116 +38,147 @@ int main(int argc, char** argv) {
   truth::CaseOptions case_options;
   int recordings = 1;
   bool rod = false;
-  std::vector<std::string> stated_texts;
+  std::vector<std::string> stated;
   std::filesystem::path films;
   bool forces = false;
+};
 
-  CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
-  app.add_option("--output", output, "folder to write to")->required();
-  app.add_option("--effect", effects,
+void add_options(CLI::App& app, Options& said) {
+  app.add_option("--output", said.output, "folder to write to")->required();
+  app.add_option("--effect", said.effects,
                  "NAME=VALUE, e.g. air_drag_quadratic.normal=0.05; repeatable");
-  app.add_option("--links", cable.links, "links of the hidden chain")->check(CLI::Range(1, 500));
-  app.add_option("--case-links", case_options.links, "links of the case's model; 1: a bob")
+  app.add_option("--links", said.cable.links, "links of the hidden chain")
       ->check(CLI::Range(1, 500));
-  app.add_flag("--rod", rod, "an elastic rod of finite elements, as many as --links; no chain");
+  app.add_option("--case-links", said.case_options.links, "links of the case's model; 1: a bob")
+      ->check(CLI::Range(1, 500));
+  app.add_flag("--rod", said.rod,
+               "an elastic rod of finite elements, as many as --links; no chain");
   app.add_option(
-      "--stated", stated_texts,
+      "--stated", said.stated,
       "NAME=SHARE, e.g. length=0.01: by how much the case states length, density or load "
       "too large; repeatable");
-  app.add_option("--recordings", recordings, "of releases from other points as far away")
+  app.add_option("--recordings", said.recordings, "of releases from other points as far away")
       ->check(CLI::Range(1, static_cast<int>(std::size(kTurns))));
-  app.add_option("--films", films,
+  app.add_option("--films", said.films,
                  "folder that keeps motions, to film them again with other noise");
-  app.add_flag("--forces", forces,
+  app.add_flag("--forces", said.forces,
                "also write forces.csv: what effects that are in no library do, frame by frame");
-  app.add_option("--length", cable.length, "m")->check(CLI::PositiveNumber);
-  app.add_option("--density", cable.density, "kg/m")->check(CLI::PositiveNumber);
-  app.add_option("--bending-stiffness", cable.bending_stiffness, "N m^2");
-  app.add_option("--bending-damping", cable.bending_damping, "N m^2 s");
-  app.add_option("--load", cable.load_mass, "kg")->check(CLI::NonNegativeNumber);
-  app.add_option("--held", held, "side and down of the point the end is released from, m")
+  app.add_option("--length", said.cable.length, "m")->check(CLI::PositiveNumber);
+  app.add_option("--density", said.cable.density, "kg/m")->check(CLI::PositiveNumber);
+  app.add_option("--bending-stiffness", said.cable.bending_stiffness, "N m^2");
+  app.add_option("--bending-damping", said.cable.bending_damping, "N m^2 s");
+  app.add_option("--load", said.cable.load_mass, "kg")->check(CLI::NonNegativeNumber);
+  app.add_option("--held", said.held, "side and down of the point the end is released from, m")
       ->expected(2);
-  app.add_option("--rate", camera.rate, "frames/s")->check(CLI::PositiveNumber);
-  app.add_option("--duration", camera.duration, "s")->check(CLI::PositiveNumber);
-  app.add_option("--markers", camera.markers, "marks on the cable")->check(CLI::Range(1, 1000));
-  app.add_option("--noise", camera.noise, "m")->check(CLI::NonNegativeNumber);
-  app.add_option("--autocorrelation", camera.kind.autocorrelation, "of the noise, frame by frame")
+  app.add_option("--rate", said.camera.rate, "frames/s")->check(CLI::PositiveNumber);
+  app.add_option("--duration", said.camera.duration, "s")->check(CLI::PositiveNumber);
+  app.add_option("--markers", said.camera.markers, "marks on the cable")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--noise", said.camera.noise, "m")->check(CLI::NonNegativeNumber);
+  app.add_option("--autocorrelation", said.camera.kind.autocorrelation,
+                 "of the noise, frame by frame")
       ->check(CLI::Range(0.0, 0.99));
-  app.add_option("--shaking", camera.kind.shaking, "noise that all marks share, over --noise")
+  app.add_option("--shaking", said.camera.kind.shaking, "noise that all marks share, over --noise")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--noisy-marker", camera.kind.noisy_marker, "how much noisier one mark is")
+  app.add_option("--noisy-marker", said.camera.kind.noisy_marker, "how much noisier one mark is")
       ->check(CLI::PositiveNumber);
-  app.add_option("--tails", camera.kind.tails, "degrees of freedom of Student's t; 0: normal")
+  app.add_option("--tails", said.camera.kind.tails, "degrees of freedom of Student's t; 0: normal")
       ->check(CLI::Range(3, 100) | CLI::IsMember({0}));
-  app.add_flag("--smoothed", camera.kind.smoothed, "over five frames, Savitzky-Golay");
-  app.add_option("--outliers", camera.kind.outliers, "share of coordinates 20 times --noise off")
+  app.add_flag("--smoothed", said.camera.kind.smoothed, "over five frames, Savitzky-Golay");
+  app.add_option("--outliers", said.camera.kind.outliers,
+                 "share of coordinates 20 times --noise off")
       ->check(CLI::Range(0.0, 0.1));
-  app.add_option("--lost", camera.lost, "share of marks not seen")->check(CLI::Range(0.0, 0.9));
-  app.add_option("--lens", camera.lens,
+  app.add_option("--lost", said.camera.lost, "share of marks not seen")
+      ->check(CLI::Range(0.0, 0.9));
+  app.add_option("--lens", said.camera.lens,
                  "share by which marks a cable's length from the middle are "
                  "seen farther out")
       ->check(CLI::Range(-0.1, 0.1));
-  app.add_option("--shutter", camera.shutter, "s in which a picture is read, from the support down")
+  app.add_option("--shutter", said.camera.shutter,
+                 "s in which a picture is read, from the support down")
       ->check(CLI::Range(0.0, 0.03));
-  app.add_option("--misplaced", camera.misplaced, "m, of marks along the cable")
+  app.add_option("--misplaced", said.camera.misplaced, "m, of marks along the cable")
       ->check(CLI::Range(0.0, 0.05));
-  app.add_option("--drift", camera.drift, "m by which the camera drifts to the side");
-  app.add_option("--slip", camera.slip, "m by which one mark slides along the cable");
-  app.add_option("--slipping", camera.slipping, "which mark")->check(CLI::Range(1, 1000));
-  app.add_option("--pixel", camera.pixel, "m")->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", camera.seed, "of noise and losses");
-  app.add_option("--step", integration.step, "of the integrator, s")->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--drift", said.camera.drift, "m by which the camera drifts to the side");
+  app.add_option("--slip", said.camera.slip, "m by which one mark slides along the cable");
+  app.add_option("--slipping", said.camera.slipping, "which mark")->check(CLI::Range(1, 1000));
+  app.add_option("--pixel", said.camera.pixel, "m")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", said.camera.seed, "of noise and losses");
+  app.add_option("--step", said.integration.step, "of the integrator, s")
+      ->check(CLI::PositiveNumber);
+}
 
+/// The points that the end is held at before its releases, as far away as the first.
+std::vector<std::vector<double>> held_points(const Options& said) {
+  const double reach = std::hypot(said.held.at(0), said.held.at(1));
+  const double angle = std::atan2(said.held[0], said.held[1]);
+  std::vector<std::vector<double>> points = {said.held};
+  for (int k = 1; k < said.recordings; ++k)
+    points.push_back({reach * std::sin(kTurns[k] * angle), reach * std::cos(kTurns[k] * angle)});
+  return points;
+}
+
+/// Films recording k and writes its files.
+void write_recording(const Options& said, const truth::Hidden& hidden,
+                     const std::vector<double>& point, int k, const std::string& file) {
+  const auto start = truth::catenary_angles(said.cable, point[0], point[1]);
+  truth::Moves moves = [&](const std::vector<double>& arc, const std::vector<double>& time) {
+    return said.rod ? truth::move_rod(said.cable, hidden, point, arc, time, said.integration)
+                    : truth::move(said.cable, hidden, start, arc, time, said.integration);
+  };
+  if (!said.films.empty()) {
+    truth::Fingerprint what = truth::fingerprint(said.cable, hidden, said.integration);
+    for (const double value : {point[0], point[1], said.rod ? 1.0 : 0.0}) what.add(value);
+    moves = truth::kept(moves, what, said.films);
+  }
+  truth::Camera camera = said.camera;
+  camera.seed += kOtherSeed * static_cast<std::uint64_t>(k);
+  const truth::Recording recording = truth::film(said.cable, hidden, moves, camera);
+  truth::write_markers(recording, said.output / file);
+  if (said.forces)
+    truth::write_outside_forces(
+        truth::outside_forces(said.cable, hidden, start, recording.time, said.integration),
+        said.output / "forces.csv");
+}
+
+void make_recordings(Options said) {
+  truth::Hidden hidden;
+  for (const std::string& effect : said.effects) {
+    const auto [name, value] = split("--effect", effect);
+    truth::set_hidden(hidden, name, value);
+  }
+  truth::Stated stated;
+  for (const std::string& text : said.stated) {
+    const auto [name, share] = split("--stated", text);
+    stated.set(name, share);
+  }
+  if (said.forces && (said.rod || said.recordings > 1))
+    throw std::invalid_argument("--forces: of one recording of a chain of links only");
+  std::filesystem::create_directories(said.output);
+  const std::vector<std::vector<double>> points = held_points(said);
+  said.case_options.recordings.clear();
+  for (int k = 0; k < said.recordings; ++k) {
+    const std::string file =
+        said.recordings == 1 ? "markers.csv" : "markers_" + std::to_string(k + 1) + ".csv";
+    write_recording(said, hidden, points[static_cast<std::size_t>(k)], k, file);
+    said.case_options.recordings.push_back(file);
+  }
+  truth::write_text(
+      truth::case_text(truth::as_stated(said.cable, stated), said.camera, said.case_options),
+      said.output / "case.toml");
+  truth::write_text(truth::truth_text(said.cable, hidden, said.camera, stated, points),
+                    said.output / "truth.toml");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
+  Options said;
+  add_options(app, said);
+  CLI11_PARSE(app, argc, argv);
   try {
-    truth::Hidden hidden;
-    for (const std::string& effect : effects) {
-      const auto [name, value] = split("--effect", effect);
-      truth::set_hidden(hidden, name, value);
-    }
-    truth::Stated stated;
-    for (const std::string& text : stated_texts) {
-      const auto [name, share] = split("--stated", text);
-      stated.set(name, share);
-    }
-    if (forces && (rod || recordings > 1))
-      throw std::invalid_argument("--forces: of one recording of a chain of links only");
-    std::filesystem::create_directories(output);
-    const double reach = std::hypot(held.at(0), held.at(1)), angle = std::atan2(held[0], held[1]);
-    std::vector<std::vector<double>> points;
-    case_options.recordings.clear();
-    for (int k = 0; k < recordings; ++k) {
-      const std::vector<double> point =
-          k == 0 ? held
-                 : std::vector<double>{reach * std::sin(kTurns[k] * angle),
-                                       reach * std::cos(kTurns[k] * angle)};
-      const auto start = truth::catenary_angles(cable, point[0], point[1]);
-      truth::Moves moves = [&](const std::vector<double>& arc, const std::vector<double>& time) {
-        return rod ? truth::move_rod(cable, hidden, point, arc, time, integration)
-                   : truth::move(cable, hidden, start, arc, time, integration);
-      };
-      if (!films.empty()) {
-        truth::Fingerprint what = truth::fingerprint(cable, hidden, integration);
-        for (const double value : {point[0], point[1], rod ? 1.0 : 0.0}) what.add(value);
-        moves = truth::kept(moves, what, films);
-      }
-      truth::Camera here = camera;
-      here.seed = camera.seed + kOtherSeed * static_cast<std::uint64_t>(k);
-      const std::string file =
-          recordings == 1 ? "markers.csv" : "markers_" + std::to_string(k + 1) + ".csv";
-      const truth::Recording recording = truth::film(cable, hidden, moves, here);
-      truth::write_markers(recording, output / file);
-      if (forces)
-        truth::write_outside_forces(
-            truth::outside_forces(cable, hidden, start, recording.time, integration),
-            output / "forces.csv");
-      points.push_back(point);
-      case_options.recordings.push_back(file);
-    }
-    truth::write_text(truth::case_text(truth::as_stated(cable, stated), camera, case_options),
-                      output / "case.toml");
-    truth::write_text(truth::truth_text(cable, hidden, camera, stated, points),
-                      output / "truth.toml");
+    make_recordings(said);
   } catch (const std::invalid_argument& error) {
     std::cerr << "make_recording: " << error.what() << '\n';
     return 2;
