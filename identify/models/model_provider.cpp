@@ -181,11 +181,14 @@ Model provide_model(const fs::path& description_file, int links, const ProviderO
   std::string compiler = options.compiler;
   if (compiler.empty())
     compiler = environment_variable("CXX") ? environment_variable("CXX") : "c++";
-  std::vector<std::string> flags = {
-      "-std=c++20", "-O2", "-shared", "-fPIC", "-ffp-contract=off", "-DCATENA_SHARED_LIBRARY"};
+  // In the plane -O2 takes the compiler nearly twice as long where there are many effects, and what it compiles
+  // is no faster. In space the motion of 60 links takes a sixth less time with it.
+  const bool space = description.space == Space::kThreeDimensional;
+  std::vector<std::string> flags = {"-std=c++20", space ? "-O2" : "-O1", "-shared",
+                                    "-fPIC",      "-ffp-contract=off",   "-DCATENA_SHARED_LIBRARY"};
   // For this processor alone takes the compiler half the time.
   if (has_fused_multiply_add()) flags.push_back("-march=x86-64-v3");
-  if (description.space == Space::kThreeDimensional) {
+  if (space) {
     // Loops with roots become vectors, as those of the plane do anyway.
     flags.insert(flags.end(), {"-ftree-vectorize", "-fvect-cost-model=dynamic", "-fno-math-errno",
                                "-fno-trapping-math"});
