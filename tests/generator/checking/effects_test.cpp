@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 #include "tests/support/failure.hpp"
 
 using namespace catena;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/input_error.hpp"
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 
 using namespace catena;
 using namespace catena::checking;

@@ -18,7 +18,7 @@
 #include "reference/gravity.hpp"
 #include "reference/joint_matrix.hpp"
 #include "reference/mass_matrix.hpp"
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 
 using namespace catena;
 using namespace catena::checking;

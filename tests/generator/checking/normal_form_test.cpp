@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 
 using namespace catena;
 using namespace catena::checking;

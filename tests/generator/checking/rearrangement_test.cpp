@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 
 using namespace catena;
 using namespace catena::checking;

@@ -18,7 +18,7 @@
 #include "generator/certificate/exact_evaluation.hpp"
 #include "generator/checking/numeric_state.hpp"
 #include "generator/derivation/chain.hpp"
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 #include "tests/support/failure.hpp"
 #include "tests/support/text.hpp"
 

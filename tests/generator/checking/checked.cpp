@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/generator/checking/text.hpp"
+#include "tests/generator/checking/checked.hpp"
 
 #include <algorithm>
 #include <fstream>
