@@ -103,7 +103,8 @@ LagOne lag_one(const Residuals& residuals, const VectorXd& r) {
   const double autocorrelation = products / r.squaredNorm();
   constexpr double kNormalQuantile99 = 2.58;
   return {autocorrelation,
-          pairs > 0 && std::abs(autocorrelation) > kNormalQuantile99 / std::sqrt(static_cast<double>(pairs))};
+          pairs > 0 && std::abs(autocorrelation) >
+                           kNormalQuantile99 / std::sqrt(static_cast<double>(pairs))};
 }
 
 MatrixXd sandwich_covariance(const LeastSquaresErrors& errors, double autocorrelation) {
@@ -118,7 +119,8 @@ MatrixXd sandwich_covariance(const LeastSquaresErrors& errors, double autocorrel
   constexpr double kFarAbove = 2;
   VectorXd stretch = VectorXd::Ones(covariance.rows());
   for (Index j = 0; j < stretch.size(); ++j)
-    if (robust[j] > kFarAbove * covariance(j, j)) stretch[j] = std::sqrt(robust[j] / covariance(j, j));
+    if (robust[j] > kFarAbove * covariance(j, j))
+      stretch[j] = std::sqrt(robust[j] / covariance(j, j));
   return stretch.asDiagonal() * covariance * stretch.asDiagonal();
 }
 

@@ -18,11 +18,11 @@ LagOne lag_one(const Residuals& residuals, const Eigen::VectorXd& r);
 
 /// The errors of least squares without noise that is white.
 struct LeastSquaresErrors {
-  const Residuals& residuals;      ///< says the frame and channel of each row
-  const Eigen::MatrixXd& jacobian; ///< a row for each residual, a column for each scaled unknown
-  const Eigen::VectorXd& r;        ///< residuals over their noise
-  const Eigen::MatrixXd& inverse;  ///< (J'J)^-1, priors included; zero in null directions
-  const Eigen::MatrixXd& priors;   ///< J'J of the priors alone
+  const Residuals& residuals;       ///< says the frame and channel of each row
+  const Eigen::MatrixXd& jacobian;  ///< a row for each residual, a column for each scaled unknown
+  const Eigen::VectorXd& r;         ///< residuals over their noise
+  const Eigen::MatrixXd& inverse;   ///< (J'J)^-1, priors included; zero in null directions
+  const Eigen::MatrixXd& priors;    ///< J'J of the priors alone
 };
 
 /// The sandwich (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <random>
 #include <set>
 
@@ -17,7 +16,6 @@
 #include "identify/report/payload.hpp"
 #include "identify/report/report_figures.hpp"
 #include "identify/report/residuals.hpp"
-#include "identify/report/spectrum.hpp"
 #include "identify/results/result_file.hpp"
 #include "tests/identify/report/made_results.hpp"
 #include "tests/support/failure.hpp"
@@ -196,41 +194,6 @@ TEST_CASE("what is written is read again: the same text comes out") {
   json again = json::parse(diagnosis);
   for (json& round : again["rounds"]) round["result"] = nullptr;  // files that are not there
   CHECK(text_of(*read(again).diagnosis) == diagnosis);
-}
-
-TEST_CASE("residuals: measured minus predicted in mm, gaps kept") {
-  Experiment experiment;
-  experiment.measured = Measured{"markers",
-                                 {{"a", 1.0}},
-                                 {{0, 1}, {{1.003, kAbsent}}, {{2.0, 2.0}}, {}},
-                                 {{0, 1}, {{1.0, 1.0}}, {{2.004, 2.0}}, {}}};
-  const Residuals residuals = residuals_of(experiment);
-  CHECK(residuals.unit == "mm");
-  CHECK(residuals.side[0][0] == doctest::Approx(3));
-  CHECK(residuals.down[0][0] == doctest::Approx(-4));
-  CHECK(residuals.size[0][0] == doctest::Approx(5));
-  CHECK(std::isnan(residuals.size[0][1]));
-  CHECK(mean_over_points({{1, kAbsent}, {3, kAbsent}}, 2)[0] == 2);
-  CHECK(std::isnan(mean_over_points({{1, kAbsent}, {3, kAbsent}}, 2)[1]));
-  CHECK(root_mean_square({3, kAbsent, 4}) == doctest::Approx(std::sqrt(12.5)));
-}
-
-TEST_CASE("a sine's amplitude and frequency are seen, at any offset, across a gap") {
-  Row time;
-  Row value;
-  for (int k = 0; k < 400; ++k) {
-    time.push_back(10 + 0.01 * k);
-    const bool lost = k > 100 && k < 104;
-    value.push_back(lost ? kAbsent : 7 + 3 * std::sin(2 * std::numbers::pi * 2.5 * time.back()));
-  }
-  const Spectrum spectrum = amplitude_spectrum(time, value);
-  const auto largest = std::max_element(spectrum.amplitude.begin(), spectrum.amplitude.end());
-  CHECK(*largest == doctest::Approx(3).epsilon(0.01));
-  CHECK(spectrum.frequency[static_cast<std::size_t>(largest - spectrum.amplitude.begin())] ==
-        doctest::Approx(2.5));
-  CHECK(spectrum.frequency.back() == doctest::Approx(50));
-  CHECK(amplitude_spectrum({0, 1, 2}, {1, 2, 3}).frequency.empty());
-  CHECK(amplitude_spectrum(time, Row(400, kAbsent)).frequency.empty());
 }
 
 TEST_CASE("every figure that the data allow, each drawable under its own name") {
@@ -478,20 +441,6 @@ TEST_CASE("formulas are read one by one or as two lists") {
   REQUIRE(formulas.size() == 1);
   CHECK(formulas[0].mathml == "<math><mi>Q</mi></math>");
   CHECK(formulas[0].latex == "Q");
-}
-
-TEST_CASE("radial residuals are differences of the distance from the support") {
-  Experiment experiment;
-  experiment.measured = Measured{};
-  experiment.measured->points = {{"load", 1}};
-  experiment.measured->values = {{0, 1}, {{3, 0.6}}, {{4, 0.8}}, {}};
-  experiment.measured->predicted = {{0, 1}, {{0, 0.6}}, {{4.9, 0.8}}, {}};
-  const Residuals residuals = residuals_of(experiment);
-  REQUIRE(residuals.radial.size() == 1);
-  CHECK(residuals.radial[0][0] == doctest::Approx(100));  // mm
-  CHECK(residuals.radial[0][1] == 0);
-  CHECK(mean_absolute(residuals.radial[0]) == doctest::Approx(50));
-  CHECK(residuals.size[0][0] == doctest::Approx(1e3 * std::hypot(3, 0.9)));
 }
 
 TEST_CASE(
