@@ -33,8 +33,8 @@ struct Node {
 class ChainFilter {
  public:
   ChainFilter(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-              const std::vector<double>& variance, const ForcePrior& prior)
-      : problem_(problem), forces_(forces), variance_(variance), prior_(prior) {}
+              const std::vector<double>& variance, const ForcePrior& prior, Index later)
+      : problem_(problem), forces_(forces), variance_(variance), prior_(prior), later_(later) {}
 
   Smoothed run(bool smooth) {
     Smoothed out;
@@ -191,6 +191,8 @@ class ChainFilter {
       result.state.resize(size.y, static_cast<Index>(count));
       result.force.resize(size.w, static_cast<Index>(count));
       result.covariance.resize(count);
+      // By w at the nodes after this one: their covariances with the state here are `covariance` times these.
+      MatrixXd by_later(size.all(), 0);
       VectorXd lambda = VectorXd::Zero(size.all());
       MatrixXd information = MatrixXd::Zero(size.all(), size.all());
       lambda.segment(size.y + size.w, shared) = lambda_shared;
@@ -200,6 +202,7 @@ class ChainFilter {
         if (node.weighted.size() > 0) {
           // C = 1 - K H
           lambda -= node.observed.transpose() * (node.gain.transpose() * lambda + node.weighted);
+          by_later -= (node.observed.transpose() * (node.gain.transpose() * by_later)).eval();
           MatrixXd gained(size.all(), node.gain.cols());
           gained.noalias() = information * node.gain;
           const MatrixXd middle = node.gain.transpose() * gained;
@@ -210,7 +213,7 @@ class ChainFilter {
           information.noalias() += node.observed.transpose() * node.weighted_observed;
           information = (0.5 * (information + information.transpose())).eval();
         }
-        read_off(node, size, lambda, information, k, result);
+        read_off(node, size, lambda, information, k, by_later, result);
         const bool first = k == 0;
         Matrix2d added = Matrix2d::Identity();
         if (!first) {
@@ -223,7 +226,7 @@ class ChainFilter {
           found[group] += lambda.segment(i, 2).dot(added * lambda.segment(i, 2));
           expected[group] += (added * information.block(i, i, 2, 2)).trace();
         }
-        if (!first) go_back(recording.steps[k - 1], size, lambda, information);
+        if (!first) go_back(recording.steps[k - 1], size, lambda, information, by_later);
       }
       // At the start: the state comes from the parameters.
       const VectorXd p_s = nodes_[r][0].mean - nodes_[r][0].covariance * lambda;
@@ -243,7 +246,8 @@ class ChainFilter {
   }
 
   void read_off(const Node& node, const Sizes& size, const VectorXd& lambda,
-                const MatrixXd& information, std::size_t k, Smoothed::Recording& result) const {
+                const MatrixXd& information, std::size_t k, MatrixXd& by_later,
+                Smoothed::Recording& result) const {
     const auto column = static_cast<Index>(k);
     const VectorXd mean = node.mean - node.covariance * lambda;
     result.state.col(column) = mean.head(size.y);
@@ -255,12 +259,22 @@ class ChainFilter {
     for (Index f = 0; f < count; ++f) prior.col(f) = of_force.col(size.y + 2 * f);
     MatrixXd weighted(count, size.all());
     weighted.noalias() = of_force * information;
-    result.covariance[k] = prior - weighted * of_force.transpose();
+    result.covariance[k] = {prior - weighted * of_force.transpose()};
+    for (Index i = 0; i < by_later.cols(); i += count)
+      result.covariance[k].emplace_back(of_force * by_later.middleCols(i, count));
+    if (later_ == 0) return;
+    MatrixXd from_here = MatrixXd::Zero(size.all(), count);
+    for (Index f = 0; f < count; ++f) from_here(size.y + 2 * f, f) = 1;
+    from_here -= weighted.transpose();
+    const Index kept = std::min(by_later.cols(), (later_ - 1) * count);
+    MatrixXd all(size.all(), count + kept);
+    all << from_here, by_later.leftCols(kept);
+    by_later = std::move(all);
   }
 
-  /// lambda and information before a step from those after it.
+  /// lambda, information and by_later before a step from those after it.
   void go_back(const LinearRecording::Step& step, const Sizes& size, VectorXd& lambda,
-               MatrixXd& information) const {
+               MatrixXd& information, MatrixXd& by_later) const {
     const MatrixXd rows = rows_of_y(step, size);
     const Matrix2d a = prior_.transition(step.duration);
     // Transition T: the rows of y, then A of w and 1 of p. T' = rows' [y] + rest.
@@ -274,6 +288,7 @@ class ChainFilter {
       return out;
     };
     lambda = transposed(lambda).eval();
+    by_later = transposed(by_later).eval();
     const MatrixXd half = transposed(information).transpose();
     information = transposed(half);
   }
@@ -282,6 +297,7 @@ class ChainFilter {
   const std::vector<ActingForce>& forces_;
   const std::vector<double>& variance_;
   const ForcePrior& prior_;
+  Index later_;
   std::vector<std::vector<Node>> nodes_;
 };
 
@@ -295,8 +311,9 @@ Matrix2d ForcePrior::transition(double step) const {
 }
 
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth) {
-  return ChainFilter(problem, forces, variance, prior).run(smooth);
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth,
+                       Index later) {
+  return ChainFilter(problem, forces, variance, prior, later).run(smooth);
 }
 
 }  // namespace catena

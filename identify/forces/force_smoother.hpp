@@ -62,7 +62,8 @@ struct Smoothed {
   struct Recording {
     Eigen::MatrixXd state;  ///< y, one column per node
     Eigen::MatrixXd force;  ///< (w, dw/dt) of each acting pattern, one column per node
-    std::vector<Eigen::MatrixXd> covariance;  ///< of w alone, acting patterns squared, per node
+    /// Per node, of w there with w there and, as far as asked for, at the nodes after it; acting patterns squared.
+    std::vector<std::vector<Eigen::MatrixXd>> covariance;
     Eigen::VectorXd own;
   };
   std::vector<Recording> recordings;
@@ -74,9 +75,11 @@ struct Smoothed {
 
 /// Kalman's filter forward and the smoother of Bryson and Frazier backward, over all recordings as
 /// one chain: what one says of the shared parameters is the prior of the next. `variance`: of each
-/// group. Without `smooth` the evidence alone. References: Bierman, Automatica 9 (1973) 503;
-/// MacKay, Neural Computation 4 (1992) 415, for the growth.
+/// group. Without `smooth` the evidence alone. `later`: covariances with so many nodes after each. References: Bierman,
+/// Automatica 9 (1973) 503; MacKay, Neural Computation 4 (1992) 415, for the growth; de Jong and MacKinnon, Biometrika
+/// 75 (1988) 601, for the covariances.
 Smoothed smooth_forces(const LinearProblem& problem, const std::vector<ActingForce>& forces,
-                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth);
+                       const std::vector<double>& variance, const ForcePrior& prior, bool smooth,
+                       Eigen::Index later = 0);
 
 }  // namespace catena

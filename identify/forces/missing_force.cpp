@@ -83,12 +83,13 @@ SettledForce directions_shown(SettledForce all, const std::vector<double>& varia
 
 /// Forces everywhere without the patterns that the recordings do not show: those that are resolved least, as
 /// many as the log evidence allows, with the time scale of the largest evidence. Of their strengths the
-/// evidence says nothing, so they stay near where its search began, and every interval with them. All
-/// patterns where the motion cannot be followed with fewer.
-SettledForce patterns_shown(SettledForce all, const std::vector<double>& variance,
-                            const std::vector<MissingForce::Pattern>& resolved) {
-  const std::optional<LinearProblem> linear = all.paths.linearise();
-  if (!linear) return all;
+/// evidence says nothing, so they stay near where its search began, and every interval with them. With the
+/// covariances of means over time. Nothing where the motion cannot be followed.
+std::optional<SettledForce> patterns_shown(const SettledForce& all,
+                                           const std::vector<double>& variance,
+                                           const std::vector<MissingForce::Pattern>& resolved) {
+  std::optional<LinearProblem> linear = all.paths.linearise();
+  if (!linear) return std::nullopt;
   std::vector<std::size_t> order(resolved.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -122,9 +123,16 @@ SettledForce patterns_shown(SettledForce all, const std::vector<double>& varianc
     patterns.back().group = static_cast<int>(patterns.size()) - 1;
   }
   shown.paths.act(std::move(patterns));
-  std::optional<Smoothed> smoothed = shown.paths.settle(variances, true);
-  if (!smoothed) return all;
-  shown.smoothed = std::move(*smoothed);
+  if (!shown.paths.settle(variances, true)) return std::nullopt;
+  linear = shown.paths.linearise();
+  if (!linear) return std::nullopt;
+  std::vector<ActingForce> acting;
+  for (std::size_t m = 0; m < variances.size(); ++m)
+    acting.push_back({static_cast<Index>(m), static_cast<int>(m)});
+  Index later = 0;
+  for (std::size_t r = 0; r < shown.paths.paths().size(); ++r)
+    later = std::max(later, nodes_of_mean(shown.paths.times(r)));
+  shown.smoothed = smooth_forces(*linear, acting, variances, shown.paths.prior, true, later);
   return shown;
 }
 
@@ -159,16 +167,17 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     const double prior = variance[static_cast<std::size_t>(pattern.group)];
     double left = 0, count = 0;
     for (const Smoothed::Recording& recording : everywhere->recordings)
-      for (const MatrixXd& covariance : recording.covariance)
-        left += covariance(static_cast<Index>(m), static_cast<Index>(m)), count += 1;
+      for (const std::vector<MatrixXd>& covariance : recording.covariance)
+        left += covariance[0](static_cast<Index>(m), static_cast<Index>(m)), count += 1;
     missing.patterns.push_back({pattern.name, pattern.unit, std::sqrt(prior),
                                 std::clamp(1 - left / count / prior, 0.0, 1.0)});
   }
-  const SettledForce shown_everywhere =
+  const std::optional<SettledForce> shown_everywhere =
       patterns_shown({paths, *everywhere}, variance, missing.patterns);
+  if (!shown_everywhere) return false;
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
-    missing.everywhere.push_back(
-        force_history(shown_everywhere.paths, r, problem, shown_everywhere.smoothed, chain, true));
+    missing.everywhere.push_back(force_history(shown_everywhere->paths, r, problem,
+                                               shown_everywhere->smoothed, chain, true));
   add_parameters(problem, x, paths, unknowns, *everywhere, missing);
 
   PlaceSearch search(paths, chain);

@@ -71,8 +71,8 @@ struct MissingForce {
     /// along it. In space of each component of it.
     std::vector<OverTime> normal_modes;
   };
-  std::vector<double> arc_length;  ///< m, of the middles of the links
-  std::vector<History> everywhere;
+  std::vector<double> arc_length;   ///< m, of the middles of the links
+  std::vector<History> everywhere;  ///< means over kMeanReach (force_history.hpp)
 
   /// A force at one place alone, or a moment in one joint; in space in every direction.
   struct Place {

@@ -12,6 +12,7 @@
 
 #include "identify/cases/case_reader.hpp"
 #include "identify/diagnosis/fitted_model.hpp"
+#include "identify/forces/force_history.hpp"
 #include "identify/forces/interval_map.hpp"
 #include "identify/forces/missing_force.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -226,6 +227,20 @@ inline Recovery recovery(const Eigen::MatrixXd& size, const Eigen::MatrixXd& dev
   return recovery;
 }
 
+/// What forces along the whole chain are shown as: means with the weights of a raised cosine (force_history.hpp).
+inline Eigen::MatrixXd means_over_time(const Eigen::MatrixXd& rows,
+                                       const std::vector<double>& time) {
+  const auto times = static_cast<Eigen::Index>(time.size());
+  const Eigen::RowVectorXd at = Eigen::RowVectorXd::Map(time.data(), times);
+  Eigen::MatrixXd means(rows.rows(), times);
+  for (Eigen::Index k = 0; k < times; ++k) {
+    const Eigen::ArrayXd away = ((at.array() - at[k]).abs() / kMeanReach).min(1.0).transpose();
+    const Eigen::VectorXd weights = 1 + (std::numbers::pi * away).cos();
+    means.col(k) = rows * weights / weights.sum();
+  }
+  return means;
+}
+
 /// Of the two lowest modes of the density normal to the cable: of gusts along all of it, or of the
 /// hidden spring at a point.
 inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hidden,
@@ -233,7 +248,8 @@ inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hid
   const auto& history = found.everywhere.at(0);
   const MissingForce::OverTime& modes = history.normal_modes.at(0);
   if (filmed.gust_modes.size() > 0)
-    return recovery(modes.value, modes.deviation, filmed.gust_modes, history.time);
+    return recovery(modes.value, modes.deviation, means_over_time(filmed.gust_modes, history.time),
+                    history.time);
   const Eigen::VectorXd force = true_force(filmed, hidden, history.time);
   const double length = filmed.film.cable().length, place = true_place(filmed.film);
   const truth::Motion motion =
@@ -243,7 +259,7 @@ inline Recovery recovery_of_modes(const Filmed& filmed, const truth::Hidden& hid
     truth(0, k) = force[k] * std::cos(motion.angle[static_cast<std::size_t>(k)][0]) / length;
     truth(1, k) = 3 * (2 * place / length - 1) * truth(0, k);
   }
-  return recovery(modes.value, modes.deviation, truth, history.time);
+  return recovery(modes.value, modes.deviation, means_over_time(truth, history.time), history.time);
 }
 
 /// Of the side force at the place that was found.
