@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include "identify/least_squares/least_squares.hpp"
-#include "identify/noise/cosine_spectrum.hpp"
+#include "tests/identify/diagnosis/predicted_films.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
 
 using namespace catena;
@@ -19,50 +18,13 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using testing::errors_of;
+using testing::Film;
+using testing::fitted_to;
+using testing::holds;
+using testing::kSealed;
 
-constexpr double kStep = 0.05, kNoise = 1e-3;
-constexpr int kSealed = 20;
-
-/// A film of two links, one marker at the tip: a fitted part, one held out, 20 sealed frames.
-struct Film {
-  int fitted = 60, frames = 160;
-  double correlation = 0;  ///< of the noise of a frame with the one before
-  double shift = 0;        ///< m: of the sealed part, to the side
-  std::string section = testing::kTwoLinks;
-};
-
-FittedModel fitted_to(const Film& film, unsigned seed) {
-  Case the_case = testing::sections(film.section);
-  testing::add_experiment(the_case, "run");
-  const Model model = Model::built_in(2);
-  Recording recording =
-      testing::with_truth(the_case, model, testing::empty_markers({1.0}, film.frames, kStep));
-
-  std::mt19937_64 random(seed);
-  Eigen::Vector2d noise = Eigen::Vector2d::Zero();
-  for (Index k = 0; k < film.frames; ++k) {
-    const double fresh = k == 0 ? 1 : std::sqrt(1 - film.correlation * film.correlation);
-    for (double& value : noise) value = film.correlation * value + fresh * normal_number(random);
-    recording.measured.col(k) += kNoise * noise;
-  }
-  recording.fit_frames = film.fitted;
-  if (film.fitted < film.frames) {
-    recording.measured.row(0).tail(kSealed).array() += film.shift;
-    recording.sealed = MatrixXd::Constant(2, film.frames, std::nan(""));
-    recording.sealed.rightCols(kSealed) = recording.measured.rightCols(kSealed);
-    recording.measured.rightCols(kSealed).setConstant(std::nan(""));
-  }
-  const auto problem =
-      std::make_shared<const Problem>(the_case, model, std::vector<Recording>{recording});
-  return fit_model(problem, problem->start(), {{.level = kNoise}}, fit_least_squares, nullptr);
-}
-
-PredictionErrors errors_of(const FittedModel& model, const FittedModel& without_laws) {
-  const testing::TemporaryFolder folder;
-  DiagnosisContext context(model.problem->the_case(), {}, folder.path(), fit_least_squares, {});
-  return prediction_errors(model, without_laws, {{.level = kNoise}}, context);
-}
-PredictionErrors errors_of(const FittedModel& model) { return errors_of(model, model); }
+constexpr double kStep = testing::kFrameTime, kNoise = testing::kFilmNoise;
 
 /// In how many of 40 films what is left lies in the interval, held out and sealed; the median of what is left.
 struct Coverage {
@@ -76,9 +38,6 @@ Coverage coverage_of(const Film& film) {
   std::vector<double> left;
   for (unsigned seed = 1; seed <= kFilms; ++seed) {
     const PredictionErrors errors = errors_of(fitted_to(film, seed));
-    const auto holds = [](const PredictionError& error) {
-      return error.low <= error.observed && error.observed <= error.high;
-    };
     coverage.held_out += holds(errors.held_out);
     coverage.sealed += holds(errors.sealed);
     left.push_back(errors.sealed.observed);
