@@ -104,10 +104,11 @@ Model DiagnosisContext::made_with(const std::vector<std::string>& effects, int l
 
 Model DiagnosisContext::model_with(const std::vector<std::string>& all, int links) {
   const std::vector<std::string> effects = in_model(all);
-  const bool shared = std::none_of(effects.begin(), effects.end(), [&](const std::string& effect) {
-    return find(effect)->own_model;
-  });
-  return shared && !effects.empty() ? model_with_all(links) : made_with(effects, links, true);
+  std::vector<std::string> own;
+  for (const std::string& effect : effects)
+    if (find(effect)->own_model) own.push_back(effect);
+  const bool alone = effects.empty() || (effects.size() == 1 && !own.empty());
+  return alone ? made_with(effects, links, true) : model_with_all(links, own);
 }
 
 Model DiagnosisContext::complete_model_with(const std::vector<std::string>& effects, int links) {

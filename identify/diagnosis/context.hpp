@@ -60,7 +60,8 @@ class DiagnosisContext {
   /// A model for fits with these effects: the case's model if there are none, else one with every
   /// candidate that can share a model. Derived and compiled once for every number of links. At the
   /// neutral values of the others it is the case's model with these effects, and as fast. An effect
-  /// that shares none has a model of its own. Several threads may each have theirs made at once.
+  /// that shares none has a model of its own; beside others it is in one with all that can share one, so that
+  /// what is tried beside it needs one model, not one each. Several threads may each have theirs made at once.
   Model model_with(const std::vector<std::string>& effects, int links);
   /// The same with every candidate that can share a model, and those of `needed` that cannot.
   Model model_with_all(int links, const std::vector<std::string>& needed = {});

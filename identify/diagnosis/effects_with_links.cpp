@@ -37,8 +37,10 @@ bool add_with_more_links(DiagnosisState& state) {
   if (links <= looked.links) return false;
   std::vector<Explanation> explanations = best_with_links(state, looked, links);
   if (explanations.empty()) return false;
-  FittedModel finer =
-      refitted_with_links(looked.model, links, looked.effects, state.found.noise, state.context);
+  const bool known = looked.finer.refitted && looked.finer.links == links;
+  FittedModel finer = known ? looked.finer.model
+                            : refitted_with_links(looked.model, links, looked.effects,
+                                                  state.found.noise, state.context);
   state.context.stop_if_asked();
   if (!finer.ok) return false;
   // The finer chain's own fit may be the worse one, where it ends in another minimum.
