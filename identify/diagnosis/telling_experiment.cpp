@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "common/impossible_value.hpp"
@@ -70,9 +71,16 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
   const Experiment& experiment = a.problem->experiments()[e];
   const double span = experiment.recording.time.back() - experiment.recording.time.front();
   constexpr int kFrames = 200;  // of the longest film; the other one is its first half
+  // No one knows how signals go on after their end: then the film is as long as the recorded one.
+  const Signals& signals = experiment.signals;
+  const double end = experiment.spec.start + 2 * span;
+  const bool ends = signals.count() > 0 && signals.last_time() < end;
+  const int frames = ends ? kFrames / 2 : kFrames;
   std::vector<double> times;
-  for (int k = 0; k <= kFrames; ++k)
-    times.push_back(experiment.spec.start + 2 * span * k / kFrames);
+  for (int k = 0; k <= frames; ++k) {
+    const double time = experiment.spec.start + 2 * span * k / kFrames;
+    times.push_back(ends ? std::min(time, signals.last_time()) : time);
+  }
   const int links = a.problem->model().links();
   const double components = a.problem->model().in_space() ? 3 : 2;
   for (const Change& change : kChanges) {
@@ -101,7 +109,7 @@ TellingExperiment telling_experiment(const FittedModel& a, const FittedModel& b,
     }
     if (!ok) continue;
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(links + 2);
-    for (int k = 0; k <= kFrames; ++k) {
+    for (int k = 0; k <= frames; ++k) {
       Positions at[2];
       for (int m = 0; m < 2; ++m)
         at[m] = positions((m ? b : a).problem->model(), parameters[m],

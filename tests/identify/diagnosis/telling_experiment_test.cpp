@@ -9,7 +9,9 @@
 
 #include "identify/least_squares/least_squares.hpp"
 #include "runtime/any_links.hpp"
+#include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
 
@@ -34,6 +36,29 @@ FittedModel pendulum(double gravity, double stiffness, double mass, double load)
       the_case, model,
       std::vector<Recording>{testing::with_truth(
           the_case, model, testing::empty_markers({1.0}, 101, 0.05), kFilmNoise)});
+  return assess(problem, problem->start(), fit_least_squares, nullptr);
+}
+
+/// The two links whose support moves as a signal says that is as long as the recording.
+FittedModel moved(const testing::TemporaryFolder& folder, double gravity) {
+  constexpr int frames = 40;
+  constexpr double step = 0.02;  // s
+  const Model model = provide_model(folder.write("moved.toml",
+                                                 "format = 1\nkind = \"model\"\nid = \"moved\"\n"
+                                                 "effects = [\"support_series\"]\n"),
+                                    2, testing::provider_of_build());
+  Case the_case = testing::sections(testing::kTwoLinks);
+  the_case.cable.gravity = gravity;
+  std::string series = "time_s,side_m,down_m\n";
+  for (int k = 0; k < frames; ++k) series += fmt::format("{},{},0.0\n", step * k, 0.001 * k);
+  for (const std::string axis : {"side", "down"})
+    the_case.signals.push_back({"support_series.support_" + axis,
+                                folder.write("series.csv", series), "time_s", axis + "_m"});
+  testing::add_experiment(the_case, "run");
+  const Recording seen = testing::with_truth(
+      the_case, model, testing::empty_markers({0.5, 1.0}, frames, step), kFilmNoise);
+  const auto problem =
+      std::make_shared<const Problem>(the_case, model, std::vector<Recording>{seen});
   return assess(problem, problem->start(), fit_least_squares, nullptr);
 }
 
@@ -63,4 +88,14 @@ TEST_CASE("where there is no load none is changed") {
   const TellingExperiment telling = telling_experiment(spring, field, {kFilmNoise});
   CHECK(telling.words.find(" with ") == std::string::npos);
   CHECK(telling.difference < 5);  // sine and angle differ little
+}
+
+TEST_CASE("an experiment is no longer than the signals that are known") {
+  const testing::TemporaryFolder folder;
+  const FittedModel weaker = moved(folder, 9.0), stronger = moved(folder, 10.0);
+  REQUIRE(weaker.ok);
+  REQUIRE(stronger.ok);
+  const TellingExperiment telling = telling_experiment(weaker, stronger, {kFilmNoise});
+  CHECK(telling.difference > 1);
+  CHECK(telling.words.find("filmed for 0.78 s") != std::string::npos);
 }
