@@ -3,10 +3,10 @@
 // Makes recordings of a cable with hidden effects: markers.csv (or markers_1.csv, ...) and case.toml for
 // catena, and truth.toml, which catena never reads, for comparison with what was found.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <utility>
 
 #include "truth/files.hpp"
@@ -16,7 +16,8 @@
 
 namespace {
 
-constexpr double kTurns[] = {1, -0.7, 0.4, -0.9};  // of the angle of the held point, by recordings
+constexpr std::array kTurns = {1.0, -0.7, 0.4,
+                               -0.9};  // of the angle of the held point, by recordings
 constexpr std::uint64_t kOtherSeed = 0x9e3779b97f4a7c15ULL;  // of the next recording's noise
 
 /// NAME and VALUE of NAME=VALUE.
@@ -58,7 +59,7 @@ void add_options(CLI::App& app, Options& said) {
       "NAME=SHARE, e.g. length=0.01: by how much the case states length, density or load "
       "too large; repeatable");
   app.add_option("--recordings", said.recordings, "of releases from other points as far away")
-      ->check(CLI::Range(1, static_cast<int>(std::size(kTurns))));
+      ->check(CLI::Range(1, static_cast<int>(kTurns.size())));
   app.add_option("--films", said.films,
                  "folder that keeps motions, to film them again with other noise");
   app.add_flag("--forces", said.forces,
@@ -113,8 +114,10 @@ std::vector<std::vector<double>> held_points(const Options& said) {
   const double reach = std::hypot(said.held.at(0), said.held.at(1));
   const double angle = std::atan2(said.held[0], said.held[1]);
   std::vector<std::vector<double>> points = {said.held};
-  for (int k = 1; k < said.recordings; ++k)
-    points.push_back({reach * std::sin(kTurns[k] * angle), reach * std::cos(kTurns[k] * angle)});
+  for (int k = 1; k < said.recordings; ++k) {
+    const double turned = kTurns.at(static_cast<std::size_t>(k)) * angle;
+    points.push_back({reach * std::sin(turned), reach * std::cos(turned)});
+  }
   return points;
 }
 
@@ -173,11 +176,12 @@ void make_recordings(Options said) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
-  Options said;
-  add_options(app, said);
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app(
+        "Films a simulated cable with a hidden effect; the truth is sealed in truth.toml.");
+    Options said;
+    add_options(app, said);
+    CLI11_PARSE(app, argc, argv);
     make_recordings(said);
   } catch (const std::invalid_argument& error) {
     std::cerr << "make_recording: " << error.what() << '\n';

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "common/in_quotes.hpp"
@@ -69,12 +70,12 @@ struct Directions {
   Index rank = 0;
 };
 
-/// Of the Jacobian with its constraints. `largest` is the largest singular value of the data alone; infinite
-/// where there are only data.
-Directions directions_of(const MatrixXd& jacobian, double largest) {
+/// Of the Jacobian with its constraints. `largest`: the largest singular value of the data alone, where there are
+/// constraints.
+Directions directions_of(const MatrixXd& jacobian, std::optional<double> largest) {
   const SingularDirections all = singular_directions(jacobian);
   // Sensitivities are good to about 1e-6 of their size: what is smaller is no information.
-  const double smallest = 1e-6 * std::min(largest, all.values[0]);
+  const double smallest = 1e-6 * largest.value_or(all.values[0]);
   Index rank = 0;
   while (rank < all.values.size() && all.values[rank] > smallest) ++rank;
   return {all.values, all.vectors, rank};
@@ -195,8 +196,8 @@ Uncertainty uncertainty_of(const Problem& problem, const VectorXd& x, double exp
   MatrixXd with_constraints(count + constraints.value.size(), unknowns);
   with_constraints << jacobian,
       constraints.weight.asDiagonal() * constraints.jacobian * range.asDiagonal() / out.noise;
-  const double largest =
-      constraints.value.size() ? singular_directions(jacobian).values[0] : kInfinite;
+  std::optional<double> largest;
+  if (constraints.value.size()) largest = singular_directions(jacobian).values[0];
   const Directions directions = directions_of(with_constraints, largest);
   out.singular_values = directions.singular_values;
 

@@ -410,5 +410,6 @@ TEST_CASE("dry friction in every joint, where it slides") {
     CHECK(first.joints[i].friction ==
           doctest::Approx(0.003 * cable.gravity *
                           (cable.load_mass + static_cast<double>(4 - i) * link) * std::cos(0.2))
-              .epsilon(0.01).scale(0));
+              .epsilon(0.01)
+              .scale(0));
 }

@@ -15,9 +15,9 @@
 
 namespace catena::testing {
 
-constexpr double kFrameTime = 0.05;    // s
-constexpr double kFilmNoise = 1e-3;    // m
-constexpr Eigen::Index kSealed = 20;   // frames
+constexpr double kFrameTime = 0.05;   // s
+constexpr double kFilmNoise = 1e-3;   // m
+constexpr Eigen::Index kSealed = 20;  // frames
 
 /// A film of two links, one marker at the tip: a fitted part, one held out, 20 sealed frames.
 struct Film {
@@ -30,8 +30,7 @@ inline FittedModel fitted_to(const Film& film, unsigned seed) {
   Case the_case = sections(kTwoLinks);
   add_experiment(the_case, "run");
   const Model model = Model::built_in(2);
-  Recording recording =
-      with_truth(the_case, model, empty_markers({1.0}, film.frames, kFrameTime));
+  Recording recording = with_truth(the_case, model, empty_markers({1.0}, film.frames, kFrameTime));
 
   std::mt19937_64 random(seed);
   Eigen::Vector2d noise = Eigen::Vector2d::Zero();

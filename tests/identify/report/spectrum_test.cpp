@@ -7,8 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "identify/results/result.hpp"
+
 namespace catena::report {
 namespace {
+
+using results::kAbsent;
+using results::Row;
 
 TEST_CASE("a sine's amplitude and frequency are seen, at any offset, across a gap") {
   Row time;

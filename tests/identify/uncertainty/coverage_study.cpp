@@ -46,8 +46,9 @@ Study of_parameters() {
 /// Seeds 1 to 40 belong to the tests.
 Study of_predictions() {
   std::string columns;
-  for (const std::string part : {"held out", "sealed"})
-    columns += "," + part + " inside," + part + " width," + part + " truth";
+  for (const char* part : {"held out", "sealed"})
+    for (const char* column : {" inside", " width", " truth"})
+      columns.append(",").append(part).append(column);
   const auto measure = [](const std::string& kind, unsigned seed, std::ostream& out) {
     const double correlation = kind == "20" ? 0.6 : 0;
     const PredictionErrors errors = testing::errors_of(
