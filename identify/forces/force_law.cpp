@@ -490,6 +490,7 @@ class LawSearch {
   /// motion of the best. There a friction would gain by a second term that mends its smooth sign.
   void read_formula(const std::vector<Close>& close, ForceLaw& law) {
     std::vector<FittedForm> begins;
+    begins.reserve(close.size());
     for (const Close& of : close)
       begins.push_back({.law = candidates_[of.candidate],
                         .form = of.form,
