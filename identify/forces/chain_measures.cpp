@@ -16,7 +16,6 @@ ChainMeasures::ChainMeasures(const Problem& problem, const VectorXd& x, int expe
   masses = p.segment(model.parameter_index("mass_1"), model.links());
   load = p[model.parameter_index("load_mass")];
   gravity = p[model.parameter_index("gravity")];
-  weight = (masses.sum() + load) * gravity;
 }
 
 }  // namespace catena

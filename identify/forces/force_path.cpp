@@ -331,12 +331,13 @@ void ForcePaths::take_forces(const std::vector<MatrixXd>& forces) {
 /// Moves the prior's time scale towards the largest evidence, and the variances so that the prior
 /// of fast forces stays: variance / time scale^3.
 void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
-                         std::vector<double>& variance) {
+                         const std::vector<double>& largest, std::vector<double>& variance) {
   const auto scaled = [&](double factor) {
     ForcePrior other = prior;
     other.time_scale *= factor;
     std::vector<double> variances = variance;
-    for (double& of : variances) of *= factor * factor * factor;
+    for (std::size_t g = 0; g < variances.size(); ++g)
+      variances[g] = std::min(variances[g] * (factor * factor * factor), largest[g]);
     return std::pair(other, variances);
   };
   const auto evidence = [&](double factor) {
@@ -354,7 +355,9 @@ void ForcePaths::rescale(const LinearProblem& linear, const std::vector<ActingFo
   std::tie(prior, variance) = scaled(factor);
 }
 
-std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance, bool with_time_scale) {
+std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance,
+                                           const std::vector<double>& largest,
+                                           bool with_time_scale) {
   std::vector<ActingForce> acting;
   for (std::size_t m = 0; m < patterns_.size(); ++m)
     acting.push_back({static_cast<Index>(m), patterns_[m].group});
@@ -369,8 +372,9 @@ std::optional<Smoothed> ForcePaths::settle(std::vector<double>& variance, bool w
     if (moved < kSettled && smoothed->log_evidence - before < kSettledEvidence) break;
     for (std::size_t g = 0; g < variance.size(); ++g)
       variance[g] =
-          std::max(1e-16, variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth));
-    if (with_time_scale) rescale(*linear, acting, variance);
+          std::clamp(variance[g] * std::clamp(smoothed->growth[g], kLeastGrowth, kMostGrowth),
+                     std::min(1e-16, largest[g]), largest[g]);
+    if (with_time_scale) rescale(*linear, acting, largest, variance);
   }
   return smoothed;
 }

@@ -83,9 +83,10 @@ class ForcePaths {
   std::optional<LinearProblem> linearise(int finer = 1) const;
 
   /// Relinearises and smooths until nothing moves by more than a small part of the noise, and the
-  /// variances (of the groups, updated) are those of the largest evidence; `with_time_scale`: the
-  /// prior's time scale, too. Nothing as linearise.
-  std::optional<Smoothed> settle(std::vector<double>& variance, bool with_time_scale);
+  /// variances (of the groups, updated) are those of the largest evidence below `largest`;
+  /// `with_time_scale`: the prior's time scale, too. Nothing as linearise.
+  std::optional<Smoothed> settle(std::vector<double>& variance, const std::vector<double>& largest,
+                                 bool with_time_scale);
 
   /// Moves motion and unknowns to what was smoothed about them; `linear` may have more shared
   /// parameters behind those of the problem, and more states. The forces are those smoothed, none where none acted.
@@ -104,7 +105,7 @@ class ForcePaths {
   std::vector<LinearRecording::Seen> observe(std::size_t path,
                                              const std::vector<Eigen::Index>& unknowns) const;
   void rescale(const LinearProblem& linear, const std::vector<ActingForce>& acting,
-               std::vector<double>& variance);
+               const std::vector<double>& largest, std::vector<double>& variance);
 
   const Problem& problem_;
   const LatentUnknowns& unknowns_;

@@ -36,18 +36,4 @@ std::vector<ForcePattern> forces_everywhere(const ChainMeasures& chain) {
   return patterns;
 }
 
-std::vector<double> first_variances(const std::vector<ForcePattern>& patterns,
-                                    const ChainMeasures& chain) {
-  const double force = 0.01 * chain.weight;
-  std::vector<double> variances;
-  variances.reserve(patterns.size());
-  for (const ForcePattern& pattern : patterns) {
-    const double size = pattern.density.size() > 0 ? force / chain.length
-                        : !pattern.torque.isZero() ? force * chain.length
-                                                   : force;
-    variances.push_back(size * size);
-  }
-  return variances;
-}
-
 }  // namespace catena

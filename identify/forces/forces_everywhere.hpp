@@ -20,8 +20,4 @@ inline constexpr int kForcePlaces = 10;
 /// (1992) 415; Tipping, J. Machine Learning Research 1 (2001) 211.
 std::vector<ForcePattern> forces_everywhere(const ChainMeasures& chain);
 
-/// Where the search of their variances begins: a hundredth of the weight each.
-std::vector<double> first_variances(const std::vector<ForcePattern>& patterns,
-                                    const ChainMeasures& chain);
-
 }  // namespace catena

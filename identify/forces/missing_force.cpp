@@ -7,6 +7,7 @@
 
 #include "common/cpu_seconds.hpp"
 #include "identify/forces/force_history.hpp"
+#include "identify/forces/force_sizes.hpp"
 #include "identify/forces/forces_everywhere.hpp"
 #include "identify/forces/missing_force_words.hpp"
 #include "identify/forces/place_search.hpp"
@@ -60,7 +61,8 @@ struct SettledForce {
 /// weakest ones. A cable hardly shows what pushes along it, so that a direction of small size that follows the
 /// noise takes from the others what is not its own. All that are left where the motion cannot be followed with fewer.
 /// `least`: what the log evidence must be.
-SettledForce directions_shown(SettledForce all, const std::vector<double>& variance, double least) {
+SettledForce directions_shown(SettledForce all, const std::vector<double>& variance,
+                              const ChainMeasures& chain, double least) {
   if (variance.size() == 1) return all;
   std::vector<double> squares(variance.size(), 0.0);
   for (const Smoothed::Recording& recording : all.smoothed.recordings)
@@ -75,10 +77,11 @@ SettledForce directions_shown(SettledForce all, const std::vector<double>& varia
   fewer.paths.act(std::move(patterns));
   std::vector<double> of_fewer = variance;
   of_fewer.erase(of_fewer.begin() + last);
-  std::optional<Smoothed> smoothed = fewer.paths.settle(of_fewer, true);
+  std::optional<Smoothed> smoothed =
+      fewer.paths.settle(of_fewer, largest_variances(fewer.paths.patterns(), chain), true);
   if (!smoothed || smoothed->log_evidence < least) return all;
   fewer.smoothed = std::move(*smoothed);
-  return directions_shown(std::move(fewer), of_fewer, least);
+  return directions_shown(std::move(fewer), of_fewer, chain, least);
 }
 
 /// Forces everywhere without the patterns that the recordings do not show: those that are resolved least, as
@@ -87,6 +90,7 @@ SettledForce directions_shown(SettledForce all, const std::vector<double>& varia
 /// covariances of means over time. Nothing where the motion cannot be followed.
 std::optional<SettledForce> patterns_shown(const SettledForce& all,
                                            const std::vector<double>& variance,
+                                           const ChainMeasures& chain,
                                            const std::vector<MissingForce::Pattern>& resolved) {
   std::optional<LinearProblem> linear = all.paths.linearise();
   if (!linear) return std::nullopt;
@@ -123,7 +127,8 @@ std::optional<SettledForce> patterns_shown(const SettledForce& all,
     patterns.back().group = static_cast<int>(patterns.size()) - 1;
   }
   shown.paths.act(std::move(patterns));
-  if (!shown.paths.settle(variances, true)) return std::nullopt;
+  if (!shown.paths.settle(variances, largest_variances(shown.paths.patterns(), chain), true))
+    return std::nullopt;
   linear = shown.paths.linearise();
   if (!linear) return std::nullopt;
   std::vector<ActingForce> acting;
@@ -156,7 +161,8 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   const double squares_without = paths.squares();
   paths.act(forces_everywhere(chain));
   std::vector<double> variance = first_variances(paths.patterns(), chain);
-  std::optional<Smoothed> everywhere = paths.settle(variance, false);
+  std::optional<Smoothed> everywhere =
+      paths.settle(variance, largest_variances(paths.patterns(), chain), false);
   if (!everywhere) return false;
   ForcePaths with_all = paths;
   missing.share = 1 - paths.squares() / squares_without;
@@ -173,7 +179,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
                                 std::clamp(1 - left / count / prior, 0.0, 1.0)});
   }
   const std::optional<SettledForce> shown_everywhere =
-      patterns_shown({paths, *everywhere}, variance, missing.patterns);
+      patterns_shown({paths, *everywhere}, variance, chain, missing.patterns);
   if (!shown_everywhere) return false;
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
     missing.everywhere.push_back(force_history(shown_everywhere->paths, r, problem,
@@ -206,13 +212,14 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   std::vector<double> at_place(patterns.size(), search.best_variance());
   for (std::size_t m = 0; m < patterns.size(); ++m) patterns[m].group = static_cast<int>(m);
   paths.act(std::move(patterns));
-  const std::optional<Smoothed> there = paths.settle(at_place, true);
+  const std::optional<Smoothed> there =
+      paths.settle(at_place, largest_variances(paths.patterns(), chain), true);
   if (!there) return false;
   const double of_place = log_evidence_of(*there, at_place.size() + 1);
   missing.best->log_evidence = of_place - search.none();
   missing.one_place = of_place >= of_all;
   missing.log_probability = std::max(missing.log_probability, of_place);
-  const SettledForce shown = directions_shown({paths, *there}, at_place,
+  const SettledForce shown = directions_shown({paths, *there}, at_place, chain,
                                               there->log_evidence - kForceThresholds.log_evidence);
   for (std::size_t r = 0; r < paths.paths().size(); ++r)
     missing.at_best.push_back(force_history(shown.paths, r, problem, shown.smoothed, chain, false));

@@ -25,6 +25,11 @@ struct MissingForceThresholds {
   /// Log odds below which two places are not told apart: 1 to 20, from which Kass and Raftery (1995) call
   /// evidence strong.
   double told_apart = 3;
+  /// Standard deviation of a force, as its prior has it, over the weight of what it acts on (force_sizes.hpp): a
+  /// stronger one would do to a hanging cable what gravity does, and be seen by whoever films it. Chosen before any
+  /// outcome was seen. Evidence that a bound is needed: beside wrong laws the evidence of one filmed cable asked for
+  /// 43 N/m along it, eight times its weight.
+  double weights = 1;
 };
 inline constexpr MissingForceThresholds kForceThresholds;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/forces/force_sizes.hpp"
 #include "identify/forces/forces_everywhere.hpp"
 #include "identify/forces/sensor_error.hpp"
 
@@ -60,13 +61,17 @@ struct Peak {
   double log_evidence = 0, variance = 0;
 };
 
-Peak peak_of(const LinearProblem& linear, const std::vector<ActingForce>& acting,
-             const ForcePrior& prior, double size) {
+/// Of patterns of one kind that act on `paths`, `linear` about it. `size`: from where the variance is sought.
+Peak peak_of(const LinearProblem& linear, const ForcePaths& paths, const ChainMeasures& chain,
+             const std::vector<ActingForce>& acting, double size) {
+  const auto evidence_of = [&](double variance) {
+    return smooth_forces(linear, acting, {variance}, paths.prior, false).log_evidence;
+  };
   Peak best;
   std::vector<double> evidence;
   for (const double factor : kSizes) {
     const double variance = factor * size * factor * size;
-    evidence.push_back(smooth_forces(linear, acting, {variance}, prior, false).log_evidence);
+    evidence.push_back(evidence_of(variance));
     if (evidence.size() == 1 || evidence.back() > best.log_evidence)
       best = {evidence.back(), variance};
   }
@@ -78,7 +83,9 @@ Peak peak_of(const LinearProblem& linear, const std::vector<ActingForce>& acting
     const double deviation = size * std::pow(ratio, shift);
     best = {evidence[1] - 0.5 * slope * slope / bend, deviation * deviation};
   }
-  return best;
+  const auto first = static_cast<std::size_t>(acting.front().pattern);
+  const double largest = largest_variances({paths.patterns()[first]}, chain).back();
+  return best.variance > largest ? Peak{evidence_of(largest), largest} : best;
 }
 
 /// The top of the parabola through the best place and its neighbours; the best where it has none
@@ -123,7 +130,7 @@ bool PlaceSearch::look_everywhere(MissingForce& missing) {
   for (ForcePattern& pattern : moment_patterns(0, chain_)) patterns.push_back(std::move(pattern));
   if (!linearise(std::move(patterns))) return false;
   none_ = smooth_forces(*linear_, {}, {}, paths_.prior, false).log_evidence;
-  const Peak torque = peak_of(*linear_, acting(forces, chain_.in_space ? 3 : 1), paths_.prior,
+  const Peak torque = peak_of(*linear_, paths_, chain_, acting(forces, chain_.in_space ? 3 : 1),
                               size_ * chain_.length);
   missing.places.push_back({moment_name(0, chain_.lengths), 0, torque.log_evidence - none_, 0});
   variance_.push_back(torque.variance);
@@ -185,8 +192,9 @@ bool PlaceSearch::look_at_joints(MissingForce& missing) {
     const auto each = static_cast<Index>(patterns.size() / joints.size());
     if (!linearise(std::move(patterns))) return false;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      const Peak peak = peak_of(*linear_, acting(static_cast<Index>(i) * each, each), paths_.prior,
-                                size_ * chain_.length / static_cast<double>(links));
+      const Peak peak =
+          peak_of(*linear_, paths_, chain_, acting(static_cast<Index>(i) * each, each),
+                  size_ * chain_.length / static_cast<double>(links));
       missing.joints.push_back({moment_name(joints[i], chain_.lengths),
                                 chain_.lengths.head(joints[i]).sum(), peak.log_evidence - none_,
                                 static_cast<int>(joints[i])});
@@ -227,8 +235,8 @@ bool PlaceSearch::linearise(std::vector<ForcePattern> patterns) {
 void PlaceSearch::add(const std::vector<double>& at, std::vector<MissingForce::Place>& places) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Index directions = chain_.in_space ? 3 : 2;
-    const Peak peak = peak_of(*linear_, acting(static_cast<Index>(i) * directions, directions),
-                              paths_.prior, size_);
+    const Peak peak = peak_of(*linear_, paths_, chain_,
+                              acting(static_cast<Index>(i) * directions, directions), size_);
     places.push_back(
         {fmt::format("force at arc length {:.3g} m", at[i]), at[i], peak.log_evidence - none_});
     variance_.push_back(peak.variance);

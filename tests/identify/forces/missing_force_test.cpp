@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "identify/forces/force_sizes.hpp"
+#include "identify/forces/forces_everywhere.hpp"
 #include "tests/identify/forces/hidden_force.hpp"
 
 using namespace catena;
@@ -140,6 +142,43 @@ TEST_CASE("a force along the whole cable: its two lowest modes, with intervals t
     CHECK(shown.deviation.row(0).norm() < 0.1 * filmed.gust_modes.row(0).norm());
   }
   CHECK(covered > 0.9);
+}
+
+TEST_CASE("a force of no known form is expected to be no stronger than the weight") {
+  testing::Film film = short_film();
+  film.camera.duration = 1;
+  truth::Hidden hidden;
+  hidden.wall_spring = 30;  // N/m
+  const testing::Filmed filmed = testing::film(film, hidden);
+  const truth::Cable cable = film.cable();
+  const double weight = (cable.density * cable.length + cable.load_mass) * cable.gravity;
+  const MissingForce found = force_in(filmed);
+  REQUIRE(found.found);
+  double largest = 0;
+  for (const MissingForce::Pattern& pattern : found.patterns)
+    if (pattern.unit == "N/m") largest = std::max(largest, pattern.prior_deviation);
+  CHECK(largest == doctest::Approx(weight / cable.length));
+  CHECK(found.best->arc_length == doctest::Approx(testing::true_place(film)).epsilon(0.05));
+
+  const FittedModel baseline = filmed.baseline();
+  ChainMeasures chain(*baseline.problem, baseline.x, 0);
+  std::vector<ForcePattern> patterns = forces_everywhere(chain);
+  const auto deviation_of = [&](const std::string& name) {
+    const std::vector<double> variances = largest_variances(patterns, chain);
+    for (std::size_t m = 0; m < patterns.size(); ++m)
+      if (patterns[m].name == name) return std::sqrt(variances[m]);
+    return 0.0;
+  };
+  CHECK(deviation_of("side force at arc length 2.58 m") == doctest::Approx(weight));
+  CHECK(deviation_of("torque at the support") == doctest::Approx(weight * cable.length));
+  patterns = moment_patterns(5, chain);
+  const double link = cable.length / film.links;
+  CHECK(deviation_of(moment_name(5, chain.lengths)) ==
+        doctest::Approx((cable.density * link + cable.load_mass) * cable.gravity * link));
+  // What pushes does not depend on gravity.
+  chain.gravity = 1e-3;
+  CHECK(deviation_of(moment_name(5, chain.lengths)) ==
+        doctest::Approx((cable.density * link + cable.load_mass) * 9.80665 * link));
 }
 
 TEST_CASE("no force is found where nothing is hidden") {
