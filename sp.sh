@@ -1,0 +1,2 @@
+cd /work/main
+cmake --build --preset dev --target catena catena-derive make_recording diagnosis_space | tail -1
