@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/diagnosis/maximum_statistic.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -18,6 +19,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr std::uint64_t kSeed = 16;
+/// Random errors that are projected and scored at once: they stay in the processor's cache.
+constexpr Index kTogether = 16;
 
 /// Of every recording.
 using Spectra = std::vector<MatrixXd>;
@@ -43,11 +46,16 @@ class TriedShape {
       spectra_.push_back(spectra_of(unstacked(test.direction(column), seen)));
   }
 
-  ScoreTest::Step step(const ScoreTest& test, const VectorXd& errors) const {
-    VectorXd along(products_.rows());
-    for (Index i = 0; i < along.size(); ++i)
-      along[i] = test.direction(columns_[static_cast<std::size_t>(i)]).dot(errors);
-    return test.best_step(columns_, products_, along);
+  /// Of each column of `errors`.
+  std::vector<ScoreTest::Step> steps(const ScoreTest& test, const MatrixXd& errors) const {
+    MatrixXd along(products_.rows(), errors.cols());
+    for (Index i = 0; i < along.rows(); ++i)
+      along.row(i).noalias() =
+          test.direction(columns_[static_cast<std::size_t>(i)]).transpose() * errors;
+    std::vector<ScoreTest::Step> steps;
+    for (Index s = 0; s < errors.cols(); ++s)
+      steps.push_back(test.best_step(columns_, products_, along.col(s)));
+    return steps;
   }
 
   double statistic_of(const ScoreTest::Step& step, const Spectra& errors) const {
@@ -68,17 +76,24 @@ class TriedShape {
   std::vector<Spectra> spectra_;  // of the directions
 };
 
-/// The statistic of a candidate for random errors, at the shape that removes most.
-double best_statistic(const ScoreTest& test, const std::vector<TriedShape>& shapes,
-                      const VectorXd& errors, const Spectra& spectra) {
-  ScoreTest::Step best;
-  const TriedShape* at = nullptr;
-  for (const TriedShape& shape : shapes)
-    if (ScoreTest::Step step = shape.step(test, errors); step.removed > best.removed) {
-      best = std::move(step);
-      at = &shape;
+/// The statistics of a candidate for random errors, the columns of `errors`, each at the shape that removes most.
+/// `spectra`: of each.
+Eigen::RowVectorXd best_statistics(const ScoreTest& test, const std::vector<TriedShape>& shapes,
+                                   const MatrixXd& errors, const std::vector<Spectra>& spectra) {
+  std::vector<ScoreTest::Step> best(spectra.size());
+  std::vector<const TriedShape*> at(spectra.size(), nullptr);
+  for (const TriedShape& shape : shapes) {
+    std::vector<ScoreTest::Step> steps = shape.steps(test, errors);
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      if (steps[s].removed <= best[s].removed) continue;
+      best[s] = std::move(steps[s]);
+      at[s] = &shape;
     }
-  return at ? at->statistic_of(best, spectra) : 0;
+  }
+  Eigen::RowVectorXd statistics(errors.cols());
+  for (std::size_t s = 0; s < spectra.size(); ++s)
+    statistics[static_cast<Index>(s)] = at[s] ? at[s]->statistic_of(best[s], spectra[s]) : 0;
+  return statistics;
 }
 
 }  // namespace
@@ -96,17 +111,28 @@ MaximumStatistic::MaximumStatistic(const ScoreTest& test, const TriedColumns& tr
 
   const Spectra spectra = spectra_of(left);
   MatrixXd statistics(static_cast<Index>(candidates.size()), kRandomSeries);
-  in_parallel(kRandomSeries, threads, [&](std::size_t s) {
-    check();
-    std::mt19937_64 random(kSeed + s);
-    std::vector<MatrixXd> drawn;
-    for (std::size_t r = 0; r < left.size(); ++r)
-      drawn.push_back(random_series(spectra[r], left[r].cols(), random));
-    const VectorXd errors = test.project(stacked_where_seen(drawn, left));
-    const Spectra of_errors = spectra_of(unstacked(errors, left));
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-      statistics(static_cast<Index>(c), static_cast<Index>(s)) =
-          best_statistic(test, candidates[c], errors, of_errors);
+  const auto blocks = static_cast<std::size_t>((kRandomSeries + kTogether - 1) / kTogether);
+  in_parallel(blocks, threads, [&](std::size_t block) {
+    const Index first = static_cast<Index>(block) * kTogether;
+    const Index count = std::min<Index>(kTogether, kRandomSeries - first);
+    MatrixXd errors(test.residual().size(), count);
+    for (Index s = 0; s < count; ++s) {
+      check();
+      std::mt19937_64 random(kSeed + static_cast<std::uint64_t>(first + s));
+      std::vector<MatrixXd> drawn;
+      for (std::size_t r = 0; r < left.size(); ++r)
+        drawn.push_back(random_series(spectra[r], left[r].cols(), random));
+      errors.col(s) = stacked_where_seen(drawn, left);
+    }
+    errors = test.project_all(errors);
+    std::vector<Spectra> of_errors;
+    for (Index s = 0; s < count; ++s)
+      of_errors.push_back(spectra_of(unstacked(errors.col(s), left)));
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      check();
+      statistics.row(static_cast<Index>(c)).segment(first, count) =
+          best_statistics(test, candidates[c], errors, of_errors);
+    }
   });
 
   largest_ = VectorXd::Zero(kRandomSeries);

@@ -46,18 +46,33 @@ long steps_of(const FittedModel& model) {
 /// What one search and its refits share.
 struct Refits {
   const CandidateSearch& search;
+  double squares;  ///< that the base leaves
+  double enough;   ///< share of them: a refit ends where its best step promises no more
   /// Of the integrator: a simulation that takes far more than the base's has failed.
   long most_steps;
-  /// Fits with that.
-  LeastSquares least_squares;
 
   explicit Refits(const CandidateSearch& of)
-      : search(of), most_steps(kThresholds.steps_of_refits * steps_of(of.base)) {
-    least_squares = [&solver = search.context.least_squares, most = most_steps](
-                        const Problem& problem, FitOptions options) {
-      options.most_steps = most;
-      return solver(problem, options);
+      : search(of),
+        squares(sum_of_squares(of.base, of.noise)),
+        enough(kThresholds.worth_a_step /
+               static_cast<double>(std::max(1L, fit_gap(of.base, of.noise).count))),
+        most_steps(kThresholds.steps_of_refits * steps_of(of.base)) {}
+
+  /// Fits as closely as the search needs, with that many steps; an effect with a model of its own (`own_model`) may need
+  /// more.
+  LeastSquares least_squares(bool own_model) const {
+    return [this, own_model](const Problem& problem, FitOptions options) {
+      options.most_steps = own_model ? 0 : most_steps;
+      options.enough = enough;
+      return search.context.least_squares(problem, options);
     };
+  }
+
+  /// Whether a refit removed what the score promised: the linearised model is right, so that no other start
+  /// is tried.
+  bool kept_promise(const Explanation& explanation) const {
+    return explanation.refitted &&
+           squares - sum_of_squares(explanation.model, search.noise) >= explanation.score.removed;
   }
 
   /// Of some starts the one that leaves least; the first where no simulation succeeds.
@@ -84,8 +99,7 @@ void fit_from(const Refits& refits, Explanation& explanation,
   if (context.stopped()) return;
   const bool own_model = explanation.is_effect() && candidate_of(search, explanation).own_model;
   FittedModel model =
-      fit_model(problem, start, search.noise,
-                own_model ? context.least_squares : refits.least_squares, context.stop);
+      fit_model(problem, start, search.noise, refits.least_squares(own_model), context.stop);
   if (!model.ok || (explanation.refitted && sum_of_squares(model, search.noise) >=
                                                 sum_of_squares(explanation.model, search.noise)))
     return;
@@ -124,7 +138,8 @@ void refit_effect(const Refits& refits, Explanation& explanation, bool far) {
     fit_from(refits, explanation, problem, refits.best(*problem, starts));
   };
   fit(explanation.start, 1);
-  if (!far || candidate.own_model) return;  // which is expensive enough once
+  if (!far || refits.kept_promise(explanation)) return;
+  if (candidate.own_model) return;  // which is expensive enough once
   fit(explanation.start, kSmallerStart);
   if (explanation.other_start.given()) fit(explanation.other_start, 1);
 }
@@ -159,7 +174,7 @@ void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, 
   // leave a gap are tried from elsewhere.
   std::erase_if(chosen, [&](const Explanation* each) {
     return !each->refitted || !each->is_effect() || !each->fit.present ||
-           candidate_of(search, *each).own_model;
+           candidate_of(search, *each).own_model || refits.kept_promise(*each);
   });
   std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
     return sum_of_squares(a->model, search.noise) < sum_of_squares(b->model, search.noise);

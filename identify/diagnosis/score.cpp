@@ -29,6 +29,13 @@ MatrixXd basis_of(const MatrixXd& jacobian) {
   return orthonormal_basis(scaled, 1e-10);
 }
 
+/// Without what lies along orthonormal columns; twice, for roundings.
+template <typename Columns>
+Columns without_span(const MatrixXd& orthogonal, Columns rest) {
+  for (int twice = 0; twice < 2; ++twice) rest -= orthogonal * (orthogonal.transpose() * rest);
+  return rest;
+}
+
 }  // namespace
 
 ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian)
@@ -39,9 +46,11 @@ ScoreTest::ScoreTest(VectorXd residual, const MatrixXd& jacobian)
 }
 
 VectorXd ScoreTest::project(const VectorXd& column) const {
-  VectorXd rest = column;
-  for (int twice = 0; twice < 2; ++twice) rest -= orthogonal_ * (orthogonal_.transpose() * rest);
-  return rest;
+  return without_span(orthogonal_, column);
+}
+
+MatrixXd ScoreTest::project_all(const MatrixXd& columns) const {
+  return without_span(orthogonal_, columns);
 }
 
 int ScoreTest::add(const ScoreColumn& column) {

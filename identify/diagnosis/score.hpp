@@ -55,6 +55,8 @@ class ScoreTest {
 
   /// The part of a column (or of any difference of trajectories) that the fit cannot imitate.
   Eigen::VectorXd project(const Eigen::VectorXd& column) const;
+  /// The same of every column of a matrix, at once: the fit's own columns are read once for all.
+  Eigen::MatrixXd project_all(const Eigen::MatrixXd& columns) const;
 
   const Eigen::VectorXd& residual() const { return residual_; }
 

@@ -141,6 +141,10 @@ struct DiagnosisThresholds {
   /// whirls or is that stiff is not what was recorded. Chosen; it saves time only. Of 152 refits of one
   /// recording, two that ended at 25 times the base's misfit took 28 of 38 s.
   long steps_of_refits = 20;
+  /// Sum of squares over the mean square that a step of a refit must promise: a tenth of what the cheapest decision
+  /// needs, the logarithm of some hundred residuals for one unknown (Bayesian information criterion). What is
+  /// chosen is fitted as closely as the case asks. Chosen for this reason; it saves time only.
+  double worth_a_step = 0.5;
   /// Effects with coordinates or states of their own that are refitted: each costs a model.
   int own_model_refits = 2;
   /// The best refits that leave a gap, tried again from other starts: what sticks and slips has

@@ -31,8 +31,10 @@ const CandidateParameter* parameter_of(const Candidate& candidate, const std::st
 
 }  // namespace
 
-FittedModel trim(const FittedModel& model, const std::vector<NoiseModel>& noise,
+FittedModel trim(const FittedModel& refit, const std::vector<NoiseModel>& noise,
                  DiagnosisContext& context) {
+  FittedModel model = fit_model(refit.problem, refit.x, noise, context.least_squares, context.stop);
+  if (!model.ok) model = refit;
   const Problem& problem = *model.problem;
   const VectorXd errors = standard_errors(model, noise);
   Case smaller = problem.with(model.x);

@@ -8,10 +8,10 @@
 
 namespace catena {
 
-/// Puts amplitudes of effects that the data do not need (within two standard errors of the neutral
-/// value, or at it) back to neutral and refits. Every effect keeps an amplitude. Returns the model
+/// Fits what a refit found as closely as the case asks, puts amplitudes of effects that the data do not need (within two standard errors of the neutral
+/// value, or at it) back to neutral and refits again. Every effect keeps an amplitude. Returns the model
 /// as it was where that leaves more than the amplitudes are worth, or a gap where there was none.
-FittedModel trim(const FittedModel& model, const std::vector<NoiseModel>& noise,
+FittedModel trim(const FittedModel& refit, const std::vector<NoiseModel>& noise,
                  DiagnosisContext& context);
 
 }  // namespace catena

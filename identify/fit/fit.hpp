@@ -71,6 +71,9 @@ struct FitOptions {
   double time_limit = 0;  ///< s; 0: none
   /// Of the integrator, in one evaluation: one that takes more has failed. 0: as the case says.
   long most_steps = 0;
+  /// By least squares: a step that promises to lower the cost by no more than this share of it ends the fit, where the
+  /// case's tolerance does not end it before.
+  double enough = 0;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;
   /// What an interrupted run found for exactly these unknowns; null if it did not come that far.

@@ -32,6 +32,7 @@ class FitJournal {
   bool must_stop(int reserved = 0);
   FitStatus why_stopped() const { return why_; }
   void count_iteration() { ++result_.iterations; }
+  const FitOptions& options() const { return options_; }
 
   FitResult result(FitStatus status, const std::string& message);
 

@@ -202,12 +202,13 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   const Residuals& first = simulated.residuals();
   const bool squares = of_squares(problem);
   const double tolerance = (squares ? 1e-2 : 0.1) * spec.tolerance;  // of the cost
+  const double asked = std::max(tolerance, journal.options().enough);
   const DistanceCost::Box box = box_of(problem);
   double all_offsets = 0;
-  double promise = 0, enough = tolerance;  // shares of the cost, here
+  double promise = 0, enough = asked;  // shares of the cost, here
   const auto arrive = [&](double promised) {
     promise = promised;
-    const bool near = promise > tolerance && promise <= kNear && enough == tolerance;
+    const bool near = promise > asked && promise <= kNear && enough == asked;
     if (!near || journal.must_stop(reserved + 1)) return;
     const double noise =
         journal.measure_noise(finer(problem), from_scaled(problem, y), simulated.error());

@@ -73,6 +73,18 @@ TEST_CASE("a simulation that takes more steps than it may has failed") {
   CHECK(less.evaluations == 1);
 }
 
+TEST_CASE("a fit ends where no step promises as much as was asked") {
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, 2e-3);
+  FitOptions options;
+  options.enough = 1e-3;  // of the sum of squares
+  const FitResult close = fit(problem, {}, fit_least_squares);
+  const FitResult enough = fit(problem, options, fit_least_squares);
+  CHECK(enough.status == FitStatus::kConverged);
+  CHECK(enough.evaluations < close.evaluations);
+  CHECK(enough.error > close.error);
+  CHECK(enough.error < (1 + options.enough) * close.error);
+}
+
 TEST_CASE("the noise of every channel is found with the physics and kept apart from it") {
   // marker 1 is seen ten times worse than the others
   Recording recording = twin(FitMethod::kLeastSquares, Measure::kLikelihood, 0.1, 0.005, 1e-3, 2)
