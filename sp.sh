@@ -1,2 +1,0 @@
-cd /work/main
-cmake --build --preset dev --target catena catena-derive make_recording diagnosis_space | tail -1
