@@ -27,12 +27,12 @@ struct SensitiveSimulation : Simulation {
   std::vector<Trajectory> sensitivity;
 };
 
-/// simulate, and the derivative of the solution along each direction. Each accepted step
-/// differentiates its own equations, with the Newton matrix at the solution. The result is the
-/// derivative of what simulate gives with the same steps, to the tolerance of Newton's iteration.
-/// The error test includes the sensitivities if options.sensitivities_in_error_test says so; without,
-/// they were 5 to 26 times less accurate than with it, in 0.5 to 1 of the time (docs/performance.md). The cost is one residual_tangent and one
-/// solution per direction and step, and one factorisation per step.
+/// simulate, and the derivative of the solution along each direction. Each accepted step differentiates its
+/// own equations, with the Newton matrix at the solution. The result is the derivative of what simulate gives
+/// with the same steps, to the tolerance of Newton's iteration. The error test includes the sensitivities if
+/// options.sensitivities_in_error_test says so; without, they were 5 to 26 times less accurate than with it,
+/// in 0.5 to 1 of the time (docs/performance.md). The cost is one residual_tangent and one solution per
+/// direction and step, and one factorisation per step.
 ///
 ///     const Model model = Model::built_in(4);
 ///     const Eigen::VectorXd parameters = Eigen::VectorXd::Constant(model.parameters(), 0.1);

@@ -67,8 +67,8 @@ std::vector<ex> Chain::flow(const Effect& effect, Place place, Link i) {
   return velocity;
 }
 
-// The velocity of the point, and that relative to the fluid, along the link and normal to it; where the link points, and
-// the rate of that.
+// The velocity of the point, and that relative to the fluid, along the link and normal to it; where the link
+// points, and the rate of that.
 void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here) {
   const Link link = place == Place::kLoad ? links_ : i;
   const int index = index_at(place, i);

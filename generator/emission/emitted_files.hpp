@@ -19,12 +19,11 @@ namespace catena {
 /// File name -> text.
 using EmittedFiles = std::map<std::string, std::string>;
 
-/// Everything needed to compile the models of a description at the given link counts, and per model
-/// a summary of what was found (summary_name).
-/// `library`: also the look-up of all of them (models.hpp, models.cpp) and the list for CMake; in
-/// C++, for a description without effects, with the model for any number of links.
-/// `progress` is told of each model. `layout`: for all of them; else straight lines for short chains and loops for long ones. `set`: in C++.
-/// Throws InputError for an effect that the chain cannot have.
+/// Everything needed to compile the models of a description at the given link counts, and per model a summary
+/// of what was found (summary_name). `library`: also the look-up of all of them (models.hpp, models.cpp) and
+/// the list for CMake; in C++, for a description without effects, with the model for any number of links.
+/// `progress` is told of each model. `layout`: for all of them; else straight lines for short chains and
+/// loops for long ones. `set`: in C++. Throws InputError for an effect that the chain cannot have.
 EmittedFiles emit_files(const Description& description, const std::vector<int>& links, bool library,
                         const std::function<void(const ModelSummary&, double seconds)>& progress,
                         std::optional<Layout> layout = std::nullopt,

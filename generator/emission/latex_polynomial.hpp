@@ -51,8 +51,8 @@ class LatexPolynomial {
   LatexPolynomial(const Definitions& definitions, LatexNames effect_names,
                   LatexAbbreviations& abbreviations);
 
-  /// The terms of an expression. Empty for zero. All definitions are written out but functions, roots and divisors, which are shown
-  /// with their arguments written out.
+  /// The terms of an expression. Empty for zero. All definitions are written out but functions, roots and
+  /// divisors, which are shown with their arguments written out.
   std::vector<LatexTerm> terms(const GiNaC::ex& expression, const LatexStyle& style = {}) const;
 
   /// The terms one after the other, without a leading plus; "0" if there are none.

@@ -54,10 +54,10 @@ struct Candidate {
 Candidate candidate_of(Effect effect);
 
 /// The built-in effects and those of the files given, less what the case has in its model already
-/// (`present`): in the order of their ids. What cannot be tried says why: what the case calls
-/// impossible, what is rare and which the case does not call possible, what acts only on bodies
-/// without mass (a thread has no drag, nor a load that is not there), what another sensor than the
-/// case's reports, and what has no meaning in the space of the model. Throws InputError for effects that the case names and nobody knows.
+/// (`present`): in the order of their ids. What cannot be tried says why: what the case calls impossible,
+/// what is rare and which the case does not call possible, what acts only on bodies without mass (a thread
+/// has no drag, nor a load that is not there), what another sensor than the case's reports, and what has no
+/// meaning in the space of the model. Throws InputError for effects that the case names and nobody knows.
 std::vector<Candidate> library_of_candidates(const std::vector<std::filesystem::path>& files,
                                              const Description& present, const Case& the_case);
 

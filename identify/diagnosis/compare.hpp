@@ -27,8 +27,8 @@ double chance_of_any(const Comparison& comparison, int tried);
 Comparison compare(const FittedModel& base, const FittedModel& larger,
                    const std::vector<NoiseModel>& noise);
 
-/// Sum of squares of the fitted part in units of the noise squared, and of how far unknowns with a prior are from what it
-/// says, in its standard deviations.
+/// Sum of squares of the fitted part in units of the noise squared, and of how far unknowns with a prior are
+/// from what it says, in its standard deviations.
 double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
 /// Whether the data decide between two models that stand for different explanations, `better` being

@@ -32,10 +32,10 @@ struct DiagnosisRecord {
 DiagnosisRecord record_of(const Diagnosis& found, const DiagnosisFindings& findings,
                           const DiagnosisContext& context);
 
-/// Writes a diagnosis into `folder`, from where it is moved to `place`: diagnosis.json, the results
-/// of the rounds, diagnosed.toml and, where an effect was found, model.toml and the emitted code in
-/// model/, with the file of a law that was discovered. Paths in the files are relative to `place`. Throws InputError where a file cannot be
-/// written, ModelError where the model cannot be derived.
+/// Writes a diagnosis into `folder`, from where it is moved to `place`: diagnosis.json, the results of the
+/// rounds, diagnosed.toml and, where an effect was found, model.toml and the emitted code in model/, with the
+/// file of a law that was discovered. Paths in the files are relative to `place`. Throws InputError where a
+/// file cannot be written, ModelError where the model cannot be derived.
 void write_diagnosis(const DiagnosisRecord& record, const std::filesystem::path& folder,
                      const std::filesystem::path& place);
 

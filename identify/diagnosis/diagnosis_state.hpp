@@ -27,8 +27,8 @@ class DiagnosisState {
   Stage& last() { return found.stages.back(); }
   const Stage& last() const { return found.stages.back(); }
 
-  /// Takes a model as the best so far. The noise follows the best model: where its residuals tell
-  /// more of it, or give a lower level, than those before, theirs is used from now on. Throws InputError where the first
+  /// Takes a model as the best so far. The noise follows the best model: where its residuals tell more of it,
+  /// or give a lower level, than those before, theirs is used from now on. Throws InputError where the first
   /// model's residuals do not tell the noise.
   void enter(FittedModel model, std::vector<std::string> effects, const std::string& added,
              const std::string& removed = "");

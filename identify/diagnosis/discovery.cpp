@@ -23,8 +23,8 @@ namespace catena {
 namespace {
 
 constexpr const char* kDiscoveredLaw = "discovered_law";
-/// In space, where a link has six numbers at a frame, the work of a missing force grows with the cube of the links: some
-/// minutes for so many and 6 s, most of an hour for twice as many.
+/// In space, where a link has six numbers at a frame, the work of a missing force grows with the cube of the
+/// links: some minutes for so many and 6 s, most of an hour for twice as many.
 constexpr int kMostLinksInSpace = 24;
 
 /// "discovered_law", or "discovered_law_2" where a case has one already.

@@ -5,8 +5,9 @@
 
 namespace catena {
 
-/// An effect may help only together with more links: a damped pivot holds a whole link. Tries the best explanations of the last look with twice the links. Enters links and effect if
-/// that is acceptable; whether it was.
+/// An effect may help only together with more links: a damped pivot holds a whole link. Tries the best
+/// explanations of the last look with twice the links. Enters links and effect if that is acceptable; whether
+/// it was.
 bool add_with_more_links(DiagnosisState& state);
 
 /// What was added last may have won because the right effect needs more links than there are. Tries

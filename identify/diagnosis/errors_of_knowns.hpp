@@ -19,11 +19,11 @@ struct BeyondErrorsOfKnowns {
   double of_effect = 0;  ///< as a share of what the effect explains beside no such errors
 };
 
-/// To the model with the effect and to the one without it, such errors are added: gravity and camera a
-/// little tilted, a heavier load, another length and density, marks that sit elsewhere, a lens, a
-/// shutter that rolls. Each has a standard deviation (DiagnosisThresholds). What they and the free
-/// unknowns change is linearised, and fitted to the fitted part. Zero where the model without the effect cannot be fitted. Throws
-/// Interrupted.
+/// To the model with the effect and to the one without it, such errors are added: gravity and camera a little
+/// tilted, a heavier load, another length and density, marks that sit elsewhere, a lens, a shutter that
+/// rolls. Each has a standard deviation (DiagnosisThresholds). What they and the free unknowns change is
+/// linearised, and fitted to the fitted part. Zero where the model without the effect cannot be fitted.
+/// Throws Interrupted.
 BeyondErrorsOfKnowns beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect);
 
 }  // namespace catena

@@ -58,8 +58,8 @@ struct Refits {
                static_cast<double>(std::max(1L, fit_gap(of.base, of.noise).count))),
         most_steps(kThresholds.steps_of_refits * steps_of(of.base)) {}
 
-  /// Fits as closely as the search needs, with that many steps; an effect with a model of its own (`own_model`) may need
-  /// more.
+  /// Fits as closely as the search needs, with that many steps; an effect with a model of its own
+  /// (`own_model`) may need more.
   LeastSquares least_squares(bool own_model) const {
     return [this, own_model](const Problem& problem, FitOptions options) {
       options.most_steps = own_model ? 0 : most_steps;

@@ -24,8 +24,8 @@ constexpr Index kScatterBlocks = 12;  // of a recording: fewer would say too lit
 // cover 83 to 88 % only.
 constexpr double kHalfWidth = 2.3;
 
-/// Of every frame of all recordings in which something was measured: the sum of the squares over the noise less the number of
-/// values, and that number.
+/// Of every frame of all recordings in which something was measured: the sum of the squares over the noise
+/// less the number of values, and that number.
 struct FrameSums {
   VectorXd excess, count;
 };

@@ -18,10 +18,10 @@ struct PlausibleErrors {
   double shutter = 0.015;  ///< s: in which a picture is read, a cable's length of it
 };
 
-/// The limits that were chosen and on which a verdict depends. Each says its unit, its reason, and the evidence. What is
-/// no choice (Student's t, the relative error of a level) and what a numerical method needs (blocks, grids, steps)
-/// stands where it is used; the limits of noise stand in identify/noise, those of a missing force and of its law in
-/// identify/forces (MissingForceThresholds, LawThresholds).
+/// The limits that were chosen and on which a verdict depends. Each says its unit, its reason, and the
+/// evidence. What is no choice (Student's t, the relative error of a level) and what a numerical method needs
+/// (blocks, grids, steps) stands where it is used; the limits of noise stand in identify/noise, those of a
+/// missing force and of its law in identify/forces (MissingForceThresholds, LawThresholds).
 ///
 /// "Chosen" means: set on recordings of the kinds of docs/power.md, with other seeds, and not
 /// varied since. The rates of docs/power.md are evidence for all of them together. Numbers of trials

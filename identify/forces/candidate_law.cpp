@@ -30,8 +30,8 @@ constexpr const char* kEdge = "edge";
 /// Width of a step or an edge of an effect, over that with which the law was found. With the whole one dry friction in
 /// joints was wrong by 5 % and left 1.4 noises in held-out frames.
 constexpr double kSharpWidth = 0.05;
-/// Fixed points of a distance: in the plane in so many directions from the middle of what the place visits, so far beyond
-/// that, over the length of the cable.
+/// Fixed points of a distance: in the plane in so many directions from the middle of what the place visits,
+/// so far beyond that, over the length of the cable.
 constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
 /// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit

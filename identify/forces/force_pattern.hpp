@@ -69,7 +69,8 @@ std::vector<ForcePattern> moment_patterns(Eigen::Index joint, const LinkChain& c
 /// "torque at the support", "moment in the joint at arc length 1.2 m".
 std::string moment_name(Eigen::Index joint, const Eigen::VectorXd& lengths);
 
-/// Adds Q of a pattern at the coordinates q of the links (angles; in space all components side, then down, then across).
+/// Adds Q of a pattern at the coordinates q of the links (angles; in space all components side, then down,
+/// then across).
 void add_generalised_force(const ForcePattern& pattern, const Eigen::VectorXd& lengths,
                            const double* q, double size, double* force);
 /// Adds its derivative by q: of link k one number, in space three rows of three, at `turning` + 9 k.

@@ -10,16 +10,16 @@
 
 namespace catena {
 
-/// The model of a case. Its parameters are followed by eight of every camera of the case: NAME.side, NAME.down,
-/// NAME.across (m), NAME.pan, NAME.tilt, NAME.roll (rad), NAME.focal_length (px) and NAME.lens. No equation reads them. A
-/// model that has them is returned as it is. Throws InputError for cameras and a model of the plane, and for a camera
-/// with the name of one of the model's effects.
+/// The model of a case. Its parameters are followed by eight of every camera of the case: NAME.side,
+/// NAME.down, NAME.across (m), NAME.pan, NAME.tilt, NAME.roll (rad), NAME.focal_length (px) and NAME.lens. No
+/// equation reads them. A model that has them is returned as it is. Throws InputError for cameras and a model
+/// of the plane, and for a camera with the name of one of the model's effects.
 Model with_cameras(const Case& the_case, Model model);
 
 /// A pinhole camera. It stands at (side, down, across). With all angles zero it looks along across; its
 /// picture then has side to the right and down downwards. Pan turns its axis from across towards side, then
-/// tilt turns it downwards, then roll turns the camera about its axis, from right to down. A lens k1 shows what should be
-/// r px from the axis at r (1 + k1 r^2 / focal_length^2).
+/// tilt turns it downwards, then roll turns the camera about its axis, from right to down. A lens k1 shows
+/// what should be r px from the axis at r (1 + k1 r^2 / focal_length^2).
 class Camera {
  public:
   /// `model`: with_cameras().

@@ -38,11 +38,11 @@ SensitivityDirection start_along(const Model& model, const Eigen::VectorXd& para
 void check_start(const Model& model, const Eigen::VectorXd& parameters, const InitialSpec& initial,
                  const Signals& signals, double time, const std::string& where);
 
-/// Finds the coefficients that `initial` leaves open, from the first frames of a recording: angles
-/// through the first frame (least squares on the positions, with the least bending that explains
-/// them), rates from a line through the first few frames. In space the azimuths come with the angles:
-/// one vertical plane for all links, but one of its own for a link that points far out of it where the
-/// shape is kAngles. The support is at the origin. `lengths`: of the links, m. Throws InputError if the recording has nothing there.
+/// Finds the coefficients that `initial` leaves open, from the first frames of a recording: angles through
+/// the first frame (least squares on the positions, with the least bending that explains them), rates from a
+/// line through the first few frames. In space the azimuths come with the angles: one vertical plane for all
+/// links, but one of its own for a link that points far out of it where the shape is kAngles. The support is
+/// at the origin. `lengths`: of the links, m. Throws InputError if the recording has nothing there.
 void complete_from_data(InitialSpec& initial, const Recording& recording,
                         const Eigen::VectorXd& lengths);
 

@@ -76,9 +76,9 @@ void check(const Figure& figure);
 std::string csv_field(const std::string& text);
 std::string csv_field(double value);
 
-/// The figure's numbers as comma-separated values (RFC 4180, digits that give back the same double,
-/// empty where NaN): columns series, x, y; a heat map: row, x, value. The heading line names quantities with units. Throws as
-/// check.
+/// The figure's numbers as comma-separated values (RFC 4180, digits that give back the same double, empty
+/// where NaN): columns series, x, y; a heat map: row, x, value. The heading line names quantities with units.
+/// Throws as check.
 std::string to_csv(const Figure& figure);
 
 }  // namespace catena::report

@@ -46,11 +46,12 @@ struct Uncertainty {
 /// the size of the residuals. Before a fit it is `expected_noise` (> 0; m or rad, or over the noise
 /// that the case states).
 ///
-/// Errors are those of least squares: (J'J)^-1 where the residuals are white, else the sandwich
-/// (J'J)^-1 J'WJ (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with
-/// Bartlett's weights (Newey and West 1987, bandwidth of Andrews 1991) give more than twice that
-/// variance, theirs is taken: markers that err together, autocorrelation that lasts. For measures other than
-/// least squares they are an approximation. Under a robust loss they are those of an M-estimator. Throws std::runtime_error where the simulation fails.
+/// Errors are those of least squares: (J'J)^-1 where the residuals are white, else the sandwich (J'J)^-1 J'WJ
+/// (J'J)^-1 with W of an AR(1) process in every channel. Where sums over frames with Bartlett's weights
+/// (Newey and West 1987, bandwidth of Andrews 1991) give more than twice that variance, theirs is taken:
+/// markers that err together, autocorrelation that lasts. For measures other than least squares they are an
+/// approximation. Under a robust loss they are those of an M-estimator. Throws std::runtime_error where the
+/// simulation fails.
 Uncertainty uncertainty_of(const Problem& problem, const Eigen::VectorXd& x,
                            double expected_noise = 0);
 
