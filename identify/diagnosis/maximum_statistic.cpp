@@ -48,11 +48,12 @@ class TriedShape {
 
   /// Of each column of `errors`.
   std::vector<ScoreTest::Step> steps(const ScoreTest& test, const MatrixXd& errors) const {
-    MatrixXd along(products_.rows(), errors.cols());
-    for (Index i = 0; i < along.rows(); ++i)
-      along.row(i).noalias() =
-          test.direction(columns_[static_cast<std::size_t>(i)]).transpose() * errors;
+    MatrixXd directions(errors.rows(), products_.rows());
+    for (Index i = 0; i < directions.cols(); ++i)
+      directions.col(i) = test.direction(columns_[static_cast<std::size_t>(i)]);
+    const MatrixXd along = directions.transpose() * errors;
     std::vector<ScoreTest::Step> steps;
+    steps.reserve(static_cast<std::size_t>(errors.cols()));
     for (Index s = 0; s < errors.cols(); ++s)
       steps.push_back(test.best_step(columns_, products_, along.col(s)));
     return steps;
