@@ -238,8 +238,8 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
   return other;
 }
 
-bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
-                                      const std::vector<int>& other_form) const {
+bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
+                                const std::vector<int>& other_form) const {
   const auto kinds_of = [](const CandidateLaw& law, const std::vector<int>& of) {
     std::vector<TermKind> kinds;
     kinds.reserve(of.size());
@@ -247,9 +247,14 @@ bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const Candid
       kinds.push_back(law.grammar_.terms[static_cast<std::size_t>(term)].kind);
     return kinds;
   };
+  return kinds_of(*this, form) == kinds_of(other, other_form);
+}
+
+bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
+                                      const std::vector<int>& other_form) const {
   return site_.kind == other.site_.kind && site_.joint == other.site_.joint &&
          has_place() == other.has_place() && variable_ == other.variable_ &&
-         kinds_of(*this, form) == kinds_of(other, other_form);
+         has_terms_of(form, other, other_form);
 }
 
 CandidateLaw CandidateLaw::sharp() const {

@@ -29,6 +29,8 @@ class CandidateLaw {
   const LawSite& site() const { return site_; }
   /// The force is against a velocity, an acceleration or a stretch that relaxes: no coefficient is positive.
   bool against() const { return !has_potential(variable_); }
+  /// The force depends on nothing but the time.
+  bool has_time() const { return timed_of(variable_).has_value(); }
   /// What the force looks at besides the state of its time.
   LawMemory memory() const { return {site_, variable_, numbers_.lag}; }
   Eigen::Index terms() const { return static_cast<Eigen::Index>(grammar_.terms.size()); }
@@ -63,6 +65,9 @@ class CandidateLaw {
   /// The law with other numbers; nothing where no law has them.
   std::optional<CandidateLaw> with(const std::vector<int>& form,
                                    const Eigen::VectorXd& numbers) const;
+  /// Whether both formulas have terms of the same kinds.
+  bool has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
+                    const std::vector<int>& other_form) const;
   /// Whether fits of both could find the same law: they differ by nothing but numbers.
   bool differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
                           const std::vector<int>& other_form) const;
@@ -112,7 +117,6 @@ class CandidateLaw {
   /// Numbers of the fixed point, if it has one.
   Eigen::Index of_point() const { return has_point() ? numbers_.fixed_point.size() : 0; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }
-  bool has_time() const { return timed_of(variable_).has_value(); }
   std::string shape_name(int term) const;
   bool has_moment(int term) const;
 

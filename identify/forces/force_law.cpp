@@ -443,7 +443,8 @@ class LawSearch {
       if (!(most > kSettledStep) && loop >= kClosedLoops) break;
       const double part_of_it = std::min(1.0, kMostSteps / most);
       std::optional<CandidateLaw> next = law.with(form, law.numbers(form) + part_of_it * moved);
-      if (!next) break;
+      if (!next && loop >= kClosedLoops) break;
+      if (!next) continue;  // no law has those numbers: the coefficients alone are fitted
       law = std::move(*next);
       coefficients += part_of_it * (all.head(terms) - coefficients);
     }
@@ -512,10 +513,16 @@ class LawSearch {
       }
     }
     const FittedForm& best = all->fits[all->best];
-    for (const FittedForm& fitted : all->fits)
-      if (&fitted != &best &&
+    for (const FittedForm& fitted : all->fits) {
+      if (&fitted == &best) continue;
+      // In which direction a push acts is decided by exact fits: the steps in time of the linear equations are too long
+      // for a short one.
+      const bool other_direction =
+          best.law.has_time() && fitted.law.has_terms_of(fitted.form, best.law, best.form);
+      if (other_direction ||
           all->criterion(fitted) < all->criterion(best) + kLawThresholds.undecided)
         take_law(fitted, all->inflation, law.rivals.emplace_back());
+    }
     take_law(found, std::max(1.0, found.squares / found.freedom), law);
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -465,6 +466,22 @@ TEST_CASE("a kick is a pulse in time: when, and with how much of an impulse") {
   // The integral of a bell is sqrt(2 pi) amplitude width.
   const double impulse = std::sqrt(2 * std::numbers::pi) * constants[0].value * constants[1].value;
   CHECK(std::abs(impulse - hidden.kick) < 0.1 * hidden.kick);
+}
+
+TEST_CASE(
+    "a push that is too short to see its direction has every direction as the law or a rival") {
+  testing::Film film = short_film();
+  film.camera.duration = 3;
+  film.camera.seed =
+      3;  // about the motion of a force down, the equations decide against the side force
+  truth::Hidden hidden;
+  hidden.kick = 0.05;  // N s
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  std::set<std::string> directions = {found.law->force};
+  for (const ForceLaw& rival : found.law->rivals) directions.insert(rival.force);
+  CHECK(directions == std::set<std::string>{"side force", "down force"});
 }
 
 TEST_CASE("a push that begins and stays: when, how fast, how strong") {
