@@ -28,7 +28,8 @@ and friction that sticks. It is filmed well (`rod`), with friction half as
 much larger at rest and drag that goes with Reynolds' number (`rod_laws`), with all noise but smoothing
 (`rod_noise`), by a camera with a lens, a shutter that rolls for 2 ms and marks misplaced by 2 mm (`rod_camera`), with density
 and load stated 1 % wrong and the length 0.2 % (`rod_knowns`), or all of these (`rod_all`). Of rods, what is said of knowns and
-sensors does not count, for it may be so; what is said of physics does. The other set-ups (`scripts/power/design.py`): a strip of
+sensors does not count, for it may be so; what is said of physics does. Friction of a rod sticks: `joint_hysteresis`, the form of
+`joint_dry_friction` that does, counts as that. The other set-ups (`scripts/power/design.py`): a strip of
 0.3 m, a rope of 10 m, a steel wire of 2 mm, all three rods; a bob on a string, with a case of one link; 2 and 4 markers; 1 and
 20 s; 2 and 4 recordings; every second turn with all noise but smoothing.
 
