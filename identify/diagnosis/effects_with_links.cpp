@@ -21,8 +21,8 @@ std::vector<Explanation> best_with_links(DiagnosisState& state, const Stage& loo
                                                kThresholds.tried_with_more_links, except);
   context.begin("refitting with more links", best.size());
   in_parallel(best.size(), context.threads, [&](std::size_t k) {
-    best[k].model = refitted_with_links(best[k].model, links, with(looked.effects, best[k].id),
-                                        state.found.noise, context);
+    best[k].model = tried_with_links(best[k].model, links, with(looked.effects, best[k].id),
+                                     state.found.noise, context);
   });
   context.stop_if_asked();
   std::erase_if(best, [](const Explanation& each) { return !each.model.ok; });
@@ -82,7 +82,8 @@ void try_others_with_more_links(DiagnosisState& state) {
       decide(best->model, state.last().model, state.found.noise).decided &&
       state.generalises(held_out_gap(best->model, state.found.noise)) &&
       !state.reopens_gap(best->model))
-    state.enter(best->model, with(looked.effects, best->id), best->id, state.last().added);
+    state.enter(trim(best->model, state.found.noise, state.context), with(looked.effects, best->id),
+                best->id, state.last().added);
 }
 
 void go_back_to_fewer_links(DiagnosisState& state) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/diagnosis/refit_limits.hpp"
 #include "identify/diagnosis/score.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
@@ -65,16 +66,34 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   return finer;
 }
 
-FittedModel refitted_with_links(const FittedModel& model, int links,
-                                const std::vector<std::string>& effects,
-                                const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
+namespace {
+
+FittedModel fitted_with_links(const FittedModel& model, int links,
+                              const std::vector<std::string>& effects,
+                              const std::vector<NoiseModel>& noise, DiagnosisContext& context,
+                              const LeastSquares& least_squares) {
   std::string why_not;
   const std::optional<Case> other = with_links(model.problem->the_case(), links, why_not);
   if (!other) return {};
   const auto problem = std::make_shared<const Problem>(*other, context.model_with(effects, links));
   context.begin_task("refitting with " + std::to_string(links) + " links");
-  return fit_model(problem, transfer(*model.problem, model.x, *problem), noise,
-                   context.least_squares, context.stop);
+  return fit_model(problem, transfer(*model.problem, model.x, *problem), noise, least_squares,
+                   context.stop);
+}
+
+}  // namespace
+
+FittedModel refitted_with_links(const FittedModel& model, int links,
+                                const std::vector<std::string>& effects,
+                                const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
+  return fitted_with_links(model, links, effects, noise, context, context.least_squares);
+}
+
+FittedModel tried_with_links(const FittedModel& model, int links,
+                             const std::vector<std::string>& effects,
+                             const std::vector<NoiseModel>& noise, DiagnosisContext& context) {
+  return fitted_with_links(model, links, effects, noise, context,
+                           RefitLimits(model, noise).within(context.least_squares));
 }
 
 }  // namespace catena

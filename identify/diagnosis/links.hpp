@@ -33,5 +33,9 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
 FittedModel refitted_with_links(const FittedModel& model, int links,
                                 const std::vector<std::string>& effects,
                                 const std::vector<NoiseModel>& noise, DiagnosisContext& context);
+/// The same, as closely as a search needs (RefitLimits).
+FittedModel tried_with_links(const FittedModel& model, int links,
+                             const std::vector<std::string>& effects,
+                             const std::vector<NoiseModel>& noise, DiagnosisContext& context);
 
 }  // namespace catena

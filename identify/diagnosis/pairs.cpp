@@ -125,8 +125,8 @@ void try_with_more_links(DiagnosisState& state, const Stage& base, std::vector<P
   context.begin("refitting pairs with more links", pairs.size());
   in_parallel(pairs.size(), context.threads, [&](std::size_t k) {
     Pair& pair = pairs[k];
-    pair.finer = refitted_with_links(pair.second.model, links, {pair.first.id, pair.second.id},
-                                     state.found.noise, context);
+    pair.finer = tried_with_links(pair.second.model, links, {pair.first.id, pair.second.id},
+                                  state.found.noise, context);
   });
   context.stop_if_asked();
   for (Pair& pair : pairs)
@@ -166,7 +166,9 @@ bool add_pair(DiagnosisState& state) {
   state.last().explanations = best->beside;
   state.enter(trim(best->second.model, state.found.noise, state.context),
               {best->first.id, best->second.id}, best->second.id);
-  if (best->finer.ok) state.enter(best->finer, state.last().effects, kTooFewLinks);
+  if (best->finer.ok)
+    state.enter(trim(best->finer, state.found.noise, state.context), state.last().effects,
+                kTooFewLinks);
   state.found.effects = state.last().effects;
   return true;
 }

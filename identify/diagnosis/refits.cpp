@@ -5,9 +5,9 @@
 
 #include "common/parallel.hpp"
 #include "common/special_values.hpp"
+#include "identify/diagnosis/refit_limits.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
-#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 
@@ -36,36 +36,20 @@ VectorXd scaled(const Candidate& candidate, const Problem& problem, VectorXd x, 
   return x;
 }
 
-/// Of the integrator, for the fitted part at the values found.
-long steps_of(const FittedModel& model) {
-  long steps = 0;
-  evaluate(*model.problem, model.x, false, false, [&steps] { return ++steps > 0; });
-  return steps;
-}
-
 /// What one search and its refits share.
 struct Refits {
   const CandidateSearch& search;
   double squares;  ///< that the base leaves
-  double enough;   ///< share of them: a refit ends where its best step promises no more
-  /// Of the integrator: a simulation that takes far more than the base's has failed.
-  long most_steps;
+  RefitLimits limits;
 
   explicit Refits(const CandidateSearch& of)
-      : search(of),
-        squares(sum_of_squares(of.base, of.noise)),
-        enough(kThresholds.worth_a_step /
-               static_cast<double>(std::max(1L, fit_gap(of.base, of.noise).count))),
-        most_steps(kThresholds.steps_of_refits * steps_of(of.base)) {}
+      : search(of), squares(sum_of_squares(of.base, of.noise)), limits(of.base, of.noise) {}
 
-  /// Fits as closely as the search needs, with that many steps; an effect with a model of its own
-  /// (`own_model`) may need more.
+  /// An effect with a model of its own (`own_model`) may need more of the integrator's steps.
   LeastSquares least_squares(bool own_model) const {
-    return [this, own_model](const Problem& problem, FitOptions options) {
-      options.most_steps = own_model ? 0 : most_steps;
-      options.enough = enough;
-      return search.context.least_squares(problem, options);
-    };
+    RefitLimits some = limits;
+    if (own_model) some.most_steps = 0;
+    return some.within(search.context.least_squares);
   }
 
   /// Whether a refit removed what the score promised: the linearised model is right, so that no other start
@@ -82,7 +66,7 @@ struct Refits {
     for (const VectorXd& start : starts) {
       long steps = 0;
       const double error =
-          error_to_fit(problem, start, search.noise, [&] { return ++steps <= most_steps; });
+          error_to_fit(problem, start, search.noise, [&] { return ++steps <= limits.most_steps; });
       if (error >= least) continue;
       least = error;
       best = &start;

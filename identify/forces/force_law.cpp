@@ -37,6 +37,10 @@ constexpr double kWide = 100;
 constexpr int kFiner = 4;
 constexpr std::uint64_t kLawSeed = 18;
 
+/// Joints, evenly along a chain of more links, that are tried for friction with its force following the state: their
+/// distance is below a tenth of the length, which is as well as a place is known.
+constexpr Index kJointsThatStick = 12;
+
 /// Columns of terms whose responses are made at a time: what is in memory at once.
 constexpr Index kColumnsAtOnce = 400;
 /// Formulas that are fitted with their force following the state: of the chosen pair, and of all others.
@@ -190,10 +194,12 @@ class LawSearch {
   /// random ones: what sticks has no rate but noise, so a force along the motion found is wrong there.
   void choose_what_sticks(const LawTrials& first, const LawTrials& second,
                           std::vector<ChosenLaw>& chosen) const {
+    const Index every = (chain_.lengths.size() + kJointsThatStick - 1) / kJointsThatStick;
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
       const CandidateLaw& law = candidates_[c];
       const std::vector<int>& form = law.forms().front();
       if (form.size() != 1 || !law.sticks(form)) continue;
+      if (law.site().kind == SiteKind::kJoint && law.site().joint % every != 0) continue;
       const FittedForm fitted = fit(law, form, {}, FrameHalf::kFirst);
       if (!std::isfinite(fitted.squares) || !law.admits(fitted.coefficients)) continue;
       const FollowingTrial in_first = following_trial(fitted, FrameHalf::kFirst, first.noise);

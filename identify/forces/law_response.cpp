@@ -2,6 +2,7 @@
 #include "identify/forces/law_response.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "linear_algebra/decompositions.hpp"
 
@@ -32,11 +33,27 @@ struct StepForces {
       now.col(m) = step.by_force.col(2 * m) - next.col(m);
     }
   }
-  /// What makes y' of the y' without it, where the force at the end is d y': y' = moved + next d y',
-  /// d patterns x states, so y' = (1 + next (1 - d next)^-1 d) moved.
-  MatrixXd feedback(const MatrixXd& d) const {
-    const MatrixXd small = MatrixXd::Identity(d.rows(), d.rows()) - d * next;
-    return MatrixXd::Identity(next.rows(), next.rows()) + next * (inverse(small) * d);
+  /// Adds to `moved`, the y' of some columns without it, a force that follows the state y: `here` y at the beginning and
+  /// `there` y' at the end, patterns x states. y' = moved + now here y + next there y'. Only the turns on which the
+  /// force acts count: a law in one joint acts on two.
+  void follow(const MatrixXd& here, const MatrixXd& there, const MatrixXd& y,
+              MatrixXd& moved) const {
+    const std::vector<Index> first = turns_that_act(here), last = turns_that_act(there);
+    if (!first.empty()) moved += now(Eigen::all, first) * (here(first, Eigen::all) * y).eval();
+    if (last.empty()) return;
+    const MatrixXd by_state = there(last, Eigen::all), by_force = next(Eigen::all, last);
+    const auto count = static_cast<Index>(last.size());
+    const MatrixXd small = MatrixXd::Identity(count, count) - by_state * by_force;
+    const MatrixXd force = inverse(small) * (by_state * moved);
+    moved += by_force * force;
+  }
+
+ private:
+  static std::vector<Index> turns_that_act(const MatrixXd& by_state) {
+    std::vector<Index> turns;
+    for (Index i = 0; i < by_state.rows(); ++i)
+      if ((by_state.row(i).array() != 0).any()) turns.push_back(i);
+    return turns;
   }
 };
 
@@ -80,10 +97,7 @@ SeenOfLaw law_response(const LinearRecording& recording, std::size_t first, std:
     moved.middleCols(parameters + free, columns) +=
         by.now * forces.columns[k] + by.next * forces.columns[k + 1];
     moved.rightCols(1) += step.offset;
-    if (closed) {
-      moved += by.now * (forces.by_state[k] * y);
-      moved = by.feedback(forces.by_state[k + 1]) * moved;
-    }
+    if (closed) by.follow(forces.by_state[k], forces.by_state[k + 1], y, moved);
     y = std::move(moved);
   }
   return out;
@@ -158,12 +172,18 @@ LinearProblem with_law(const LinearProblem& linear, const std::vector<NodeForces
     for (std::size_t k = 0; k < recording.steps.size(); ++k) {
       LinearRecording::Step& step = recording.steps[k];
       const StepForces by(step);
-      const MatrixXd feedback = by.feedback(of.by_state[k + 1]);
-      step.by_state = feedback * (step.by_state + by.now * of.by_state[k]);
-      step.by_parameter =
-          feedback *
+      const MatrixXd by_parameter =
           with_columns(step.by_parameter, by.now * of.columns[k] + by.next * of.columns[k + 1]);
-      step.offset = feedback * step.offset;
+      // All that moves the end, in columns: the state at the beginning, the parameters, nothing.
+      const Index states = step.by_state.rows();
+      MatrixXd moved(states, states + by_parameter.cols() + 1);
+      moved << step.by_state, by_parameter, step.offset;
+      MatrixXd y = MatrixXd::Zero(states, moved.cols());
+      y.leftCols(states).setIdentity();
+      by.follow(of.by_state[k], of.by_state[k + 1], y, moved);
+      step.by_state = moved.leftCols(states);
+      step.by_parameter = moved.middleCols(states, by_parameter.cols());
+      step.offset = moved.rightCols(1);
     }
   }
   return out;
