@@ -10,8 +10,8 @@ namespace catena {
 /// How far a fit goes of which a search asks no more than whether it is among the best. What is taken is fitted again,
 /// as closely as the case asks (trim).
 struct RefitLimits {
-  double enough = 0;    ///< share of the cost: FitOptions::enough
-  long most_steps = 0;  ///< of the integrator: FitOptions::most_steps
+  double enough;    ///< share of the cost: FitOptions::enough
+  long most_steps;  ///< of the integrator: FitOptions::most_steps
 
   /// For fits of what `base` leaves, from where it is or nearby.
   RefitLimits(const FittedModel& base, const std::vector<NoiseModel>& noise);

@@ -37,8 +37,8 @@ constexpr double kWide = 100;
 constexpr int kFiner = 4;
 constexpr std::uint64_t kLawSeed = 18;
 
-/// Joints, evenly along a chain of more links, that are tried for friction with its force following the state: their
-/// distance is below a tenth of the length, which is as well as a place is known.
+/// At most so many joints, evenly along the chain, are tried for friction with its force following the state. None of
+/// the others is a tenth of the length away from one of them, which is as well as a place has to be known.
 constexpr Index kJointsThatStick = 12;
 
 /// Columns of terms whose responses are made at a time: what is in memory at once.

@@ -72,7 +72,7 @@ def judged(trial, found):
     named = all_named - (design.KNOWNS_AND_SENSORS - truth) if trial.is_rod() else all_named
     forms = {(f["instead_of"], f["id"]) for f in found["forms"]}
     if trial.is_rod():
-        forms |= {(form, effect) for effect, form in design.ROD_FORMS.items()}
+        forms |= {(form, effect) for effect, form in design.ROD_FORMS.items() if form in named}
     others = [u for u in found["undecided"]]
     farthest = max((u["difference"] for u in others), default=0.0)
     as_named = named == truth or any(named - {a} | {b} == truth for a, b in forms)
