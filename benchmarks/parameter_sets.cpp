@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <vector>
 
 #include "benchmarks/interleaved.hpp"
@@ -72,6 +73,32 @@ __attribute__((target("arch=x86-64-v4"), flatten)) int avx512(int links, int par
   return evaluate<8>(links, parameters, arrays);
 }
 
+/// Arrays of all sets in the order that a function for `sets` at once reads.
+class Packed {
+ public:
+  explicit Packed(int sets) : sets_(sets) {}
+
+  int place(int set, int i, int entries) const {
+    return set / sets_ * sets_ * entries + i * sets_ + set % sets_;
+  }
+  /// value(set, i) of `entries` numbers of each set.
+  double* pack(int entries, const std::function<double(std::size_t, int)>& value) {
+    arrays_.emplace_back(static_cast<std::size_t>(entries));
+    double* to = reinterpret_cast<double*>(arrays_.back().data());
+    for (int k = 0; k < BatchDynamics::kBatch; ++k)
+      for (int i = 0; i < entries; ++i)
+        to[place(k, i, entries)] = value(static_cast<std::size_t>(k), i);
+    return to;
+  }
+
+ private:
+  struct alignas(64) Block {
+    double value[BatchDynamics::kBatch];
+  };
+  int sets_;
+  std::vector<std::vector<Block>> arrays_;
+};
+
 }  // namespace
 
 int main() {
@@ -136,28 +163,15 @@ int main() {
         if (!same(i, eight.acceleration(static_cast<int>(k), i))) return fail("BatchDynamics");
     }
 
-    struct alignas(64) Block {
-      double value[BatchDynamics::kBatch];
-    };
-    std::vector<std::vector<Block>> arrays;  // kept while they are measured
+    std::vector<Packed> kept;  // while they are measured
     for (const auto& [sets, function] : processors) {
       if (sets > catena::Model::built_in(2).table().batch) continue;
-      const auto place = [sets = sets](int k, int i, int entries) {
-        return k / sets * sets * entries + i * sets + k % sets;
-      };
-      const auto pack = [&](int entries, auto value) {
-        arrays.emplace_back(static_cast<std::size_t>(entries));
-        double* to = reinterpret_cast<double*>(arrays.back().data());
-        for (int k = 0; k < BatchDynamics::kBatch; ++k)
-          for (int i = 0; i < entries; ++i)
-            to[place(k, i, entries)] = value(static_cast<std::size_t>(k), i);
-        return to;
-      };
+      Packed& arrays = kept.emplace_back(sets);
       const Arrays packed{
-          pack(n, [&](std::size_t k, int i) { return states[k].q[i]; }),
-          pack(n, [&](std::size_t k, int i) { return states[k].v[i]; }),
-          pack(model.parameters(), [&](std::size_t k, int i) { return parameters[k][i]; }),
-          pack(n, [](std::size_t, int) { return 0.0; })};
+          arrays.pack(n, [&](std::size_t k, int i) { return states[k].q[i]; }),
+          arrays.pack(n, [&](std::size_t k, int i) { return states[k].v[i]; }),
+          arrays.pack(model.parameters(), [&](std::size_t k, int i) { return parameters[k][i]; }),
+          arrays.pack(n, [](std::size_t, int) { return 0.0; })};
       calls.push_back([packed, function = function, n, size = model.parameters()] {
         if (function(n, size, packed) != 0) std::abort();
       });
@@ -165,7 +179,8 @@ int main() {
       for (std::size_t k = 0; k < BatchDynamics::kBatch; ++k) {
         one(k);
         for (int i = 0; i < n; ++i)
-          if (!same(i, packed.a[place(static_cast<int>(k), i, n)])) return fail("eight at once");
+          if (!same(i, packed.a[arrays.place(static_cast<int>(k), i, n)]))
+            return fail("eight at once");
       }
     }
     std::printf("%d", n);

@@ -50,11 +50,10 @@ class Chain {
   void residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
                 const VectorXd& memory, VectorXd& r, OutsideForces* outside = nullptr) const;
 
-  Vector support(double t) const {
-    const double w = 2 * std::numbers::pi * hidden_.support_frequency;
-    return {hidden_.support_side_amplitude * std::sin(w * t + hidden_.support_side_phase),
-            hidden_.support_down_amplitude * std::sin(w * t + hidden_.support_down_phase)};
-  }
+  struct Moving {
+    Vector position, velocity, acceleration;
+  };
+  Moving support(double t) const;
 
   double extension(const VectorXd& q, int i) const { return unknowns_ > n_ ? q[n_ + i] : 0.0; }
 
@@ -63,13 +62,12 @@ class Chain {
   double mechanical_energy(const VectorXd& q, const VectorXd& v) const;
 
  private:
-  struct Moving {
-    Vector position, velocity, acceleration;
-  };
   Vector cable_force(Vector velocity, Vector along, Vector across) const;
   Vector load_force(double t, Vector at, Vector velocity) const;
   Vector middle_force(double t, Vector at, Vector velocity, Vector acceleration) const;
   double middle_moment(double angle, double rate) const;
+  double joint_moment(int i, double angle, double rate, double tension, double memory,
+                      OutsideForces* outside) const;
 
   Cable cable_;
   Hidden hidden_;
@@ -139,6 +137,54 @@ double Chain::middle_moment(double angle, double rate) const {
          h.joint_stop * (std::max(0.0, angle - h.joint_gap) - std::max(0.0, -angle - h.joint_gap));
 }
 
+/// Moment against the angle of joint i, whose links hold each other with `tension` (N). `memory`: of this joint.
+double Chain::joint_moment(int i, double angle, double rate, double tension, double memory,
+                           OutsideForces* outside) const {
+  const Hidden& h = hidden_;
+  const double share = i == 0 ? 2 : 1;  // the clamp holds the cable half a link away
+  const double stiffness = cable_.bending_stiffness / link_,
+               damping = cable_.bending_damping / link_;
+  double moment =
+      share * (stiffness * (angle - h.rest_curvature * link_ / share) + damping * rate) +
+      h.joint_quadratic_damping * std::abs(rate) * rate +
+      h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
+  if (h.tension_friction != 0) moment += h.tension_friction * tension * rounded_sign(rate);
+  if (i == n_ / 2) {
+    const double against = middle_moment(angle, rate) + h.maxwell * memory;
+    moment += against;
+    if (outside) {
+      outside->joint_angle = angle;
+      outside->joint_rate = rate;
+      outside->joint_moment = -against;
+    }
+  }
+  if (outside)
+    outside->joints[static_cast<std::size_t>(i)] = {
+        angle, rate,
+        h.joint_friction + h.tension_friction * tension + (i == 0 ? h.pivot_friction : 0)};
+  if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory;
+  if (i == 0)
+    moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
+              h.pivot_damping * rate + h.pivot_friction * rounded_sign(rate);
+  return moment;
+}
+
+Chain::Moving Chain::support(double t) const {
+  const Hidden& h = hidden_;
+  const double w = 2 * std::numbers::pi * h.support_frequency;
+  Moving support;
+  const auto harmonic = [&](double amplitude, double phase, double& x, double& xd, double& xdd) {
+    x = amplitude * std::sin(w * t + phase);
+    xd = amplitude * w * std::cos(w * t + phase);
+    xdd = -w * w * x;
+  };
+  harmonic(h.support_side_amplitude, h.support_side_phase, support.position.side,
+           support.velocity.side, support.acceleration.side);
+  harmonic(h.support_down_amplitude, h.support_down_phase, support.position.down,
+           support.velocity.down, support.acceleration.down);
+  return support;
+}
+
 void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const VectorXd& a,
                      const VectorXd& memory, VectorXd& r, OutsideForces* outside) const {
   const Hidden& h = hidden_;
@@ -152,17 +198,7 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
 
   const Vector gravity = {cable_.gravity * std::sin(h.gravity_tilt),
                           cable_.gravity * std::cos(h.gravity_tilt)};
-  const double w = 2 * std::numbers::pi * h.support_frequency;
-  const auto harmonic = [&](double amplitude, double phase, double& x, double& xd, double& xdd) {
-    x = amplitude * std::sin(w * t + phase);
-    xd = amplitude * w * std::cos(w * t + phase);
-    xdd = -w * w * x;
-  };
-  Moving end;
-  harmonic(h.support_side_amplitude, h.support_side_phase, end.position.side, end.velocity.side,
-           end.acceleration.side);
-  harmonic(h.support_down_amplitude, h.support_down_phase, end.position.down, end.velocity.down,
-           end.acceleration.down);
+  Moving end = support(t);
 
   // Down the chain: positions, velocities, accelerations and the force that each link lacks.
   for (int i = 0; i < n_; ++i) {
@@ -215,38 +251,13 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
                    h.load_added_mass * load_centre.acceleration;
 
   // Up the chain: the projections.
-  const double stiffness = cable_.bending_stiffness / link_,
-               damping = cable_.bending_damping / link_;
   const double rotary = link_mass_ * link_ * link_ / 12;
   double moment_below = 0;  // joint moment on link i from link i + 1's joint
   for (int i = n_ - 1; i >= 0; --i) {
     const auto k = static_cast<std::size_t>(i);
     const double e = stretches ? q[n_ + i] : 0;
     const double angle = q[i] - (i > 0 ? q[i - 1] : 0), rate = v[i] - (i > 0 ? v[i - 1] : 0);
-    const double share = i == 0 ? 2 : 1;  // the clamp holds the cable half a link away
-    double moment =
-        share * (stiffness * (angle - h.rest_curvature * link_ / share) + damping * rate) +
-        h.joint_quadratic_damping * std::abs(rate) * rate +
-        h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
-    if (h.tension_friction != 0)
-      moment += h.tension_friction * norm(carried + lack[k]) * rounded_sign(rate);
-    if (i == n_ / 2) {
-      const double against = middle_moment(angle, rate) + h.maxwell * memory[i];
-      moment += against;
-      if (outside) {
-        outside->joint_angle = angle;
-        outside->joint_rate = rate;
-        outside->joint_moment = -against;
-      }
-    }
-    if (outside)
-      outside->joints[k] = {angle, rate,
-                            h.joint_friction + h.tension_friction * norm(carried + lack[k]) +
-                                (i == 0 ? h.pivot_friction : 0)};
-    if (h.hysteresis_moment != 0) moment += h.hysteresis_moment / h.hysteresis_reach * memory[i];
-    if (i == 0)
-      moment += -share * stiffness * h.pivot_rest_angle + h.pivot_stiffness * angle +
-                h.pivot_damping * rate + h.pivot_friction * rounded_sign(rate);
+    const double moment = joint_moment(i, angle, rate, norm(carried + lack[k]), memory[i], outside);
     const double lever = (0.5 + h.centre_fraction) * (link_ + e);
     double torque = dot(across[k], (link_ + e) * carried + lever * lack[k]) - rotary * a[i] -
                     moment + moment_below + turning[k];
@@ -449,7 +460,7 @@ Motion move(const Cable& cable, const Hidden& hidden, const std::vector<double>&
     const VectorXd q = state.angles_at(t);
     std::vector<double> side, down, angle;
     for (const double s : arc) {
-      Vector at = chain.support(t);
+      Vector at = chain.support(t).position;
       double left = s;
       int i = 0;
       for (; i < cable.links - 1 && left > chain.link() * (1 + 1e-12); ++i, left -= chain.link())

@@ -249,8 +249,13 @@ class Chain {
                    bool in_energy = false) const;
   void add_size(Surroundings& here, const std::string& name, const char* unit,
                 const std::vector<ex>& components, const std::vector<ex>& direction = {});
+  void add_own(const Effect& effect, Link i, Surroundings& here);
+  void add_point(const Effect& effect, bool motion, Place place, Link i, Surroundings& here);
+  void add_angle_of_link(Link link, Surroundings& here);
+  void add_motion_of_joint(const Effect& effect, Link i, Surroundings& here);
   void add_motion_along_link(const Effect& effect, Place place, Link i, Surroundings& here);
   std::vector<ex> flow(const Effect& effect, Place place, Link i);
+  std::vector<ex> by_axis(const Points& points, Link link) const;
   void add_force_term(const Effect& effect, const ForceTerm& force, Link i);
   void add_torque_of_joint(const Effect& effect, const ScalarTerm& term, Link i);
   void add_force_along(const Effect& effect, const ForceTerm& force, Link i);

@@ -128,6 +128,95 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
   }
 }
 
+std::vector<ex> Chain::by_axis(const Points& points, Link link) const {
+  std::vector<ex> vector;
+  for (const Axis axis : axes()) vector.push_back(points[axis][link]);
+  return vector;
+}
+
+// Parameters, constants and signals of the effect, by the names it gave them.
+void Chain::add_own(const Effect& effect, Link i, Surroundings& here) {
+  const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
+    here.known.add(name, value, Unit::parse(unit));
+  };
+  for (const EffectParameter& parameter : effect.parameters) {
+    // A parameter per joint or link has no value at the load and at the support.
+    if (parameter.scope != Scope::kModel && i == 0) continue;
+    add(parameter.name, effect_parameter(effect, parameter, i), parameter.unit);
+  }
+  for (const Constant& constant : effect.constants)
+    add(constant.name, exact_number(constant.text), constant.unit);
+  for (const SignalChannel& signal : effect.signals) {
+    const std::string name = effect.id + "_" + signal.name;
+    add(signal.name, definitions_.input(name), signal.unit);
+    add(signal.name + "_rate", definitions_.input(name + "_rate"), signal.unit + "/s");
+    add(signal.name + "_acceleration", definitions_.input(name + "_acceleration"),
+        signal.unit + "/s^2");
+  }
+}
+
+// Where the place is and, if motion is known, how it moves, by itself and relative to the fluid.
+void Chain::add_point(const Effect& effect, bool motion, Place place, Link i, Surroundings& here) {
+  const auto add = [&](const std::string& name, const ex& value, const char* unit) {
+    here.known.add(name, value, Unit::parse(unit));
+  };
+  std::vector<ex> point = point_at(place, i);
+  point.resize(3);
+  add("side", point[kSide], "m");
+  add("down", point[kDown], "m");
+  // An effect may have a name `across` of its own.
+  if (!here.known.symbols.contains("across")) add("across", point[kAcross], "m");
+  add("depth", cos_tilt_ * point[kDown] + sin_tilt_ * point[kSide], "m");
+  if (!motion) return;
+  std::vector<ex> fluid(3);
+  if (effect.flow.given()) fluid = flow(effect, place, i);
+  const char* axis_names[] = {"side", "down", "across"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ex velocity = time_.of(point[k]);
+    add(std::string("velocity_") + axis_names[k], velocity, "m/s");
+    if (effect.flow.given())
+      add(std::string("relative_") + axis_names[k], velocity - fluid[k], "m/s");
+  }
+}
+
+void Chain::add_angle_of_link(Link link, Surroundings& here) {
+  if (in_plane()) {
+    here.known.add("angle", theta_[link], Unit::parse("rad"));
+    here.known.add("rate", theta_dot_[link], Unit::parse("rad/s"));
+  } else {
+    add_size(here, "rate", "rad/s", by_axis(link_turning_, link));
+  }
+}
+
+// The angle of a joint, its rate, the states it carries and the tension there.
+void Chain::add_motion_of_joint(const Effect& effect, Link i, Surroundings& here) {
+  const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
+    here.known.add(name, value, Unit::parse(unit));
+  };
+  if (!steady_tension_.empty())
+    add(kSteadyTension, steady_tension_[static_cast<std::size_t>(i)], "N");
+  if (in_plane()) {
+    add("joint_angle", joint_angle_[i], "rad");
+    add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
+  } else {
+    add_size(here, "joint_angle", "rad", {});
+    here.sizes.back().square = here.sizes.back().in_energy = squared_angle(joint_cosine_[i]);
+    const std::vector<ex> turning = by_axis(joint_turning_, i);
+    add_size(here, "joint_rate", "rad/s", turning, turning);
+  }
+  for (const ExtraState& state : effect.states) {
+    if (state.at == Place::kLoad || (state.at == Place::kPivot && i != 1)) continue;
+    std::vector<ex> symbols;
+    for (const std::string& component : state_components())
+      symbols.push_back(effect_symbols_.at(effect.id + "." + state.name + component)[i]);
+    if (in_plane()) {
+      add(state.name, symbols.front(), state.unit);
+    } else {
+      add_size(here, state.name, state.unit.c_str(), symbols, symbols);
+    }
+  }
+}
+
 Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledge, Place place,
                                         Link i) {
   Surroundings here;
@@ -136,53 +225,8 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
   };
   add("time", time_symbol_, "s");
   add("gravity", gravity_, "m/s^2");
-  for (const EffectParameter& parameter : effect.parameters) {
-    // A parameter per joint or link has no value at the load and at the support.
-    if (parameter.scope != Scope::kModel && i == 0) continue;
-    add(parameter.name, effect_parameter(effect, parameter, i), parameter.unit);
-  }
-  for (const Constant& constant : effect.constants) {
-    add(constant.name, exact_number(constant.text), constant.unit);
-  }
-  for (const SignalChannel& signal : effect.signals) {
-    const std::string name = effect.id + "_" + signal.name;
-    add(signal.name, definitions_.input(name), signal.unit);
-    add(signal.name + "_rate", definitions_.input(name + "_rate"), signal.unit + "/s");
-    add(signal.name + "_acceleration", definitions_.input(name + "_acceleration"),
-        signal.unit + "/s^2");
-  }
+  add_own(effect, i, here);
   const bool motion = knowledge == kMotion;
-  const auto add_point = [&] {
-    std::vector<ex> point = point_at(place, i);
-    point.resize(3);
-    add("side", point[kSide], "m");
-    add("down", point[kDown], "m");
-    // An effect may have a name `across` of its own.
-    if (!here.known.symbols.contains("across")) add("across", point[kAcross], "m");
-    add("depth", cos_tilt_ * point[kDown] + sin_tilt_ * point[kSide], "m");
-    if (!motion) return;
-    std::vector<ex> fluid(3);
-    if (effect.flow.given()) fluid = flow(effect, place, i);
-    const char* axes[] = {"side", "down", "across"};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const ex velocity = time_.of(point[k]);
-      add(std::string("velocity_") + axes[k], velocity, "m/s");
-      if (effect.flow.given()) add(std::string("relative_") + axes[k], velocity - fluid[k], "m/s");
-    }
-  };
-  const auto by_axis = [&](const Points& points, Link link) {
-    std::vector<ex> vector;
-    for (const Axis axis : axes()) vector.push_back(points[axis][link]);
-    return vector;
-  };
-  const auto add_angle = [&](Link link) {
-    if (in_plane()) {
-      add("angle", theta_[link], "rad");
-      add("rate", theta_dot_[link], "rad/s");
-    } else {
-      add_size(here, "rate", "rad/s", by_axis(link_turning_, link));
-    }
-  };
   if (place == Place::kLink || place == Place::kLinkCentre) {
     add("length", length_[i], "m");
     add("mass", mass_[i], "kg");
@@ -194,39 +238,17 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
       add(coordinate.name, symbol, coordinate.unit);
       add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
     }
-    if (motion) add_angle(i);
-    if (knowledge != kShape && place == Place::kLinkCentre) add_point();
+    if (motion) add_angle_of_link(i, here);
+    if (knowledge != kShape && place == Place::kLinkCentre)
+      add_point(effect, motion, place, i, here);
     if (motion && place == Place::kLinkCentre) add_motion_along_link(effect, place, i, here);
   } else if (place == Place::kJoint || place == Place::kPivot) {
     add("stiffness", stiffness_[i], "N m/rad");
     add("damping", damping_[i], "N m s/rad");
     add("arc", arc_[i - 1], "m");
     add("spacing", spacing(i), "m");
-    if (knowledge != kShape) add_point();
-    if (motion) {
-      if (!steady_tension_.empty())
-        add(kSteadyTension, steady_tension_[static_cast<std::size_t>(i)], "N");
-      if (in_plane()) {
-        add("joint_angle", joint_angle_[i], "rad");
-        add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
-      } else {
-        add_size(here, "joint_angle", "rad", {});
-        here.sizes.back().square = here.sizes.back().in_energy = squared_angle(joint_cosine_[i]);
-        const std::vector<ex> turning = by_axis(joint_turning_, i);
-        add_size(here, "joint_rate", "rad/s", turning, turning);
-      }
-      for (const ExtraState& state : effect.states) {
-        if (state.at == Place::kLoad || (state.at == Place::kPivot && i != 1)) continue;
-        std::vector<ex> symbols;
-        for (const std::string& component : state_components())
-          symbols.push_back(effect_symbols_.at(effect.id + "." + state.name + component)[i]);
-        if (in_plane()) {
-          add(state.name, symbols.front(), state.unit);
-        } else {
-          add_size(here, state.name, state.unit.c_str(), symbols, symbols);
-        }
-      }
-    }
+    if (knowledge != kShape) add_point(effect, motion, place, i, here);
+    if (motion) add_motion_of_joint(effect, i, here);
   } else if (place == Place::kLoad) {
     for (const Coordinate& coordinate : effect.coordinates) {
       if (coordinate.at != Place::kLoad) continue;
@@ -241,8 +263,8 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
           add(state.name, effect_symbols_.at(effect.id + "." + state.name)[0], state.unit);
     }
     add("load_mass", load_mass_, "kg");
-    if (motion) add_angle(links_);
-    add_point();
+    if (motion) add_angle_of_link(links_, here);
+    add_point(effect, motion, place, i, here);
     if (motion) add_motion_along_link(effect, place, i, here);
   }
   return here;

@@ -176,6 +176,68 @@ std::string force_text(const MissingForce& force) {
   return text;
 }
 
+/// The model of a stage; of the last one as it was fitted in the end.
+const FittedModel& model_of_round(const Diagnosis& d, std::size_t s) {
+  return s + 1 == d.stages.size() ? d.final : d.stages[s].model;
+}
+
+results::Round round_of(const Diagnosis& d, std::size_t s, const DiagnosisContext& context) {
+  const bool last = s + 1 == d.stages.size();
+  const Stage& stage = d.stages[s];
+  results::Round round;
+  round.model = model_name(stage);
+  round.added = stage.added;
+  round.removed = stage.removed;
+  round.links = stage.links;
+  round.effects = stage.effects;
+  round.result_file = fmt::format("round_{}/result.json", s);
+  round.gap = last ? gap_of(d.final_fit, d.final_held_out, d.final, unit_of(d))
+                   : gap_of(stage.fit, stage.held_out, stage.model, unit_of(d));
+  if (stage.finer.links > 0)
+    round.finer_chain = {stage.finer.links, stage.finer.predicted, stage.finer.refitted,
+                         stage.finer.taken, stage.finer.note};
+  for (const Explanation& explanation : stage.explanations)
+    round.candidates.push_back(candidate_of(explanation, context, d.tried));
+  return round;
+}
+
+/// The text of a result file that compares the model of a stage with all recordings, sealed parts too.
+std::string fit_of_round(const Diagnosis& d, std::size_t s) {
+  const FittedModel& model = model_of_round(d, s);
+  const Problem shown = with_opened_seals(*model.problem);
+  std::vector<Motion> motions;
+  for (std::size_t e = 0; e < shown.experiments().size(); ++e)
+    motions.push_back(motion_of(shown, model.x, static_cast<int>(e)));
+  return comparison_result_text(shown, model.x, evaluate(shown, model.x, true, false), motions);
+}
+
+std::vector<results::Share> share_entries(const Shares& shares) {
+  std::vector<results::Share> entries;
+  const auto add = [&](const std::string& name, const ShareInterval& fitted,
+                       const ShareInterval& held_out) {
+    results::Share& share = entries.emplace_back();
+    share.name = name;
+    share.fit = fitted.share;
+    share.fit_interval = {fitted.lower, fitted.upper};
+    if (!shares.has_held_out) return;
+    share.validate = held_out.share;
+    share.validate_interval = {held_out.lower, held_out.upper};
+  };
+  for (const EffectShare& effect : shares.effects)
+    add(effect.effect, effect.fitted, effect.held_out);
+  if (!shares.empty()) add("left", shares.left_fitted, shares.left_held_out);
+  return entries;
+}
+
+std::vector<results::OtherEffect> other_effects(const std::vector<Alternative>& alternatives) {
+  std::vector<results::OtherEffect> entries;
+  for (const Alternative& other : alternatives)
+    entries.push_back({other.explanation.id, other.instead_of, other.explanation.fit.rms,
+                       other.explanation.held_out.rms, other.decision.difference,
+                       other.decision.lead, std::nullopt, other.explanation.title});
+  return entries;
+}
+
 }  // namespace
 
 std::string progress_line(const DiagnosisProgress& progress) {
@@ -320,30 +382,8 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
   for (const double rms : findings.places.point_rms) result.points.rms.push_back(rms);
   if (d.force) result.missing_force = entry_of(*d.force);
   for (std::size_t s = 0; s < d.stages.size(); ++s) {
-    const bool last = s + 1 == d.stages.size();
-    const Stage& stage = d.stages[s];
-    results::Round& round = result.rounds.emplace_back();
-    round.model = model_name(stage);
-    round.added = stage.added;
-    round.removed = stage.removed;
-    round.links = stage.links;
-    round.effects = stage.effects;
-    round.result_file = fmt::format("round_{}/result.json", s);
-    const FittedModel& model = last ? d.final : stage.model;
-    round.gap = last ? gap_of(d.final_fit, d.final_held_out, model, unit)
-                     : gap_of(stage.fit, stage.held_out, model, unit);
-    const Problem shown = with_opened_seals(*model.problem);
-    std::vector<Motion> motions;
-    for (std::size_t e = 0; e < shown.experiments().size(); ++e)
-      motions.push_back(motion_of(shown, model.x, static_cast<int>(e)));
-    files.emplace_back(
-        round.result_file,
-        comparison_result_text(shown, model.x, evaluate(shown, model.x, true, false), motions));
-    if (stage.finer.links > 0)
-      round.finer_chain = {stage.finer.links, stage.finer.predicted, stage.finer.refitted,
-                           stage.finer.taken, stage.finer.note};
-    for (const Explanation& explanation : stage.explanations)
-      round.candidates.push_back(candidate_of(explanation, context, d.tried));
+    result.rounds.push_back(round_of(d, s, context));
+    files.emplace_back(result.rounds.back().result_file, fit_of_round(d, s));
   }
   for (const std::string& id : d.effects) {
     const Candidate& candidate = *context.find(id);
@@ -356,19 +396,7 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
          parameter.standard_error,
          results::Interval{parameter.value - half, parameter.value + half}});
   }
-  const auto add_share = [&](const std::string& name, const ShareInterval& fitted,
-                             const ShareInterval& held_out) {
-    results::Share& share = result.shares.emplace_back();
-    share.name = name;
-    share.fit = fitted.share;
-    share.fit_interval = {fitted.lower, fitted.upper};
-    if (!d.shares.has_held_out) return;
-    share.validate = held_out.share;
-    share.validate_interval = {held_out.lower, held_out.upper};
-  };
-  for (const EffectShare& effect : d.shares.effects)
-    add_share(effect.effect, effect.fitted, effect.held_out);
-  if (!d.shares.empty()) add_share("left", d.shares.left_fitted, d.shares.left_held_out);
+  result.shares = share_entries(d.shares);
   result.certain = d.certain;
   for (const auto& [part, error] :
        {std::pair("validate", &d.predictions.held_out), std::pair("sealed", &d.predictions.sealed)})
@@ -376,23 +404,15 @@ std::vector<std::pair<std::string, std::string>> diagnosis_files(const Diagnosis
       result.predictions.push_back(
           {part, error->observed, {error->low, error->high}, error->high_with_errors_of_laws()});
   result.of_predictions = words_of(d.predictions, d.final_fit.rms, milli_unit_of(d));
-  const auto others = [](const std::vector<Alternative>& list) {
-    std::vector<results::OtherEffect> entries;
-    for (const Alternative& other : list)
-      entries.push_back({other.explanation.id, other.instead_of, other.explanation.fit.rms,
-                         other.explanation.held_out.rms, other.decision.difference,
-                         other.decision.lead, std::nullopt, other.explanation.title});
-    return entries;
-  };
   result.members = d.effects;
   for (const Alternative& alternative : d.alternatives)
     result.members.push_back(alternative.explanation.id);
-  result.undecided = others(d.alternatives);
+  result.undecided = other_effects(d.alternatives);
   for (std::size_t i = 0; i < std::min(result.undecided.size(), findings.telling.size()); ++i)
     result.undecided[i].experiment_that_tells = {findings.telling[i].words,
                                                  findings.telling[i].difference};
-  result.forms = others(d.forms);
-  result.runners_up = others(d.runners_up);
+  result.forms = other_effects(d.forms);
+  result.runners_up = other_effects(d.runners_up);
   if (!findings.telling.empty()) result.experiment_that_tells = findings.telling.front().words;
   result.equality_at_neutral = d.equality;
   result.candidates_tried = d.tried;

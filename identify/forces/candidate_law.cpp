@@ -276,63 +276,50 @@ std::string CandidateLaw::variable_name() const {
   return names_of(site_, variable_, chain_.in_space).variable;
 }
 
-CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
-                                            const VectorXd& coefficients,
-                                            const MatrixXd& covariance) const {
-  const LawNames names = names_of(site_, variable_, chain_.in_space);
-  Formula formula;
+CandidateLaw::Formula::Kind CandidateLaw::kind() const {
   using Kind = Formula::Kind;
-  formula.variable_unit = names.variable_unit;
-  formula.kind = variable_ == LawVariable::kAcceleration ? Kind::kMass
-                 : has_lag()                             ? Kind::kRelaxing
-                 : has_time()                            ? Kind::kTime
-                 : over_tension(variable_)               ? Kind::kTorque
-                 : against()                             ? Kind::kDissipation
-                                                         : Kind::kPotential;
-  const auto add_amplitude = [&](const std::string& name, int power, Index i) {
-    const double scale = std::pow(half_, power);
-    const double value = (has_time() ? 1 : -1) * coefficients[i] / scale;
-    const double bound = kBound * std::abs(value);
-    formula.constants.push_back({name, unit_over(names, power), value,
-                                 std::sqrt(std::max(0.0, covariance(i, i))) / scale, true,
-                                 against() ? 0.0 : -bound, bound});
-  };
-  const auto kind_of = [&](std::size_t j) {
-    return grammar_.terms[static_cast<std::size_t>(form[j])].kind;
-  };
-  const auto fix = [&](const char* name, double value) {
-    if (formula.energy.find(name) != std::string::npos)
-      formula.fixed.push_back({name, names.variable_unit, value});
-  };
-  const auto deviation_of = [&](Index number) {
-    const Index i = coefficients.size() + number;
-    return std::sqrt(std::max(0.0, covariance(i, i)));
-  };
-  const auto add_point = [&] {
-    for (Index k = 0; k < of_point(); ++k)
-      formula.constants.push_back({fmt::format("point_{}", word_of(static_cast<ForceDirection>(k))),
-                                   "m", numbers_.fixed_point[k], deviation_of(has_place() + k),
-                                   false, numbers_.fixed_point[k] - 2 * half_,
-                                   numbers_.fixed_point[k] + 2 * half_});
-  };
-  if (form.size() == 2 && kind_of(0) == TermKind::kConstant && kind_of(1) == TermKind::kLinear &&
-      coefficients[1] != 0) {
-    // c0 + c1 (x - middle) / half = -linear (x - rest)
-    const double ratio = coefficients[0] / coefficients[1], by_ratio = half_ / coefficients[1];
-    add_amplitude("linear", 1, 1);
-    const double rest_variance =
-        (covariance(0, 0) - 2 * ratio * covariance(0, 1) + ratio * ratio * covariance(1, 1)) *
-        by_ratio * by_ratio;
-    const double rest = middle_ - half_ * ratio,
-                 deviation = std::sqrt(std::max(0.0, rest_variance));
-    formula.constants.push_back({"rest", names.variable_unit, rest, deviation, false,
-                                 rest - kBound * deviation, rest + kBound * deviation});
-    formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
-    formula.energy = fmt::format("linear*({} - rest)^2/2", names.symbols);
-    add_point();
-    return formula;
-  }
-  const bool about_middle = middle_ != 0 && (form.size() > 1 || kind_of(0) != TermKind::kConstant);
+  return variable_ == LawVariable::kAcceleration ? Kind::kMass
+         : has_lag()                             ? Kind::kRelaxing
+         : has_time()                            ? Kind::kTime
+         : over_tension(variable_)               ? Kind::kTorque
+         : against()                             ? Kind::kDissipation
+                                                 : Kind::kPotential;
+}
+
+CandidateLaw::Constant CandidateLaw::amplitude(const std::string& name, int power,
+                                               double coefficient, double deviation) const {
+  const double scale = std::pow(half_, power);
+  const double value = (has_time() ? 1 : -1) * coefficient / scale;
+  const double bound = kBound * std::abs(value);
+  return {name,  unit_over(names_of(site_, variable_, chain_.in_space), power),
+          value, deviation / scale,
+          true,  against() ? 0.0 : -bound,
+          bound};
+}
+
+void CandidateLaw::add_spring_about_rest(Formula& formula, const VectorXd& coefficients,
+                                         const MatrixXd& covariance) const {
+  const LawNames names = names_of(site_, variable_, chain_.in_space);
+  // c0 + c1 (x - middle) / half = -linear (x - rest)
+  const double ratio = coefficients[0] / coefficients[1], by_ratio = half_ / coefficients[1];
+  formula.constants.push_back(
+      amplitude("linear", 1, coefficients[1], std::sqrt(std::max(0.0, covariance(1, 1)))));
+  const double rest_variance =
+      (covariance(0, 0) - 2 * ratio * covariance(0, 1) + ratio * ratio * covariance(1, 1)) *
+      by_ratio * by_ratio;
+  const double rest = middle_ - half_ * ratio, deviation = std::sqrt(std::max(0.0, rest_variance));
+  formula.constants.push_back({"rest", names.variable_unit, rest, deviation, false,
+                               rest - kBound * deviation, rest + kBound * deviation});
+  formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
+  formula.energy = fmt::format("linear*({} - rest)^2/2", names.symbols);
+}
+
+void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
+                             const VectorXd& coefficients, const VectorXd& deviations) const {
+  const LawNames names = names_of(site_, variable_, chain_.in_space);
+  const bool about_middle =
+      middle_ != 0 && (form.size() > 1 || grammar_.terms[static_cast<std::size_t>(form[0])].kind !=
+                                              TermKind::kConstant);
   const std::string words =
       about_middle ? fmt::format("{} {} {:.3g} {}", names.variable, middle_ < 0 ? "+" : "-",
                                  std::abs(middle_), names.variable_unit)
@@ -340,53 +327,90 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   const std::string symbols =
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
-  double width = 0;
   char knot = 'a';  // names that end with a number are those of one joint or link
-  Index shapes = has_place() + of_point() + has_lag();
+  Index number = coefficients.size() + has_place() + of_point() + has_lag();  // the next shape's
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
-    formula.curve = formula.curve || term.kind == TermKind::kBend;
-    const std::string n(term.kind == TermKind::kBend ? 1 : 0, knot);
+    const bool bend = term.kind == TermKind::kBend;
+    formula.curve = formula.curve || bend;
+    const std::string n(bend ? 1 : 0, knot);
     terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "", n);
     formula.energy +=
         (formula.energy.empty() ? "" : " + ") +
         filled(over_tension(variable_) ? text.slope : text.energy, "", symbols, names.squared, n);
-    add_amplitude(filled(text.amplitude, "", "", "", n), text.power, static_cast<Index>(j));
-    if (term.kind == TermKind::kBend) {
+    const auto i = static_cast<Index>(j);
+    formula.constants.push_back(amplitude(filled(text.amplitude, "", "", "", n), text.power,
+                                          coefficients[i], deviations[i]));
+    if (bend) {
       formula.fixed.push_back({"knot_" + n, names.variable_unit, term.shape * half_});
       ++knot;
     }
-    width = std::max(width, term.width);
     if (!text.shape) continue;
     const double shape = term.shape * half_;
     const bool edge = shape_name(form[j]) == kEdge;
     formula.constants.push_back({text.shape, names.variable_unit, shape,
-                                 half_ * deviation_of(shapes++), false,
+                                 half_ * deviations[number++], false,
                                  edge ? shape - 2 * half_ : shape / kMostShapeChange,
                                  edge ? shape + 2 * half_ : shape * kMostShapeChange});
     if (!text.moment) continue;
     const double reach = kMostShapeChange * shape;
-    formula.constants.push_back({"moment", "s", term.moment, deviation_of(shapes++), false,
+    formula.constants.push_back({"moment", "s", term.moment, deviations[number++], false,
                                  term.moment - reach, term.moment + reach});
   }
-  add_point();
-  if (has_lag()) {
-    formula.constants.push_back({"lag", "s", numbers_.lag, deviation_of(has_place()), false,
-                                 numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
-  }
-  if (has_lag() || has_time()) formula.along = names.symbols;
-  if (formula.kind == Kind::kMass)
-    formula.energy =
-        fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition, false));
   formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
                              form.size() == 1 ? terms : fmt::format("({})", terms));
-  fix("step", width * half_);
-  fix("middle", middle_);
-  fix("edge_width", width * half_);
-  fix("floor", kSpeedFloor);
-  fix("unit", 1);
+}
+
+void CandidateLaw::add_fixed(Formula& formula, const std::vector<int>& form) const {
+  const auto add = [&](const char* name, double value) {
+    if (formula.energy.find(name) != std::string::npos)
+      formula.fixed.push_back({name, formula.variable_unit, value});
+  };
+  double width = 0;
+  for (const int term : form)
+    width = std::max(width, grammar_.terms[static_cast<std::size_t>(term)].width);
+  add("step", width * half_);
+  add("middle", middle_);
+  add("edge_width", width * half_);
+  add("floor", kSpeedFloor);
+  add("unit", 1);
   if (over_tension(variable_)) formula.fixed.push_back({"tension_floor", "N", kTensionFloor});
+}
+
+CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
+                                            const VectorXd& coefficients,
+                                            const MatrixXd& covariance) const {
+  const LawNames names = names_of(site_, variable_, chain_.in_space);
+  const VectorXd deviations = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Formula formula;
+  formula.variable_unit = names.variable_unit;
+  formula.kind = kind();
+  const auto kind_of = [&](std::size_t j) {
+    return grammar_.terms[static_cast<std::size_t>(form[j])].kind;
+  };
+  const bool about_rest = form.size() == 2 && kind_of(0) == TermKind::kConstant &&
+                          kind_of(1) == TermKind::kLinear && coefficients[1] != 0;
+  if (about_rest)
+    add_spring_about_rest(formula, coefficients, covariance);
+  else
+    add_terms(formula, form, coefficients, deviations);
+  const Index numbers = coefficients.size() + has_place();
+  for (Index k = 0; k < of_point(); ++k) {
+    const double at = numbers_.fixed_point[k];
+    formula.constants.push_back({fmt::format("point_{}", word_of(static_cast<ForceDirection>(k))),
+                                 "m", at, deviations[numbers + k], false, at - 2 * half_,
+                                 at + 2 * half_});
+  }
+  if (about_rest) return formula;
+  if (has_lag())
+    formula.constants.push_back({"lag", "s", numbers_.lag, deviations[numbers], false,
+                                 numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
+  if (has_lag() || has_time()) formula.along = names.symbols;
+  if (formula.kind == Formula::Kind::kMass)
+    formula.energy =
+        fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition, false));
+  add_fixed(formula, form);
   return formula;
 }
 

@@ -117,6 +117,16 @@ class CandidateLaw {
   /// Numbers of the fixed point, if it has one.
   Eigen::Index of_point() const { return has_point() ? numbers_.fixed_point.size() : 0; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }
+  Formula::Kind kind() const;
+  /// A factor of a term in physical units. `coefficient`, `deviation`: over the half width, as in a fit.
+  Constant amplitude(const std::string& name, int power, double coefficient,
+                     double deviation) const;
+  void add_spring_about_rest(Formula& formula, const Eigen::VectorXd& coefficients,
+                             const Eigen::MatrixXd& covariance) const;
+  void add_terms(Formula& formula, const std::vector<int>& form,
+                 const Eigen::VectorXd& coefficients, const Eigen::VectorXd& deviations) const;
+  /// Known constants that the energy names.
+  void add_fixed(Formula& formula, const std::vector<int>& form) const;
   std::string shape_name(int term) const;
   bool has_moment(int term) const;
 

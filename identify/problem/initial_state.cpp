@@ -213,6 +213,62 @@ int coefficient_count(Shape shape, int links, int terms) {
   return 0;
 }
 
+/// The motion closest to the first `used` frames, by Gauss-Newton on the positions; weak terms on bending decide what
+/// the markers leave open. x: the coordinates of the links in the first frame and, unless at rest, their rates.
+void fit_to_first_frames(const FirstFrames& first, Eigen::Index used, bool at_rest,
+                         bool find_angles, Eigen::VectorXd& x) {
+  const Recording& recording = first.recording;
+  const Eigen::Index n = first.lengths.size(), unknowns = x.size(),
+                     m = at_rest ? unknowns : unknowns / 2;
+  constexpr double kWeak = 1e-3;  // relative to the mean length a marker sees
+  const double weak = kWeak * (recording.channels.front().component == Component::kAngle
+                                   ? 1e-3
+                                   : first.lengths.sum() / static_cast<double>(n));
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns), by_x(m), row(unknowns);
+    // Only `count` elements of the row from `begin` on are not zero.
+    const auto add = [&](double residual, Eigen::Index begin, Eigen::Index count) {
+      const auto part = row.segment(begin, count);
+      normal.block(begin, begin, count, count).noalias() += part * part.transpose();
+      right.segment(begin, count).noalias() -= part * residual;
+    };
+    for (Eigen::Index k = 0; k < used; ++k) {
+      const double t = recording.time[static_cast<std::size_t>(k)] - recording.time.front();
+      const Eigen::VectorXd now = at_rest ? x : Eigen::VectorXd(x.head(m) + t * x.tail(m));
+      for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+        const double measured = recording.measured(static_cast<Eigen::Index>(c), k);
+        if (std::isnan(measured)) continue;
+        const double simulated = first.value(recording.channels[c], now, by_x);
+        row.head(m) = by_x;
+        if (!at_rest) row.tail(m) = t * by_x;
+        add(simulated - measured, 0, unknowns);
+      }
+    }
+    for (Eigen::Index block = 0; block < unknowns; block += n)
+      for (Eigen::Index i = 1; i < n; ++i) {  // second differences: least change of bending
+        row.setZero();
+        row[block + i] = weak;
+        row[block + i - 1] = i > 1 ? -2 * weak : -weak;
+        if (i > 1) row[block + i - 2] = weak;
+        const Eigen::Index begin = std::max<Eigen::Index>(i - 2, 0);
+        add(row.dot(x), block + begin, i + 1 - begin);
+      }
+    if (!find_angles) {  // they are given: only the rates move
+      normal.topRows(m).setZero();
+      normal.leftCols(m).setZero();
+      normal.topLeftCorner(m, m).setIdentity();
+      right.head(m).setZero();
+    }
+    normal.diagonal().array() += 1e-12 * (1 + normal.diagonal().maxCoeff());
+    Eigen::VectorXd step = solve_symmetric(normal, right);
+    const double largest = step.head(m).cwiseAbs().maxCoeff();
+    if (largest > 0.5) step *= 0.5 / largest;  // rad: stay where the linearisation means something
+    x += step;
+    if (step.norm() < 1e-12 * (1 + x.norm())) break;
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd shape_basis(Shape shape, int links, int terms, const Eigen::VectorXd& lengths) {
@@ -355,54 +411,7 @@ void complete_from_data(InitialSpec& initial, const Recording& recording,
                         as_vector(initial.out_of_plane);
   }
 
-  // Gauss-Newton on the positions; weak terms on bending decide what the markers leave open.
-  constexpr double kWeak = 1e-3;  // relative to the mean length a marker sees
-  const double weak = kWeak * (recording.channels.front().component == Component::kAngle
-                                   ? 1e-3
-                                   : lengths.sum() / static_cast<double>(n));
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns), by_x(m), row(unknowns);
-    // Only `count` elements of the row from `begin` on are not zero.
-    const auto add = [&](double residual, Eigen::Index begin, Eigen::Index count) {
-      const auto part = row.segment(begin, count);
-      normal.block(begin, begin, count, count).noalias() += part * part.transpose();
-      right.segment(begin, count).noalias() -= part * residual;
-    };
-    for (Eigen::Index k = 0; k < used; ++k) {
-      const double t = recording.time[static_cast<std::size_t>(k)] - recording.time.front();
-      const Eigen::VectorXd now = initial.at_rest ? x : Eigen::VectorXd(x.head(m) + t * x.tail(m));
-      for (std::size_t c = 0; c < recording.channels.size(); ++c) {
-        const double measured = recording.measured(static_cast<Eigen::Index>(c), k);
-        if (std::isnan(measured)) continue;
-        const double simulated = first.value(recording.channels[c], now, by_x);
-        row.head(m) = by_x;
-        if (!initial.at_rest) row.tail(m) = t * by_x;
-        add(simulated - measured, 0, unknowns);
-      }
-    }
-    for (Eigen::Index block = 0; block < unknowns; block += n)
-      for (Eigen::Index i = 1; i < n; ++i) {  // second differences: least change of bending
-        row.setZero();
-        row[block + i] = weak;
-        row[block + i - 1] = i > 1 ? -2 * weak : -weak;
-        if (i > 1) row[block + i - 2] = weak;
-        const Eigen::Index begin = std::max<Eigen::Index>(i - 2, 0);
-        add(row.dot(x), block + begin, i + 1 - begin);
-      }
-    if (!find_angles) {  // they are given: only the rates move
-      normal.topRows(m).setZero();
-      normal.leftCols(m).setZero();
-      normal.topLeftCorner(m, m).setIdentity();
-      right.head(m).setZero();
-    }
-    normal.diagonal().array() += 1e-12 * (1 + normal.diagonal().maxCoeff());
-    Eigen::VectorXd step = solve_symmetric(normal, right);
-    const double largest = step.head(m).cwiseAbs().maxCoeff();
-    if (largest > 0.5) step *= 0.5 / largest;  // rad: stay where the linearisation means something
-    x += step;
-    if (step.norm() < 1e-12 * (1 + x.norm())) break;
-  }
+  fit_to_first_frames(first, used, initial.at_rest, find_angles, x);
   const auto coefficients = [&](Shape shape, int terms, const Eigen::VectorXd& values) {
     const Eigen::VectorXd fitted = least_squares(shape_basis(shape, links, terms, lengths), values);
     return std::vector<double>(fitted.begin(), fitted.end());

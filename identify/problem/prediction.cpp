@@ -34,6 +34,45 @@ Trajectory unchanged(const Trajectory& path) {
   return {path.time, zero(path.q), zero(path.v), zero(path.z), {}};
 }
 
+void check_signals(const Experiment& experiment, const FrameClock& clock, Index frames) {
+  // Signals that end before the recording are a mistake of the case, which simulate() refuses. Here the recording
+  // has them, and an unknown took the clock beyond them.
+  const Signals& signals = experiment.signals;
+  const std::vector<double>& time = experiment.recording.time;
+  if (signals.count() > 0 && clock.times.back() > signals.last_time() &&
+      time[static_cast<std::size_t>(frames - 1)] <= signals.last_time())
+    throw ImpossibleValue(
+        "the model's clock is ahead of the recording's and asks for signals until " +
+        number_text(clock.times.back()) + " s, which end at " + number_text(signals.last_time()) +
+        " s");
+}
+
+/// The coordinates and rates in one column of a path.
+VectorXd state_in(const Trajectory& path, Index column) {
+  VectorXd state(2 * path.q.rows());
+  state << path.q.col(column), path.v.col(column);
+  return state;
+}
+
+/// Where the path of an experiment ends that another one continues.
+Index last_column(const Experiment& experiment, const FrameClock& clock) {
+  const double ends = experiment.meets >= 0 ? experiment.ends : clock.times.back();
+  return std::lower_bound(clock.times.begin(), clock.times.end(), ends) - clock.times.begin();
+}
+
+void refuse_what_is_not_finite(Prediction& prediction, const Experiment& experiment) {
+  bool finite = prediction.simulated.allFinite();
+  for (const auto& changes : prediction.sensitivity) finite &= changes.allFinite();
+  if (finite) return;
+  prediction.status = Status::kNotFinite;
+  prediction.message = "what the sensors would see is not finite";
+  const std::vector<PointSpec>& points = experiment.recording.points;
+  if (!points.empty() && !points.front().camera.empty())
+    prediction.message +=
+        "; a camera sees only what lies before it: look at the places and directions of the "
+        "cameras";
+}
+
 }  // namespace
 
 Prediction failed_prediction(const Experiment& experiment, const std::string& message) {
@@ -64,15 +103,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   const Index frames =
       all_frames ? static_cast<Index>(recording.time.size()) : recording.fit_frames;
   const FrameClock clock = frame_clock(model, experiment, parameters, frames);
-  // Signals that end before the recording are a mistake of the case, which simulate() refuses. Here the recording
-  // has them, and an unknown took the clock beyond them.
-  const Signals& signals = experiment.signals;
-  if (signals.count() > 0 && clock.times.back() > signals.last_time() &&
-      recording.time[static_cast<std::size_t>(frames - 1)] <= signals.last_time())
-    throw ImpossibleValue(
-        "the model's clock is ahead of the recording's and asks for signals until " +
-        number_text(clock.times.back()) + " s, which end at " + number_text(signals.last_time()) +
-        " s");
+  check_signals(experiment, clock, frames);
 
   SimulationOptions options = simulation_options(settings);
   options.energy = false;
@@ -128,35 +159,18 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
     }
   }
   if (experiment.spec.joined) {
-    const double ends = experiment.meets >= 0 ? experiment.ends : clock.times.back();
-    const Index end =
-        std::lower_bound(clock.times.begin(), clock.times.end(), ends) - clock.times.begin();
-    const auto state = [](const Trajectory& path, Index column) {
-      VectorXd out(2 * path.q.rows());
-      out << path.q.col(column), path.v.col(column);
-      return out;
-    };
-    prediction.first = state(simulation.trajectory, 0);
-    prediction.last = state(simulation.trajectory, end);
+    const Index end = last_column(experiment, clock);
+    prediction.first = state_in(simulation.trajectory, 0);
+    prediction.last = state_in(simulation.trajectory, end);
     prediction.first_along.setZero(prediction.first.size(), static_cast<Index>(along.size()));
     prediction.last_along = prediction.first_along;
     for (std::size_t s = 0; s < directions.size(); ++s) {
       const auto j = static_cast<Index>(index_of[s]);
-      prediction.first_along.col(j) = state(sensitivity(s), 0);
-      prediction.last_along.col(j) = state(sensitivity(s), end);
+      prediction.first_along.col(j) = state_in(sensitivity(s), 0);
+      prediction.last_along.col(j) = state_in(sensitivity(s), end);
     }
   }
-  bool finite = prediction.simulated.allFinite();
-  for (const auto& changes : prediction.sensitivity) finite &= changes.allFinite();
-  if (!finite) {
-    prediction.status = Status::kNotFinite;
-    prediction.message = "what the sensors would see is not finite";
-    const std::vector<PointSpec>& points = experiment.recording.points;
-    if (!points.empty() && !points.front().camera.empty())
-      prediction.message +=
-          "; a camera sees only what lies before it: look at the places and directions of the "
-          "cameras";
-  }
+  refuse_what_is_not_finite(prediction, experiment);
   prediction.trajectory = std::move(simulation.trajectory);
   return prediction;
 }
