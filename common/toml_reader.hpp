@@ -28,6 +28,7 @@ class TomlTable {
   /// The same for a text; `name` stands for the file in messages.
   static TomlTable parse(std::string_view text, std::string_view name, std::string_view kind);
 
+  /// Whether the file has the key.
   bool has(std::string_view key) const;
   /// The keys of this table, in the order of the file.
   std::vector<std::string> keys() const;
@@ -48,6 +49,7 @@ class TomlTable {
   std::vector<long> integers(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
 
+  /// [key]. A missing one is a failure of the first; the second returns nothing.
   TomlTable table(std::string_view key) const;
   std::optional<TomlTable> optional_table(std::string_view key) const;
   /// [[key]]: in the order of the file; empty if missing.
@@ -75,6 +77,7 @@ class TomlTable {
   /// nearest known one. Call it on the outermost table when everything is read.
   void finish() const;
 
+  /// Its name, as messages say it.
   const std::string& file() const;
   const std::string& source() const;             ///< the whole file as it was read
   int line() const;                              ///< of the table's header

@@ -33,6 +33,7 @@ bool is_file(const std::filesystem::path& path);
 /// the same text. Files that write_whole_file writes are read anew. Threads may share it.
 class ReadOnce {
  public:
+  /// The first that lives begins with no file read; what the others see is the same.
   ReadOnce();
   ~ReadOnce();
   ReadOnce(const ReadOnce&) = delete;

@@ -10,6 +10,7 @@ namespace catena {
 /// A lock of a folder, which must exist, until the object or the process ends. It does not wait.
 class FolderLock {
  public:
+  /// Takes the lock if it is free; held() says whether it was.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -37,6 +38,7 @@ class WorkFolder {
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
+  /// The new folder.
   const std::filesystem::path& path() const { return path_; }
   /// It stays when the object goes.
   void keep() { kept_ = true; }

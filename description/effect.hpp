@@ -118,6 +118,7 @@ struct Support {
   /// turn with the clamp; if not given, that of bending from down towards side.
   Expression bend_axis_side, bend_axis_down, bend_axis_across;  ///< of no unit
 
+  /// Whether the point moves, the clamp turns, the axis of bending is stated; whether any of these.
   bool moves() const { return side.given() || down.given() || across.given(); }
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
   bool has_bend_axis() const {
@@ -148,6 +149,7 @@ struct HeldEnd {
   std::string named(const std::string& what) const {
     return link == 0 ? what : what + "_" + std::to_string(link);
   }
+  /// Whether it holds the point, its direction, its twist.
   bool holds() const { return side.given() || down.given() || across.given(); }
   bool turns() const { return clamp_side.given() || clamp_down.given() || clamp_across.given(); }
   bool twists() const { return torsional_stiffness.given(); }
@@ -259,6 +261,7 @@ Effect read_effect(const std::filesystem::path& path);
 
 /// One of the effects that are compiled in. Throws InputError that names the nearest id.
 Effect built_in_effect(std::string_view id);
+/// The ids of all of them.
 std::vector<std::string> built_in_effect_ids();
 
 }  // namespace catena

@@ -28,10 +28,12 @@ class Unit {
   /// decimal or (p/q). Known: m kg s rad N J W Pa Hz 1. Throws std::invalid_argument with the text,
   /// the rule and a hint. Degrees, mm, g and the like are refused.
   static Unit parse(std::string_view text);
+  /// By exponents of m, kg and s.
   static Unit of(int metre, int kilogram, int second);
 
   Unit operator*(const Unit& other) const;
   Unit operator/(const Unit& other) const;
+  /// Every exponent multiplied by this one.
   Unit power(Exponent exponent) const;
   bool operator==(const Unit&) const = default;
   bool dimensionless() const { return *this == Unit(); }

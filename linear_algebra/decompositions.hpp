@@ -30,6 +30,7 @@ Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& matrix,
 ///     const Eigen::VectorXd step = factors.solve(right);
 class SymmetricFactors {
  public:
+  /// Reads the lower triangle.
   explicit SymmetricFactors(const Eigen::MatrixXd& matrix);
   ~SymmetricFactors();
 

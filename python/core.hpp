@@ -20,6 +20,7 @@ class ComputationError : public std::runtime_error {
 class SignalCheck {
  public:
   bool operator()();
+  /// Call it with the lock; does nothing unless Ctrl-C was pressed.
   void rethrow() const;
 
  private:

@@ -14,6 +14,7 @@ namespace catena {
 /// solution with the transpose of the Newton matrix.
 class AdjointSolver {
  public:
+  /// The arguments are those of `forward`, which must outlive it.
   AdjointSolver(Integrator& forward, const Model& model, const Eigen::VectorXd& parameters,
                 const SimulationOptions& options, const Signals& signals);
 

@@ -12,6 +12,7 @@ struct alignas(CATENA_DIRECTIONS * sizeof(double)) DirectionBatch {
   double of[CATENA_DIRECTIONS];
 };
 
+/// All numbers of a vector of batches, those of an entry side by side.
 inline const double* numbers(const std::vector<DirectionBatch>& batch) { return batch.data()->of; }
 inline double* numbers(std::vector<DirectionBatch>& batch) { return batch.data()->of; }
 
@@ -19,6 +20,7 @@ inline double* numbers(std::vector<DirectionBatch>& batch) { return batch.data()
 /// for batches is called once for each direction.
 class BatchTangents {
  public:
+  /// `dynamics` must outlive it.
   explicit BatchTangents(const Dynamics& dynamics);
 
   /// Arrays of `along` and the results hold CATENA_DIRECTIONS numbers for each entry, with the

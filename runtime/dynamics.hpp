@@ -15,6 +15,7 @@ namespace catena {
 /// equations at a time and state. Only the constructor allocates.
 class Dynamics {
  public:
+  /// `parameters` as Model::check_parameters admits them; `signals` must outlive it.
   Dynamics(const Model& model, const Eigen::VectorXd& parameters, const Signals& signals)
       : model_(model),
         parameters_(parameters),
@@ -23,12 +24,14 @@ class Dynamics {
         zero_(static_cast<std::size_t>(std::max(
             {1, model.coordinates(), model.states(), model.parameters(), 3 * model.signals()}))) {}
 
+  /// The model, its table, and the lengths of q and of z.
   const catena_model& table() const { return model_.table(); }
   const Model& model() const { return model_; }
   int coordinates() const { return model_.coordinates(); }
   int states() const { return model_.states(); }
   /// Length of y = (q, v, z).
   int size() const { return 2 * coordinates() + states(); }
+  /// p of a point.
   const double* parameters() const { return parameters_.data(); }
   /// Zeros, as many as the longest array of a point has entries.
   const double* zero() const { return zero_.data(); }

@@ -37,6 +37,8 @@ void require(int flag, const char* call);
 /// One run of CVODES on one model, from the initial state through all output times.
 class Integrator {
  public:
+  /// `start`: the time of `initial`, s. `signals` and `directions` must outlive it. Throws std::invalid_argument for a
+  /// solver that the model does not have.
   Integrator(const Model& model, const Eigen::VectorXd& parameters, const State& initial,
              double start, const SimulationOptions& options, const Signals& signals,
              const std::vector<SensitivityDirection>& directions);
@@ -46,6 +48,7 @@ class Integrator {
 
   /// Call it before run: then check points are kept, from which AdjointSolver repeats the motion.
   void keep_check_points();
+  /// For AdjointSolver.
   void* cvodes() const { return cvodes_.get(); }
   SUNContext context() const { return context_.get(); }
 

@@ -11,6 +11,7 @@ namespace catena {
 /// (rad, from side to across), and that plane by `out_of_plane` (rad) towards growing azimuth. Exact for
 /// a link in the plane of side and down: azimuth and out_of_plane zero.
 struct LinkFrame {
+  /// All in rad.
   LinkFrame(double angle, double out_of_plane, double azimuth)
       : sine(std::sin(out_of_plane)), cosine(std::cos(out_of_plane)) {
     const Eigen::Vector3d towards(std::cos(azimuth), 0.0, std::sin(azimuth));
@@ -20,6 +21,7 @@ struct LinkFrame {
     normal = {-towards[2], 0.0, towards[0]};
   }
 
+  /// The unit vector along the link, and its derivatives by two of the angles.
   Eigen::Vector3d direction() const { return cosine * in_plane + sine * normal; }
   Eigen::Vector3d by_angle() const { return cosine * turned_in_plane; }
   Eigen::Vector3d by_out_of_plane() const { return cosine * normal - sine * in_plane; }

@@ -22,6 +22,7 @@ class Model {
   /// The plain chain of `links` links, linked into this program. Throws InputError that names the
   /// numbers that are built in.
   static Model built_in(int links);
+  /// Whether built_in works for so many links.
   static bool has_built_in(int links);
   /// The numbers of links for which built_in works, ascending.
   static std::vector<int> built_in_links();
@@ -36,8 +37,10 @@ class Model {
   /// The same with a table that lives as long as this object and its copies.
   explicit Model(std::shared_ptr<const catena_model> table);
 
+  /// The table it was made of.
   const catena_model& table() const { return *table_; }
 
+  /// Lengths of the arrays of a point and of the energies; see catena_model.h.
   int links() const { return table_->links; }
   int coordinates() const { return table_->coordinates; }
   int states() const { return table_->states; }

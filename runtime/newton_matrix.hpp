@@ -20,6 +20,7 @@ namespace catena {
 /// Coordinates are eliminated exactly. The system has one row per coordinate and extra state.
 class NewtonMatrix {
  public:
+  /// Of a model with as many coordinates and states.
   explicit NewtonMatrix(const Model& model)
       : column_(static_cast<std::size_t>(model.coordinates() + model.states())) {}
   virtual ~NewtonMatrix() = default;
@@ -42,6 +43,7 @@ class NewtonMatrix {
 /// products with tangents of the model, O(links) too, eliminate the states and compute them again.
 class StructuredNewtonMatrix : public NewtonMatrix {
  public:
+  /// `model` must be structured.
   explicit StructuredNewtonMatrix(const Model& model);
   int factor(Dynamics& dynamics, const catena_point& at, double gamma) override;
   void solve(double* x) const override;

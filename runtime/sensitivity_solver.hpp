@@ -19,6 +19,7 @@ namespace catena {
 /// factored at the solution, once for all directions. No iteration is needed.
 class SensitivitySolver {
  public:
+  /// All must outlive it.
   SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix, StepSolver& step_solver,
                     const std::vector<SensitivityDirection>& directions, SUNContext context);
 
@@ -40,6 +41,7 @@ class SensitivitySolver {
   /// Element `element` of (q, v, z) along direction number `direction`, from 0, in such a vector.
   double element(const double* s, std::size_t direction, int element) const;
 
+  /// Of the Newton matrix, made here.
   long factorisations() const { return factorisations_; }
 
  private:

@@ -22,6 +22,7 @@ class Signals {
   /// the sample (counted from 1) and the rule.
   void add(std::string name, std::span<const double> time, std::span<const double> value);
 
+  /// Channels.
   int count() const { return static_cast<int>(channels_.size()); }
   /// Name of a channel, counted from 0.
   const std::string& name(int channel) const;

@@ -26,6 +26,7 @@ namespace catena {
 /// For CVODES it is of the kind "fixed point", the kind that needs no linear solver of CVODES.
 class StepSolver {
  public:
+  /// All must outlive it.
   StepSolver(Dynamics& dynamics, NewtonMatrix& matrix, SUNContext context);
 
   /// For CVodeSetNonlinearSolver. Lives as long as this object.
@@ -38,6 +39,7 @@ class StepSolver {
     int element = 0;
     double t = 0.0;
   };
+  /// Of the last step that failed.
   const Failure& failure() const { return failure_; }
 
   /// The time and accelerations of the step solved last.
@@ -54,6 +56,7 @@ class StepSolver {
     steps_since_factored_ = 0;
   }
 
+  /// Counted since the start.
   long residual_evaluations() const { return residual_evaluations_; }
   long factorisations() const { return factorisations_; }
   long iterations() const { return all_iterations_; }

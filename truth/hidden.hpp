@@ -73,6 +73,7 @@ struct HiddenParameter {
   double Hidden::*value;
 };
 
+/// All of them, in the order of Hidden.
 const std::vector<HiddenParameter>& hidden_parameters();
 
 /// Sets one parameter by name. Throws std::invalid_argument for a name not in the list.

@@ -11,6 +11,7 @@ namespace truth {
 /// A number that differs where any of the values differ (FNV-1a, 64 bits).
 class Fingerprint {
  public:
+  /// Takes in the bits of a value; the number of all so far.
   void add(double value);
   std::uint64_t number() const { return number_; }
 

@@ -22,6 +22,7 @@ class CompiledModel {
   CompiledModel(const CompiledModel&) = delete;
   CompiledModel& operator=(const CompiledModel&) = delete;
 
+  /// The table that the compiled library exports; it lives as long as this object.
   const catena_model& table() const { return *table_; }
 
  private:

@@ -19,8 +19,10 @@ class ExactEvaluation {
   /// Returns the value of an input, "theta[2]" or "load_mass". It is not called for "pi".
   using Inputs = std::function<GiNaC::ex(const std::string& name)>;
 
+  /// `definitions` must outlive it.
   ExactEvaluation(const Definitions& definitions, Inputs inputs);
 
+  /// Throws std::logic_error where it has no numeric value.
   GiNaC::numeric of(const GiNaC::ex& expression);
 
  private:

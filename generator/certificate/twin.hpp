@@ -31,6 +31,7 @@ struct Frequencies {
   std::vector<double> closed;     ///< from (4.3), (4.11) as it should read, and (4.23)
   double largest_difference = 0;  ///< relative
 };
+/// Applicable to plain chains in the plane only.
 Frequencies natural_frequencies(const catena_model& table);
 
 }  // namespace catena

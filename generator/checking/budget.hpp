@@ -33,6 +33,7 @@ class Overlong : public std::runtime_error {
 /// The account of one statement while it lives. What is spent is taken from the accounts around it, too.
 class Budget {
  public:
+  /// So many operations, of whatever the accounts around it have.
   explicit Budget(double operations = kMostOperations)
       : most_(operations), left_(operations), outer_(current_) {
     current_ = this;

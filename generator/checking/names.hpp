@@ -36,6 +36,7 @@ const Target* target_named(const std::string& name);
 
 /// theta, l, m, ...: the symbols of the chain that take one index.
 using Family = std::vector<GiNaC::ex> ChainSymbols::*;
+/// All of them by their names.
 const std::map<std::string, Family>& families();
 
 /// Whether this chain has symbols of that name: the plane has no phi.
@@ -43,6 +44,7 @@ bool is_family(const std::string& name, const ChainSymbols& chain);
 
 /// sin, exp, ...: the functions of one argument.
 using Function = GiNaC::ex (*)(const GiNaC::ex&);
+/// All of them by their names.
 const std::map<std::string, Function>& functions();
 
 /// A name with the values of its subscripts.

@@ -34,6 +34,7 @@ struct Quotient {
   GiNaC::ex numerator;
   GiNaC::ex denominator;
 };
+/// The expression as one quotient.
 Quotient cleared(const GiNaC::ex& expression);
 
 /// Approximate number of products when the expression is expanded, with sines and cosines of sums

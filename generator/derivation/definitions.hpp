@@ -55,6 +55,7 @@ class Definitions {
   /// Numbers of the symbols in an expression, ascending (order of creation).
   std::vector<int> symbols_of(const GiNaC::ex& expression) const;
 
+  /// The number of a symbol that was made here, from 0. Throws std::logic_error for others.
   int number_of(const GiNaC::ex& symbol) const;
   const Symbol& operator[](int number) const { return symbols_[static_cast<size_t>(number)]; }
   int size() const { return static_cast<int>(symbols_.size()); }
@@ -82,6 +83,7 @@ class Differential {
   Differential(Definitions& definitions, std::string (*family_name)(const std::string&));
   /// Sets the differential of a symbol; inputs without one have differential zero.
   void set(const GiNaC::ex& symbol, const GiNaC::ex& differential);
+  /// The differential of an expression, and of the symbol of this number.
   GiNaC::ex of(const GiNaC::ex& expression);
   GiNaC::ex of_symbol(int number);
 
@@ -95,7 +97,9 @@ class Differential {
 /// ("<family><suffix>").
 class Substitution {
  public:
+  /// `definitions` must outlive it.
   Substitution(Definitions& definitions, std::string suffix);
+  /// Replaces this symbol from now on.
   void set(const GiNaC::ex& symbol, const GiNaC::ex& replacement);
   GiNaC::ex of(const GiNaC::ex& expression);
 

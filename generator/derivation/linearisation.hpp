@@ -58,6 +58,7 @@ class Linearisation {
   Form along_links(const GiNaC::ex& expression);
   /// Of u at one link.
   int components() const;
+  /// Families of definitions that are carried from link to link, towards the far end and towards the support.
   const std::set<std::string>& down() const { return down_; }
   const std::set<std::string>& up() const { return up_; }
   /// A name of an expression of several components; one for all that are the same written out, as far as

@@ -20,6 +20,7 @@ class WrittenOut {
  public:
   explicit WrittenOut(const Definitions& definitions, std::set<std::string> kept = {})
       : definitions_(definitions), kept_(std::move(kept)) {}
+  /// In inputs and in symbols of the families kept.
   GiNaC::ex of(const GiNaC::ex& expression);
 
  private:

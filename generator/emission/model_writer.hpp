@@ -46,6 +46,7 @@ struct EmittedModel {
   std::map<std::string, std::string> files;  ///< name -> text: <name>.hpp, <name>.cpp
 };
 
+/// The model of one number of links as C++. Throws InputError for effects that exclude one another or the space.
 EmittedModel emit_model(const Description& description, int links, Layout layout,
                         FunctionSet set = FunctionSet::kAll);
 

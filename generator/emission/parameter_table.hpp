@@ -35,6 +35,7 @@ struct TableFamilies {
   std::vector<TableFamily<QuantityRow>> coordinates, states, signals;
 };
 
+/// Of this description.
 TableFamilies table_families(const Description& description);
 
 /// The same for `links` links, row by row.
@@ -43,6 +44,7 @@ struct ModelTable {
   std::vector<QuantityRow> coordinates, states, signals;
 };
 
+/// Of this description.
 ModelTable model_table(const Description& description, int links);
 
 /// Where a family of the derivation's inputs stands in a point.
@@ -53,6 +55,7 @@ struct InputPlace {
   int count;     ///< symbols of the family
   bool indexed;  ///< by link, from 1; else the one symbol has no index
 };
+/// Of all inputs of this description.
 std::vector<InputPlace> input_places(const Description& description, int links);
 
 /// What brings the derivation's inputs into an emitted function.

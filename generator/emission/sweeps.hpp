@@ -14,6 +14,7 @@ struct Sweep {
   int direction;  ///< +1 towards the tip, -1 towards the support, 0: not over links
   std::vector<size_t> families;
 
+  /// Whether a family, by its place in Families::all, is computed in it.
   bool has(size_t family) const {
     return std::find(families.begin(), families.end(), family) != families.end();
   }

@@ -18,6 +18,7 @@ struct ModelOptions {
   std::vector<std::string> effects;
 };
 
+/// Adds --description, --links, --effect and --yes to a command.
 void add_model_options(CLI::App& command, ModelOptions& options);
 
 /// --effect, and the effects it names. Throws InputError also for effects that exclude one another.

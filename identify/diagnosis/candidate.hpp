@@ -47,6 +47,7 @@ struct Candidate {
   std::vector<CandidateParameter> parameters;
   std::string unavailable;  ///< why it cannot be tried here; empty: it can
 
+  /// Indices into `parameters` of those with this role.
   std::vector<int> with_role(ParameterRole role) const;
 };
 

@@ -18,6 +18,7 @@ struct CandidateSearch {
   std::vector<std::string> effects;  ///< those of the library that are in the base already
   std::vector<NoiseModel> noise;     ///< of every experiment
 
+  /// Whether the base has an effect of this id already.
   bool in_base(const std::string& id) const;
   /// The base's case and unknowns with a candidate added, all its parameters free.
   std::shared_ptr<const Problem> problem_with(const Candidate& candidate) const;

@@ -42,6 +42,7 @@ struct Decision {
   double difference = 0;  ///< d, fitted and held-out parts
   double lead = 0;        ///< fall of the sum of squares from the worse to the better
 };
+/// `noise`: of every experiment.
 Decision decide(const FittedModel& better, const FittedModel& worse,
                 const std::vector<NoiseModel>& noise);
 

@@ -43,6 +43,7 @@ class DiagnosisContext {
                    std::filesystem::path folder, LeastSquares least_squares,
                    ProviderOptions provider);
 
+  /// All candidates; one by its id, null if there is none.
   const std::vector<Candidate>& library() const { return library_; }
   const Candidate* find(const std::string& id) const;
   /// Writes an effect file into the folder, and adds the effect to the library, which moves: for
@@ -85,6 +86,7 @@ class DiagnosisContext {
   void tell_best(const std::string& words);
   std::string best() const;
 
+  /// Whether somebody wants it to stop.
   bool stopped() const { return stop && stop->load(); }
   /// Throws Interrupted if somebody wants it to stop.
   void stop_if_asked() const {

@@ -23,6 +23,7 @@ enum class DiagnosisVerdict {
   kDiscovered,   ///< a law in no library, perhaps with other effects, perhaps beside a gap
   kUnexplained,  ///< a gap that nothing in the library closes
 };
+/// "none", "named", ... as in diagnosis.json.
 const char* name_of(DiagnosisVerdict verdict);
 
 /// One model on the way, and what was tried on it.

@@ -29,6 +29,7 @@ struct DiagnosisRecord {
   std::optional<Description> model;  ///< with the effects found; the case's own stays without any
   std::string law;  ///< the effect of `model` whose file is among `files`, or empty
 };
+/// Of a diagnosis that has ended; sealed parts are open in it.
 DiagnosisRecord record_of(const Diagnosis& found, const DiagnosisFindings& findings,
                           const DiagnosisContext& context);
 

@@ -16,6 +16,7 @@ struct DiagnosisFindings {
   ResidualPlaces places;                   ///< of the baseline
   std::vector<TellingExperiment> telling;  ///< one per alternative
 };
+/// Simulates the experiments that tell alternatives apart.
 DiagnosisFindings find_out(const Diagnosis& diagnosis);
 
 /// The verdict first, then the table of gaps, the effects with formula and parameters, the

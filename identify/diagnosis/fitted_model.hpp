@@ -48,6 +48,7 @@ double error_to_fit(const Problem& problem, const Eigen::VectorXd& x,
 /// The noise of every experiment, as the model's residuals show it: estimated_noise().
 std::vector<NoiseModel> noise_of(const FittedModel& model);
 
+/// What is left in the fitted part and in what is held out. `noise`: of every experiment.
 GapTest fit_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);
 GapTest held_out_gap(const FittedModel& model, const std::vector<NoiseModel>& noise);
 

@@ -28,6 +28,7 @@ struct GapTest {
   bool good_enough = false;  ///< the RMS is within what the case accepts
   long count = 0;            ///< residuals
 
+  /// The RMS over the noise level.
   double ratio() const { return noise > 0 ? rms / noise : 0; }
 };
 

@@ -34,6 +34,7 @@ struct PredictionError {
 
 struct PredictionErrors {
   PredictionError held_out, sealed;
+  /// Whether any part was predicted.
   bool known() const { return !std::isnan(held_out.observed) || !std::isnan(sealed.observed); }
 };
 

@@ -58,6 +58,7 @@ class ScoreTest {
   /// The same of every column of a matrix, at once: the fit's own columns are read once for all.
   Eigen::MatrixXd project_all(const Eigen::MatrixXd& columns) const;
 
+  /// The part of the residuals that no move of the fit's unknowns takes away.
   const Eigen::VectorXd& residual() const { return residual_; }
 
   // The same score for many other residuals, in steps.

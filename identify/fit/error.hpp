@@ -36,6 +36,7 @@ Residuals fitted_residuals(const Problem& problem, const Evaluation& evaluation)
 struct Distance {
   Eigen::Index first = 0, count = 0;
 };
+/// In the order of the residuals.
 std::vector<Distance> distances_of(const Problem& problem, const Residuals& residuals);
 
 /// What a fit should meet beside the measurements, each with a weight.

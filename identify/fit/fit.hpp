@@ -21,6 +21,7 @@ enum class FitStatus {
   kFailed,           ///< no evaluation succeeded, or the method could not leave its start
 };
 
+/// "converged", "evaluation limit", ... as in result files.
 const char* name_of(FitStatus status);
 
 /// One evaluation of the error, as it was made.

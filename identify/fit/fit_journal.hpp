@@ -12,6 +12,7 @@ namespace catena {
 /// failures, and knows when to stop (limits, interruption).
 class FitJournal {
  public:
+  /// `problem` and `options` must outlive it.
   FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations);
 
   /// The error at x and, if wanted, its gradient (gradient methods). Infinite where the simulation
@@ -30,10 +31,12 @@ class FitJournal {
 
   /// `reserved`: so many evaluations are to be left.
   bool must_stop(int reserved = 0);
+  /// Why must_stop() said so.
   FitStatus why_stopped() const { return why_; }
   void count_iteration() { ++result_.iterations; }
   const FitOptions& options() const { return options_; }
 
+  /// The best so far, with what was counted; kFailed where no evaluation succeeded, unless it was stopped.
   FitResult result(FitStatus status, const std::string& message);
 
  private:

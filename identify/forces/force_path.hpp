@@ -17,8 +17,10 @@ namespace catena {
 /// stiffness and damping run to their bounds beside them.
 class LatentUnknowns {
  public:
+  /// Priors about x; those of the case where it has some. `problem` must outlive it.
   LatentUnknowns(const Problem& problem, const Eigen::VectorXd& x);
 
+  /// Unknowns of all experiments, and those of one.
   const std::vector<Eigen::Index>& shared() const { return shared_; }
   std::vector<Eigen::Index> own(int experiment) const;
   /// Prior of these, relative to x.
@@ -69,6 +71,7 @@ class ForcePaths {
 
   /// Whether there is a motion: the simulation at x succeeded.
   bool ok() const { return !paths_.empty(); }
+  /// The unknowns of the problem; the motions; times of the nodes of one, s.
   const Eigen::VectorXd& x() const { return x_; }
   const std::vector<ForcePath>& paths() const { return paths_; }
   Eigen::Index coordinates() const { return problem_.model().coordinates(); }

@@ -47,6 +47,7 @@ struct LawTerm {
   double width = 0;   ///< of a step or an edge, in units of the half width
 };
 
+/// At u half widths from the middle.
 double value_of(const LawTerm& term, double u);
 
 /// Width of the step of a sign, over the variable's root mean square, and of the edge of a stop, over its standard
@@ -64,6 +65,7 @@ struct LawTermText {
   bool moment = false;          ///< whether it has one
   const char* slope = nullptr;  ///< of the energy, where a force may be over the tension
 };
+/// Of every kind there is one.
 const LawTermText& text_of(TermKind kind);
 
 /// A text with {x}, {z}, {q}, {n} replaced.
@@ -75,6 +77,7 @@ struct LawGrammar {
   std::vector<LawTerm> terms;
   std::vector<std::vector<int>> forms;
 };
+/// For a position, a distance, a joint's angle, a velocity or rate, an acceleration, and what relaxes.
 const LawGrammar& position_grammar();
 const LawGrammar& distance_grammar();
 const LawGrammar& angle_grammar();

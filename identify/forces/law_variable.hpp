@@ -81,6 +81,7 @@ struct LawNames {
   /// The variable in the language of effects; its square where only that has a formula.
   std::string symbols, squared;
 };
+/// As texts and effect files have them.
 LawNames names_of(const LawSite& site, LawVariable variable, bool in_space);
 
 /// A variable of a place in the language of effects, `offset` past the middle of a link.

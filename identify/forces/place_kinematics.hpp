@@ -34,6 +34,7 @@ struct PlaceKinematics {
   /// Of the position by the turns of the links, link by link; likewise of the velocity by how fast they turn.
   Eigen::MatrixXd by_turns;
 };
+/// `state`, `coordinates`: as in link_motion; 0 <= s <= length of the cable, m.
 PlaceKinematics place_kinematics(const Eigen::VectorXd& state, Eigen::Index coordinates,
                                  const LinkChain& chain, double s);
 

@@ -31,6 +31,7 @@ class PlaceSearch {
   /// The error of the camera that explains most about the motion last linearised.
   std::optional<MissingForce::Sensor> best_sensor() const;
 
+  /// The prior variance of the best, in the square of its unit.
   double best_variance() const { return best_variance_; }
   double none() const { return none_; }  ///< log evidence of no force
 

@@ -55,6 +55,7 @@ class DistanceCost : public ceres::CostFunction {
   /// What the offsets add to the cost.
   double all_offsets() const;
 
+  /// The interface of Ceres.
   bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override;
 
  private:

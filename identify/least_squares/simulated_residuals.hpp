@@ -23,12 +23,14 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
   /// rough one, of the same residuals, are believed.
   void refine();
 
+  /// The interface of Ceres.
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
 
   /// Calls `told` now and at every point whose derivatives Ceres is about to use. It says whether
   /// those of the next point are likely to be wanted, should that be good.
   void tell(std::function<bool()> told);
 
+  /// Whether the simulation succeeded; what it left.
   bool ok() const { return misfit_.ok; }
   const Residuals& residuals() const { return misfit_.residuals; }
   const SoftConstraints& constraints() const { return misfit_.constraints; }

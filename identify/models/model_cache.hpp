@@ -40,6 +40,7 @@ class ModelCache {
   /// ModelError if the folder is not to be trusted.
   explicit ModelCache(const std::filesystem::path& folder);
 
+  /// Where it is.
   const std::filesystem::path& folder() const { return folder_; }
 
   /// The model of an entry. Nothing if there is none, or only a damaged one (which is removed).

@@ -16,6 +16,7 @@ struct SmoothingKernel {
 
   int frames() const { return static_cast<int>(weights.size()); }
 };
+/// Those that are looked for; entry 0 is none.
 const std::vector<SmoothingKernel>& smoothing_kernels();
 
 /// The spectrum of noise in one channel, its variance being 1: white noise that went through an
@@ -24,6 +25,7 @@ struct NoiseShape {
   int kernel = 0;                    ///< in smoothing_kernels()
   std::vector<double> partial = {};  ///< partial autocorrelations of the autoregression
 
+  /// Its kernel; whether there is neither kernel nor autoregression.
   const SmoothingKernel& smoothing() const;
   bool white() const { return kernel == 0 && partial.empty(); }
   /// a of x(k) = a1 x(k-1) + a2 x(k-2) + ... + white noise, before the smoothing.
@@ -40,6 +42,7 @@ struct NoiseShape {
 class ExpectedPower {
  public:
   explicit ExpectedPower(int length);
+  /// At length / 2 + 1 frequencies.
   Eigen::VectorXd operator()(const NoiseShape& shape) const;
   const Eigen::VectorXd& taper() const { return taper_; }
 

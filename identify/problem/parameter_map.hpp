@@ -37,6 +37,7 @@ class ParameterMap {
   struct Range {
     double lower, upper;
   };
+  /// `parameter`: its index in the case.
   Range admitted(std::size_t parameter) const { return assignments_[parameter].admitted; }
 
   /// `values`: one per parameter of the case, in its order and unit. Returns the model's array.

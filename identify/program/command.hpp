@@ -28,6 +28,7 @@ struct CommonOptions {
   bool json = false;  ///< print the result file instead of tables
   bool yes = false;   ///< begin work above kMostUnasked (common/large_work.hpp), too
 };
+/// Adds CASE, --output, --quiet, --json and --yes to a command.
 void add_common_options(CLI::App& command, CommonOptions& options,
                         const std::string& default_ending);
 /// `unless_given` says in words what `threads` is now.
@@ -35,6 +36,7 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& unle
 
 /// True once the user pressed Ctrl-C. The second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();
+/// From now on Ctrl-C sets interrupted().
 void watch_for_interruption();
 /// Says on standard error that the user pressed Ctrl-C and what became of the work. Returns the exit
 /// status.
@@ -54,15 +56,18 @@ void show_warnings(const Problem& problem, const CommonOptions& options);
 /// Says on standard error where the energy balance of a simulation is off.
 void warn_of_energy(const Simulation& simulation);
 
+/// --output, or the name that stands for it.
 std::filesystem::path output_folder(const CommonOptions& options);
 
 /// Files of a result under their names.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;
+/// Puts them there, whole or not at all. Throws InputError where it cannot be written.
 void write_output(OutputFolder& output, const OutputFiles& files);
 
 /// positions.csv, angles.csv, forces.csv and energy.csv of the motions; where there are several
 /// experiments, positions_run_1.csv and so on, by the name of the experiment.
 std::vector<std::string> motion_file_names(const Problem& problem);
+/// The texts of these files for one experiment.
 void add_motion_files(const Problem& problem, int experiment, const Motion& motion,
                       OutputFiles& files);
 

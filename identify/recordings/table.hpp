@@ -16,6 +16,7 @@ struct Table {
   std::vector<std::vector<double>> columns;
   std::vector<int> lines;  ///< of the file, one per row; of what is handed in, the rows from 0
 
+  /// Lines of numbers; whether there is a column of this name.
   std::size_t rows() const { return lines.size(); }
   bool has(std::string_view name) const;
   /// Throws InputError naming the file and the nearest column.
