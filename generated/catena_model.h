@@ -37,7 +37,7 @@
 extern "C" {
 #endif
 
-#define CATENA_MODEL_ABI 3
+#define CATENA_MODEL_ABI 4
 #define CATENA_DIRECTIONS 4
 
 typedef struct catena_parameter {
@@ -188,8 +188,6 @@ typedef struct catena_model {
      values and rates enter no equation. apart[3 k]: from where each is held to its link's far end, m;
      rate[3 k]: its time derivative. */
   void (*gap)(const void* context, const catena_point* at, double* apart, double* rate);
-  void (*gap_tangent)(const void* context, const catena_point* at, const catena_point* along,
-                      double* dapart, double* drate);
 } catena_model;
 
 /* What a shared library holding one model exports. */

@@ -268,7 +268,6 @@ const ::catena_model& table() {
       nullptr,
       c_reactions,
       nullptr,
-      nullptr,
   };
   return model;
 }

@@ -275,7 +275,6 @@ const ::catena_model& table() {
       nullptr,
       c_reactions,
       nullptr,
-      nullptr,
   };
   return model;
 }

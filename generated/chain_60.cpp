@@ -667,7 +667,6 @@ const ::catena_model& table() {
       nullptr,
       c_reactions,
       nullptr,
-      nullptr,
   };
   return model;
 }

@@ -238,7 +238,6 @@ catena_model table(const Chain& chain) {
       nullptr,
       c_reactions,
       nullptr,
-      nullptr,
   };
 }
 

@@ -56,7 +56,6 @@ std::string fault_of(const catena_model* table) {
       table->positions && table->positions_tangent && table->velocities &&
       (for_fits || (table->residual_term && table->mass_matrix && table->bias && table->energy &&
                     table->internal_forces)) &&
-      (table->gap == nullptr || table->gap_tangent) &&
       (table->positions_across == nullptr ||
        (table->positions_across_tangent && table->velocities_across)) &&
       (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&

@@ -127,10 +127,6 @@ class Model {
   void gap(const catena_point& at, double* apart, double* rate) const {
     table_->gap(table_->context, &at, apart, rate);
   }
-  void gap_tangent(const catena_point& at, const catena_point& along, double* dapart,
-                   double* drate) const {
-    table_->gap_tangent(table_->context, &at, &along, dapart, drate);
-  }
   void velocities_across(const catena_point& at, double* across_rate) const {
     table_->velocities_across(table_->context, &at, across_rate);
   }

@@ -364,25 +364,18 @@ class Measurement {
         note("velocities", difference(velocity[axis][i], here_->of(chain_.rate(position))), speed);
       }
     }
-    if (table_.gap != nullptr) gap(size, size_of_change, speed);
+    if (table_.gap != nullptr) gap(size, speed);
   }
 
   // The sizes are those of positions.
-  void gap(double size, double size_of_change, double speed) {
-    const catena_point here = point_.at(), along = direction_.at();
+  void gap(double size, double speed) {
+    const catena_point here = point_.at();
     const std::vector<ex>& gaps = chain_.gap();
-    Values apart(gaps.size()), rate(gaps.size()), dapart(gaps.size()), drate(gaps.size());
+    Values apart(gaps.size()), rate(gaps.size());
     table_.gap(table_.context, &here, apart.data(), rate.data());
-    table_.gap_tangent(table_.context, &here, &along, dapart.data(), drate.data());
-    double size_of_rate_change = size_of_change + speed;
-    for (const double change : drate) size_of_rate_change += std::abs(change);
     for (std::size_t k = 0; k < gaps.size(); ++k) {
-      const ex& exact = gaps[k];
-      const ex exact_rate = chain_.rate(exact);
-      note("gap", difference(apart[k], here_->of(exact)), size + std::abs(apart[k]));
-      note("gap", difference(rate[k], here_->of(exact_rate)), speed + std::abs(rate[k]));
-      note("gap_tangent", difference(dapart[k], slope(exact)), size_of_change + size);
-      note("gap_tangent", difference(drate[k], slope(exact_rate)), size_of_rate_change);
+      note("gap", difference(apart[k], here_->of(gaps[k])), size + std::abs(apart[k]));
+      note("gap", difference(rate[k], here_->of(chain_.rate(gaps[k]))), speed + std::abs(rate[k]));
     }
   }
 

@@ -99,9 +99,6 @@ void FunctionBuilder::gap() {
   add_all("rate", [&](const ex& e) { return chain_.rate(e); });
   add("gap", "From where the end is held to the end of the last link, m, and its rate, m/s.",
       {at(), result("apart"), result("rate")}, body(outputs, at_));
-  add("gap_tangent", "Derivative of the gap along `along`.",
-      {at(), along(), change("dapart"), change("drate")},
-      body(tangents_of(outputs), at_and_along_));
 }
 
 void FunctionBuilder::sensor() {

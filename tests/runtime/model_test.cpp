@@ -76,7 +76,7 @@ TEST_CASE("what cannot be loaded is named with the reason") {
       {catena::tests::source_folder() / "CMakeLists.txt", "cannot be loaded"},
       {LOADABLE_WITHOUT_ENTRY, "does not export catena_model_table"},
       {LOADABLE_OTHER_ABI,
-       "interface version 1, this program needs version 3; derive and compile it again"},
+       "interface version 1, this program needs version 4; derive and compile it again"},
       {LOADABLE_SHORT, "its table has 64 bytes"},
       {LOADABLE_INCOMPLETE, "functions are missing"},
   };

@@ -263,6 +263,15 @@ struct Ring {
     }
   }
 
+  /// How the end of the last link moves, by axis.
+  Vector3d move_of_end(const catena_point& at, const catena_point& along) const {
+    const Index points = model.links() + 2;
+    MatrixXd moves(points, 3);
+    model.positions_tangent(at, along, moves.col(0).data(), moves.col(1).data());
+    model.positions_across_tangent(at, along, moves.col(2).data());
+    return moves.row(points - 2);
+  }
+
   /// The smallest second derivative of the energy along a shape that keeps the ends, but for turning the
   /// ring about the direction of its clamps, which changes nothing.
   double stiffness(double twist) {
@@ -290,8 +299,7 @@ struct Ring {
       model.residual_tangent(still, moved, column.data());
       stiffness.col(j) = column.head(links);
       model.state_rate_tangent(still, going, &row[j]);
-      Vector3d rate;
-      model.gap_tangent(still, moved, gap.col(j).data(), rate.data());
+      gap.col(j) = move_of_end(still, moved);
     }
     model.residual_tangent(
         still, {0, zero.data(), zero.data(), zero.data(), one.data(), zero.data(), zero.data()},
