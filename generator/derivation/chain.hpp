@@ -241,6 +241,10 @@ class Chain {
   struct Surroundings {
     ExpressionContext known;
     std::vector<Size> sizes;
+
+    void add(const std::string& name, const ex& value, const std::string& unit) {
+      known.add(name, value, Unit::parse(unit));
+    }
   };
   Surroundings surroundings(const Effect& effect, Knowledge knowledge, Place place, Link i);
   void add_definitions(const Effect& effect, Knowledge knowledge, Place place, Surroundings& here);

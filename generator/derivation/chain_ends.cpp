@@ -162,8 +162,8 @@ void Chain::clamp_end(const Effect& effect) {
     ex value = usual;
     if (given.given()) {
       Surroundings here = surroundings(effect, kShape, Place::kAnywhere, 0);
-      here.known.add("stiffness", stiffness_[links_] * shorter, Unit::parse("N m/rad"));
-      here.known.add("damping", damping_[links_] * shorter, Unit::parse("N m s/rad"));
+      here.add("stiffness", stiffness_[links_] * shorter, "N m/rad");
+      here.add("damping", damping_[links_] * shorter, "N m s/rad");
       add_definitions(effect, kShape, Place::kAnywhere, here);
       value = parse_expression(given, here.known, Unit::parse(unit));
     }

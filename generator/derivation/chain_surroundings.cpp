@@ -46,7 +46,7 @@ void Chain::add_size(Surroundings& here, const std::string& name, const char* un
   ex square = 0;
   for (const ex& component : components) square += component * component;
   const GiNaC::realsymbol placeholder("square_of_" + name);
-  here.known.add(name, GiNaC::sqrt(placeholder), Unit::parse(unit));
+  here.add(name, GiNaC::sqrt(placeholder), unit);
   here.sizes.push_back({name, placeholder, square, square, direction});
 }
 
@@ -77,9 +77,8 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
   velocity.resize(3), direction.resize(3);
   const char* const axis_names[] = {"side", "down", "across"};
   for (std::size_t k = 0; k < 3; ++k) {
-    here.known.add(std::string("direction_") + axis_names[k], direction[k], Unit::parse("1"));
-    here.known.add(std::string("direction_rate_") + axis_names[k], time_.of(direction[k]),
-                   Unit::parse("1/s"));
+    here.add(std::string("direction_") + axis_names[k], direction[k], "1");
+    here.add(std::string("direction_rate_") + axis_names[k], time_.of(direction[k]), "1/s");
   }
   // v x e about side, down and across, and e x (v x e)
   const auto add_normal = [&](const std::string& name, const std::string& family,
@@ -101,25 +100,23 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
   if (in_plane()) {
-    here.known.add("velocity_normal", velocity[0] * cosine_[link] - velocity[1] * sine_[link],
-                   Unit::parse("m/s"));
-    here.known.add("velocity_tangential", dot(velocity, direction), Unit::parse("m/s"));
+    here.add("velocity_normal", velocity[0] * cosine_[link] - velocity[1] * sine_[link], "m/s");
+    here.add("velocity_tangential", dot(velocity, direction), "m/s");
   } else {
     add_normal("velocity_normal", "crossing_", velocity, quasi_velocity);
     const ex tangential = quasi_velocity("tangential_velocity", dot(velocity, direction));
     here.sizes.back().in_energy = dot(velocity, velocity) - tangential * tangential;
-    here.known.add("velocity_tangential", tangential, Unit::parse("m/s"));
+    here.add("velocity_tangential", tangential, "m/s");
   }
   if (!effect.flow.given()) return;
 
   const std::vector<ex> fluid = flow(effect, place, i);
   std::vector<ex> relative;
   for (std::size_t k = 0; k < 3; ++k) relative.push_back(velocity[k] - fluid[k]);
-  here.known.add("relative_tangential", dot(relative, direction), Unit::parse("m/s"));
+  here.add("relative_tangential", dot(relative, direction), "m/s");
   // In the plane a flow across it adds to the size of the relative velocity.
   if (in_plane() && fluid[kAcross].is_zero()) {
-    here.known.add("relative_normal", relative[0] * cosine_[link] - relative[1] * sine_[link],
-                   Unit::parse("m/s"));
+    here.add("relative_normal", relative[0] * cosine_[link] - relative[1] * sine_[link], "m/s");
   } else {
     add_normal("relative_normal", effect.id + "_crossing_", relative,
                [&](const std::string& family, const ex& value) {
@@ -136,53 +133,47 @@ std::vector<ex> Chain::by_axis(const Points& points, Link link) const {
 
 // Parameters, constants and signals of the effect, by the names it gave them.
 void Chain::add_own(const Effect& effect, Link i, Surroundings& here) {
-  const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
-    here.known.add(name, value, Unit::parse(unit));
-  };
   for (const EffectParameter& parameter : effect.parameters) {
     // A parameter per joint or link has no value at the load and at the support.
     if (parameter.scope != Scope::kModel && i == 0) continue;
-    add(parameter.name, effect_parameter(effect, parameter, i), parameter.unit);
+    here.add(parameter.name, effect_parameter(effect, parameter, i), parameter.unit);
   }
   for (const Constant& constant : effect.constants)
-    add(constant.name, exact_number(constant.text), constant.unit);
+    here.add(constant.name, exact_number(constant.text), constant.unit);
   for (const SignalChannel& signal : effect.signals) {
     const std::string name = effect.id + "_" + signal.name;
-    add(signal.name, definitions_.input(name), signal.unit);
-    add(signal.name + "_rate", definitions_.input(name + "_rate"), signal.unit + "/s");
-    add(signal.name + "_acceleration", definitions_.input(name + "_acceleration"),
-        signal.unit + "/s^2");
+    here.add(signal.name, definitions_.input(name), signal.unit);
+    here.add(signal.name + "_rate", definitions_.input(name + "_rate"), signal.unit + "/s");
+    here.add(signal.name + "_acceleration", definitions_.input(name + "_acceleration"),
+             signal.unit + "/s^2");
   }
 }
 
 // Where the place is and, if motion is known, how it moves, by itself and relative to the fluid.
 void Chain::add_point(const Effect& effect, bool motion, Place place, Link i, Surroundings& here) {
-  const auto add = [&](const std::string& name, const ex& value, const char* unit) {
-    here.known.add(name, value, Unit::parse(unit));
-  };
   std::vector<ex> point = point_at(place, i);
   point.resize(3);
-  add("side", point[kSide], "m");
-  add("down", point[kDown], "m");
+  here.add("side", point[kSide], "m");
+  here.add("down", point[kDown], "m");
   // An effect may have a name `across` of its own.
-  if (!here.known.symbols.contains("across")) add("across", point[kAcross], "m");
-  add("depth", cos_tilt_ * point[kDown] + sin_tilt_ * point[kSide], "m");
+  if (!here.known.symbols.contains("across")) here.add("across", point[kAcross], "m");
+  here.add("depth", cos_tilt_ * point[kDown] + sin_tilt_ * point[kSide], "m");
   if (!motion) return;
   std::vector<ex> fluid(3);
   if (effect.flow.given()) fluid = flow(effect, place, i);
   const char* axis_names[] = {"side", "down", "across"};
   for (std::size_t k = 0; k < 3; ++k) {
     const ex velocity = time_.of(point[k]);
-    add(std::string("velocity_") + axis_names[k], velocity, "m/s");
+    here.add(std::string("velocity_") + axis_names[k], velocity, "m/s");
     if (effect.flow.given())
-      add(std::string("relative_") + axis_names[k], velocity - fluid[k], "m/s");
+      here.add(std::string("relative_") + axis_names[k], velocity - fluid[k], "m/s");
   }
 }
 
 void Chain::add_angle_of_link(Link link, Surroundings& here) {
   if (in_plane()) {
-    here.known.add("angle", theta_[link], Unit::parse("rad"));
-    here.known.add("rate", theta_dot_[link], Unit::parse("rad/s"));
+    here.add("angle", theta_[link], "rad");
+    here.add("rate", theta_dot_[link], "rad/s");
   } else {
     add_size(here, "rate", "rad/s", by_axis(link_turning_, link));
   }
@@ -190,14 +181,11 @@ void Chain::add_angle_of_link(Link link, Surroundings& here) {
 
 // The angle of a joint, its rate, the states it carries and the tension there.
 void Chain::add_motion_of_joint(const Effect& effect, Link i, Surroundings& here) {
-  const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
-    here.known.add(name, value, Unit::parse(unit));
-  };
   if (!steady_tension_.empty())
-    add(kSteadyTension, steady_tension_[static_cast<std::size_t>(i)], "N");
+    here.add(kSteadyTension, steady_tension_[static_cast<std::size_t>(i)], "N");
   if (in_plane()) {
-    add("joint_angle", joint_angle_[i], "rad");
-    add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
+    here.add("joint_angle", joint_angle_[i], "rad");
+    here.add("joint_rate", time_.of(joint_angle_[i]), "rad/s");
   } else {
     add_size(here, "joint_angle", "rad", {});
     here.sizes.back().square = here.sizes.back().in_energy = squared_angle(joint_cosine_[i]);
@@ -210,7 +198,7 @@ void Chain::add_motion_of_joint(const Effect& effect, Link i, Surroundings& here
     for (const std::string& component : state_components())
       symbols.push_back(effect_symbols_.at(effect.id + "." + state.name + component)[i]);
     if (in_plane()) {
-      add(state.name, symbols.front(), state.unit);
+      here.add(state.name, symbols.front(), state.unit);
     } else {
       add_size(here, state.name, state.unit.c_str(), symbols, symbols);
     }
@@ -220,49 +208,46 @@ void Chain::add_motion_of_joint(const Effect& effect, Link i, Surroundings& here
 Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledge, Place place,
                                         Link i) {
   Surroundings here;
-  const auto add = [&](const std::string& name, const ex& value, const std::string& unit) {
-    here.known.add(name, value, Unit::parse(unit));
-  };
-  add("time", time_symbol_, "s");
-  add("gravity", gravity_, "m/s^2");
+  here.add("time", time_symbol_, "s");
+  here.add("gravity", gravity_, "m/s^2");
   add_own(effect, i, here);
   const bool motion = knowledge == kMotion;
   if (place == Place::kLink || place == Place::kLinkCentre) {
-    add("length", length_[i], "m");
-    add("mass", mass_[i], "kg");
-    add("inertia", inertia_[i], "kg m^2");
-    add("arc", arc_[i - 1] + length_[i] / 2, "m");
+    here.add("length", length_[i], "m");
+    here.add("mass", mass_[i], "kg");
+    here.add("inertia", inertia_[i], "kg m^2");
+    here.add("arc", arc_[i - 1] + length_[i] / 2, "m");
     for (const Coordinate& coordinate : effect.coordinates) {
       if (coordinate.at == Place::kLoad) continue;
       const ex symbol = effect_symbols_.at(effect.id + "." + coordinate.name)[i];
-      add(coordinate.name, symbol, coordinate.unit);
-      add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
+      here.add(coordinate.name, symbol, coordinate.unit);
+      here.add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
     }
     if (motion) add_angle_of_link(i, here);
     if (knowledge != kShape && place == Place::kLinkCentre)
       add_point(effect, motion, place, i, here);
     if (motion && place == Place::kLinkCentre) add_motion_along_link(effect, place, i, here);
   } else if (place == Place::kJoint || place == Place::kPivot) {
-    add("stiffness", stiffness_[i], "N m/rad");
-    add("damping", damping_[i], "N m s/rad");
-    add("arc", arc_[i - 1], "m");
-    add("spacing", spacing(i), "m");
+    here.add("stiffness", stiffness_[i], "N m/rad");
+    here.add("damping", damping_[i], "N m s/rad");
+    here.add("arc", arc_[i - 1], "m");
+    here.add("spacing", spacing(i), "m");
     if (knowledge != kShape) add_point(effect, motion, place, i, here);
     if (motion) add_motion_of_joint(effect, i, here);
   } else if (place == Place::kLoad) {
     for (const Coordinate& coordinate : effect.coordinates) {
       if (coordinate.at != Place::kLoad) continue;
       const ex symbol = effect_symbols_.at(effect.id + "." + coordinate.name)[0];
-      add(coordinate.name, symbol, coordinate.unit);
-      if (motion) add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
+      here.add(coordinate.name, symbol, coordinate.unit);
+      if (motion) here.add(coordinate.name + "_rate", time_.of(symbol), coordinate.unit + "/s");
     }
     if (knowledge == kShape) return here;
     if (motion) {
       for (const ExtraState& state : effect.states)
         if (state.at == Place::kLoad)
-          add(state.name, effect_symbols_.at(effect.id + "." + state.name)[0], state.unit);
+          here.add(state.name, effect_symbols_.at(effect.id + "." + state.name)[0], state.unit);
     }
-    add("load_mass", load_mass_, "kg");
+    here.add("load_mass", load_mass_, "kg");
     if (motion) add_angle_of_link(links_, here);
     add_point(effect, motion, place, i, here);
     if (motion) add_motion_along_link(effect, place, i, here);
