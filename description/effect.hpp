@@ -51,6 +51,9 @@ struct EffectParameter {
   /// What a value above, or below, the neutral one says is wrong with the case, with {} in place of
   /// how far it is from there: "the load is {} heavier than the case says". Empty: nothing.
   std::string above, below;
+  /// Another parameter of the effect, which this one does not exceed; empty: none. Both have one value for the
+  /// whole model and the same unit, lower bound and neutral value. A diagnosis goes by it, a case need not.
+  std::string at_most;
 };
 
 /// A fixed number with a unit. `text` is the decimal number as written, so that it stays exact.

@@ -213,7 +213,8 @@ class EffectReader {
   }
 
   void read_parameters() {
-    for (const auto& [name, table] : file_.named_tables("parameters")) {
+    const auto tables = file_.named_tables("parameters");
+    for (const auto& [name, table] : tables) {
       EffectParameter parameter;
       parameter.name = name;
       add_name(table, "", name);
@@ -228,8 +229,33 @@ class EffectReader {
           static_cast<Scope>(table.choice("scope", {"model", "joint", "link"}, false));
       check_bounds(table, parameter);
       read_sentences(table, parameter);
+      parameter.at_most = table.optional_text("at_most").value_or("");
       effect_.parameters.push_back(parameter);
     }
+    for (const auto& [name, table] : tables) check_order(table, name);
+  }
+
+  /// Refuses an order of two parameters that cannot be compared, or of which one stands in another order.
+  void check_order(const TomlTable& table, const std::string& name) const {
+    const auto find = [&](const std::string& of) {
+      return std::find_if(effect_.parameters.begin(), effect_.parameters.end(),
+                          [&](const EffectParameter& each) { return each.name == of; });
+    };
+    const EffectParameter& lesser = *find(name);
+    if (lesser.at_most.empty()) return;
+    const auto greater = find(lesser.at_most);
+    if (greater == effect_.parameters.end() || greater->name == name)
+      table.fail("at_most", in_quotes(lesser.at_most) + " is no other parameter of this effect");
+    if (greater->unit != lesser.unit || greater->lower != lesser.lower ||
+        greater->neutral != lesser.neutral || greater->scope != Scope::kModel ||
+        lesser.scope != Scope::kModel)
+      table.fail("at_most", in_quotes(greater->name) +
+                                " needs the same unit, lower bound and neutral value, and both one "
+                                "value for the whole model");
+    for (const EffectParameter& each : effect_.parameters)
+      if (!each.at_most.empty() && each.name != name &&
+          (each.name == greater->name || each.at_most == greater->name || each.at_most == name))
+        table.fail("at_most", "a parameter stands in one order only");
   }
 
   static void read_sentences(const TomlTable& table, EffectParameter& parameter) {

@@ -62,7 +62,8 @@ struct ParameterSpec {
   Scale scale = Scale::kLinear;
   double measured = kNotGiven;            ///< before the fit, in another way; with
   double standard_deviation = kNotGiven;  ///< a prior of the fit; NaN: none
-  std::string where;                      ///< "case.toml:12", for messages
+  std::string at_most;  ///< name of a parameter that it does not exceed; empty: none
+  std::string where;    ///< "case.toml:12", for messages
 
   /// Its value in the experiment (or window) of that name.
   double value_in(const std::string& experiment) const {

@@ -102,6 +102,7 @@ ParameterSpec read_parameter(const TomlTable& table) {
                    "; what is not known exactly is fitted: say free = true, too");
   if (!std::isnan(parameter.standard_deviation))
     parameter.measured = table.optional_number("measured").value_or(parameter.value);
+  parameter.at_most = in_a_line(table.optional_text("at_most").value_or(""));
   const bool strictly_positive = parameter.lower > 0;
   parameter.scale = strictly_positive ? Scale::kLogarithmic : Scale::kLinear;
   if (table.has("scale")) parameter.scale = static_cast<Scale>(table.choice("scale", kScaleWords));
@@ -149,6 +150,35 @@ void check_priors(const std::vector<TomlTable>& tables, const Case& the_case) {
                            "; it is weighed against the noise, and experiment " +
                            in_quotes(experiment.name) +
                            " states none; give its noise, or noise = \"estimated\" in [error]");
+  }
+}
+
+/// Refuses an order of two parameters that cannot be compared, or of which one stands in another order.
+void check_orders(const std::vector<TomlTable>& tables, const Case& the_case) {
+  const std::vector<ParameterSpec>& all = the_case.parameters;
+  for (std::size_t j = 0; j < tables.size(); ++j) {
+    const ParameterSpec& lesser = all[j];
+    if (lesser.at_most.empty()) continue;
+    const auto greater = std::find_if(all.begin(), all.end(), [&](const ParameterSpec& each) {
+      return each.name == lesser.at_most;
+    });
+    if (greater == all.end() || greater->name == lesser.name)
+      tables[j].fail("at_most", in_quotes(lesser.at_most) + " is no other parameter of this case");
+    for (const ParameterSpec* each : {&lesser, &*greater})
+      if (each->scale != Scale::kLinear || each->per_experiment || each->lower != lesser.lower ||
+          each->factor != lesser.factor)
+        tables[j].fail("at_most",
+                       "goes with two parameters of linear scale, of the same lower "
+                       "bound and factor, and neither per_experiment");
+    if (lesser.value > greater->value)
+      tables[j].fail("at_most", "value = " + shortest_number(lesser.value) +
+                                    " is more than that of " + in_quotes(greater->name) + ", " +
+                                    shortest_number(greater->value));
+    for (const ParameterSpec& each : all)
+      if (!each.at_most.empty() && each.name != lesser.name &&
+          (each.name == greater->name || each.at_most == greater->name ||
+           each.at_most == lesser.name))
+        tables[j].fail("at_most", "a parameter stands in one order only");
   }
 }
 
@@ -215,6 +245,7 @@ Case read(const TomlTable& file, const std::filesystem::path& path,
                         " states none; give its noise, or noise = \"estimated\" in [error]");
   }
   check_priors(parameters, the_case);
+  check_orders(parameters, the_case);
   if (const auto table = file.optional_table("optimiser"))
     the_case.optimiser = read_optimiser(*table);
   if (const auto table = file.optional_table("simulation"))

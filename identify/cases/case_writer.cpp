@@ -81,6 +81,7 @@ void write_parameter(Writer& out, const ParameterSpec& parameter) {
   out.number("factor", parameter.factor, 1);
   out.number("measured", parameter.measured);
   out.number("standard_deviation", parameter.standard_deviation);
+  out.text("at_most", parameter.at_most);
   out.flag("per_experiment", parameter.per_experiment);
   std::string values;
   for (const auto& [experiment, value] : parameter.values)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "identify/problem/ordered_unknowns.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace catena {
@@ -12,19 +13,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-BoundedFit::BoundedFit(const Problem& problem, const VectorXd& x, const MatrixXd& along)
-    : scale_(along.colwise().norm().transpose()), low_(x.size()), high_(x.size()) {
+BoundedFit::BoundedFit(const Problem& problem, const VectorXd& x, MatrixXd along)
+    : unknowns_(problem.unknowns()) {
+  differentiate_apart(unknowns_, along);
+  scale_ = along.colwise().norm().transpose();
   for (double& size : scale_)
     if (size == 0) size = 1;
   const MatrixXd scaled = along * scale_.cwiseInverse().asDiagonal();
   constexpr double kAccuracyOfDerivatives = 1e-6;
   range_ = orthonormal_basis(scaled, kAccuracyOfDerivatives);
   triangle_ = range_.transpose() * scaled;
-  for (Index j = 0; j < x.size(); ++j) {
-    const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
-    low_[j] = std::min(0.0, unknown.least - x[j]) * scale_[j];
-    high_[j] = std::max(0.0, unknown.most - x[j]) * scale_[j];
-  }
+  const UnknownBounds bounds = bounds_apart(unknowns_);
+  const VectorXd here = apart(unknowns_, x);
+  low_ = (bounds.lower - here).cwiseMin(0).cwiseProduct(scale_);
+  high_ = (bounds.upper - here).cwiseMax(0).cwiseProduct(scale_);
 }
 
 VectorXd BoundedFit::operator()(const VectorXd& error) const {
@@ -40,7 +42,7 @@ VectorXd BoundedFit::operator()(const VectorXd& error) const {
     if (std::erase_if(free, beyond) == 0) break;
     change = change.cwiseMax(low_).cwiseMin(high_);
   }
-  return change.cwiseQuotient(scale_);
+  return changes_together(unknowns_, change.cwiseQuotient(scale_));
 }
 
 double BoundedFit::left(const VectorXd& error) const {

@@ -12,7 +12,7 @@ namespace catena {
 class BoundedFit {
  public:
   /// `along`: derivatives of what is left by the unknowns, at `x`.
-  BoundedFit(const Problem& problem, const Eigen::VectorXd& x, const Eigen::MatrixXd& along);
+  BoundedFit(const Problem& problem, const Eigen::VectorXd& x, Eigen::MatrixXd along);
 
   /// The change of the unknowns that explains an error best, the least |along change - error|.
   Eigen::VectorXd operator()(const Eigen::VectorXd& error) const;
@@ -21,7 +21,8 @@ class BoundedFit {
   double left(const Eigen::VectorXd& error) const;
 
  private:
-  Eigen::VectorXd scale_, low_, high_;
+  std::vector<Unknown> unknowns_;
+  Eigen::VectorXd scale_, low_, high_;  // of the unknowns apart (ordered_unknowns.hpp)
   Eigen::MatrixXd range_, triangle_;
 };
 

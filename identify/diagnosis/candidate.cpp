@@ -84,6 +84,10 @@ Candidate candidate_of(Effect effect) {
         candidate.parameters[i].amplitude = j;
     if (candidate.parameters[i].amplitude < 0) candidate.parameters[i].role = ParameterRole::kShape;
   }
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    for (std::size_t j = 0; j < candidate.parameters.size(); ++j)
+      if (effect.parameters[j].name == effect.parameters[i].at_most)
+        candidate.parameters[i].at_most = static_cast<int>(j);
   if (!effect.signals.empty())
     candidate.unavailable = "needs a measured series as its input";
   else if (candidate.with_role(ParameterRole::kAmplitude).empty() &&

@@ -28,7 +28,8 @@ struct CandidateParameter {
   double neutral = 0;  ///< kAmplitude only
   double value = 0;    ///< where the search for it starts: the default or the neutral value
   ParameterRole role = ParameterRole::kAmplitude;
-  int amplitude = -1;            ///< kPhase: the amplitude it belongs to
+  int amplitude = -1;  ///< kPhase: the amplitude it belongs to
+  int at_most = -1;    ///< kAmplitude: another one, which this one does not exceed; -1: none
   double deviation = kNotGiven;  ///< kAmplitude: of a normal prior about `neutral`; NaN: none
 };
 

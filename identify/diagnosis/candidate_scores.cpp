@@ -59,11 +59,26 @@ const CandidateParameter& parameter(const Candidate& candidate, int index) {
   return candidate.parameters[static_cast<std::size_t>(index)];
 }
 
+/// Calls `visit` with the columns of two amplitudes of which the first does not exceed the second. Amplitudes
+/// with phases stand in no order.
+template <class Visit>
+void for_each_order(const Candidate& candidate, const std::vector<int>& amplitudes,
+                    const Visit& visit) {
+  if (!candidate.with_role(ParameterRole::kPhase).empty()) return;
+  for (std::size_t a = 0; a < amplitudes.size(); ++a)
+    for (std::size_t b = 0; b < amplitudes.size(); ++b)
+      if (parameter(candidate, amplitudes[a]).at_most == amplitudes[b])
+        visit(static_cast<Index>(a), static_cast<Index>(b));
+}
+
 /// The score of a candidate at one shape, from its derivatives at phase zero and, if it has phases,
-/// at a quarter of a turn.
-ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, const MatrixXd& at_zero,
+/// at a quarter of a turn. Of two amplitudes of which one does not exceed the other, the greater one counts by
+/// how much it is greater: so each has bounds of its own.
+ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, MatrixXd at_zero,
                       const MatrixXd* at_quarter, const VectorXd& shape) {
   const std::vector<int> amplitudes = candidate.with_role(ParameterRole::kAmplitude);
+  for_each_order(candidate, amplitudes,
+                 [&](Index lesser, Index greater) { at_zero.col(lesser) += at_zero.col(greater); });
   ScoredStart scored;
   scored.shape = shape;
   for (std::size_t a = 0; a < amplitudes.size(); ++a) {
@@ -79,13 +94,16 @@ ScoredStart scored_at(ScoreTest& test, const Candidate& candidate, const MatrixX
   }
   scored.score = test.score(scored.columns);
   if (!scored.score.admissible) return scored;
+  VectorXd value = scored.score.estimate;  // of each amplitude, less its neutral value
+  for_each_order(candidate, amplitudes,
+                 [&](Index lesser, Index greater) { value[greater] += value[lesser]; });
   const VectorXd& estimate = scored.score.estimate;
   scored.moves = VectorXd::Zero(at_zero.rows());
   for (std::size_t a = 0; a < amplitudes.size(); ++a) {
     const CandidateParameter& p = parameter(candidate, amplitudes[a]);
     const auto column = static_cast<Index>(a);
     if (!at_quarter) {
-      scored.start.of_effect.emplace_back(p.name, p.neutral + estimate[column]);
+      scored.start.of_effect.emplace_back(p.name, p.neutral + value[column]);
       scored.moves += estimate[column] * at_zero.col(column);
       continue;
     }

@@ -99,6 +99,8 @@ Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates
         spec.measured = parameter.neutral;
         spec.standard_deviation = parameter.deviation;
       }
+      if (parameter.at_most >= 0)
+        spec.at_most = candidate.parameters[static_cast<std::size_t>(parameter.at_most)].name;
       if (parameter.role == ParameterRole::kLimit) spec.scale = Scale::kLogarithmic;
       result.parameters.push_back(spec);
     }

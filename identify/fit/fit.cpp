@@ -13,15 +13,6 @@
 namespace catena {
 namespace {
 
-/// d(unknown)/d(scaled unknown): the unknown itself where the scale is logarithmic.
-Eigen::VectorXd scale_slopes(const Problem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd slopes = Eigen::VectorXd::Ones(x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j)
-    if (problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic)
-      slopes[j] = x[j];
-  return slopes;
-}
-
 Eigen::VectorXd first_steps(const Problem& problem, const Eigen::VectorXd& start) {
   const double step = problem.the_case().optimiser.initial_step;
   Eigen::VectorXd steps(start.size());
@@ -47,13 +38,9 @@ FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
 
   MinimiserOptions settings;
   settings.method = spec.method;
-  Eigen::VectorXd lower(start.size()), upper(start.size());
-  for (Eigen::Index j = 0; j < start.size(); ++j) {
-    lower[j] = problem.unknowns()[static_cast<std::size_t>(j)].least;
-    upper[j] = problem.unknowns()[static_cast<std::size_t>(j)].most;
-  }
-  settings.lower = to_scaled(problem, lower);
-  settings.upper = to_scaled(problem, upper);
+  const UnknownBounds bounds = scaled_bounds(problem);
+  settings.lower = bounds.lower;
+  settings.upper = bounds.upper;
   if (!gradient_wanted) settings.first_steps = first_steps(problem, start);
   settings.x_tolerance = spec.tolerance;
   settings.value_tolerance = gradient_wanted ? 1e-2 * spec.tolerance : spec.tolerance;
@@ -61,7 +48,11 @@ FitResult fit_by_nlopt(const Problem& problem, const FitOptions& options) {
   const Objective error = [&](const Eigen::VectorXd& y, Eigen::VectorXd* gradient) {
     const Eigen::VectorXd x = from_scaled(problem, y);
     const double value = journal.evaluate(x, gradient);
-    if (gradient) gradient->array() *= scale_slopes(problem, x).array();
+    if (gradient) {
+      Eigen::MatrixXd slopes = gradient->transpose();
+      scale_derivatives(problem, x, slopes);
+      *gradient = slopes.transpose();
+    }
     return value;
   };
   const Minimum found = minimise(error, to_scaled(problem, start), settings);
@@ -90,7 +81,7 @@ const char* name_of(FitStatus status) {
 }
 
 Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y = x;
+  Eigen::VectorXd y = apart(problem.unknowns(), x);
   for (Eigen::Index j = 0; j < x.size(); ++j)
     if (problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic)
       y[j] = std::log(x[j]);
@@ -105,7 +96,26 @@ Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y) {
     if (unknown.scale == Scale::kLogarithmic)
       x[j] = std::clamp(std::exp(y[j]), unknown.least, unknown.most);
   }
-  return x;
+  return together(problem.unknowns(), x);
+}
+
+UnknownBounds scaled_bounds(const Problem& problem) {
+  UnknownBounds bounds = bounds_apart(problem.unknowns());
+  for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
+    if (problem.unknowns()[j].scale == Scale::kLinear) continue;
+    for (Eigen::VectorXd* each : {&bounds.lower, &bounds.upper}) {
+      double& bound = (*each)[static_cast<Eigen::Index>(j)];
+      bound = std::log(bound);
+    }
+  }
+  return bounds;
+}
+
+void scale_derivatives(const Problem& problem, const Eigen::VectorXd& x, Eigen::MatrixXd& columns) {
+  differentiate_apart(problem.unknowns(), columns);
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    if (problem.unknowns()[static_cast<std::size_t>(j)].scale == Scale::kLogarithmic)
+      columns.col(j) *= x[j];
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "identify/problem/ordered_unknowns.hpp"
 #include "identify/problem/problem.hpp"
 
 namespace catena {
@@ -112,9 +113,14 @@ const char* strategy_of(const Problem& problem);
 /// Throws InputError unless there are unknowns and data to fit them to.
 void check_fittable(const Problem& problem);
 
-/// The unknowns as the methods move them: those of logarithmic scale as their logarithms.
+/// The unknowns as the methods move them: those of logarithmic scale as their logarithms, and of two of which
+/// one does not exceed the other, the greater one less that (ordered_unknowns.hpp).
 Eigen::VectorXd to_scaled(const Problem& problem, const Eigen::VectorXd& x);
 /// From there back to the unknowns, within their bounds.
 Eigen::VectorXd from_scaled(const Problem& problem, const Eigen::VectorXd& y);
+/// The bounds between which they move.
+UnknownBounds scaled_bounds(const Problem& problem);
+/// Derivatives by the unknowns, one column each, as those by what the methods move.
+void scale_derivatives(const Problem& problem, const Eigen::VectorXd& x, Eigen::MatrixXd& columns);
 
 }  // namespace catena

@@ -35,12 +35,12 @@ std::vector<Eigen::VectorXd> start_points(const Problem& problem, int count, uns
   const auto drawn = static_cast<std::size_t>(count - 1);
   std::vector<Eigen::VectorXd> points(static_cast<std::size_t>(count),
                                       to_scaled(problem, problem.start()));
+  const UnknownBounds bounds = scaled_bounds(problem);
   for (std::size_t j = 0; j < problem.unknowns().size(); ++j) {
     const Unknown& unknown = problem.unknowns()[j];
     const std::vector<std::size_t> cell = shuffled(drawn, generator);
-    const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    const double lower = logarithmic ? std::log(unknown.least) : unknown.least;
-    const double upper = logarithmic ? std::log(unknown.most) : unknown.most;
+    const double lower = bounds.lower[static_cast<Eigen::Index>(j)];
+    const double upper = bounds.upper[static_cast<Eigen::Index>(j)];
     for (std::size_t i = 0; i < drawn; ++i) {
       const double place =
           (static_cast<double>(cell[i]) + uniform(generator)) / static_cast<double>(drawn);

@@ -167,13 +167,12 @@ constexpr double kReach = 2;
 /// Of the scaled unknowns.
 DistanceCost::Box box_of(const Problem& problem) {
   const auto unknowns = static_cast<Index>(problem.unknowns().size());
-  DistanceCost::Box box{VectorXd(unknowns), VectorXd(unknowns), VectorXd(unknowns)};
+  UnknownBounds bounds = scaled_bounds(problem);
+  DistanceCost::Box box{std::move(bounds.lower), std::move(bounds.upper), VectorXd(unknowns)};
   for (Index j = 0; j < unknowns; ++j) {
     const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
-    const bool logarithmic = unknown.scale == Scale::kLogarithmic;
-    box.lower[j] = logarithmic ? std::log(unknown.least) : unknown.least;
-    box.upper[j] = logarithmic ? std::log(unknown.most) : unknown.most;
-    box.reach[j] = logarithmic ? kReach : std::numeric_limits<double>::infinity();
+    box.reach[j] =
+        unknown.scale == Scale::kLogarithmic ? kReach : std::numeric_limits<double>::infinity();
   }
   return box;
 }

@@ -49,7 +49,7 @@ void SimulatedResiduals::simulate(bool jacobian) {
   misfit_.ok = misfit.ok;
   if (!misfit_.ok) return;
   misfit_ = std::move(misfit);
-  if (jacobian) scale_derivatives(x);
+  if (jacobian) change_derivatives(x);
 }
 
 void SimulatedResiduals::refine() {
@@ -66,18 +66,23 @@ void SimulatedResiduals::refine() {
 }
 
 /// From derivatives by the unknowns to those by what Ceres moves.
-void SimulatedResiduals::scale_derivatives(const Eigen::VectorXd& x) {
+void SimulatedResiduals::change_derivatives(const Eigen::VectorXd& x) {
   Eigen::VectorXd gradient;
   error_and_gradient(problem_, misfit_, gradient);
+  Eigen::MatrixXd slopes = gradient.transpose();
+  for (Eigen::MatrixXd* columns :
+       {&misfit_.residuals.jacobian, &misfit_.constraints.jacobian, &slopes})
+    scale_derivatives(problem_, x, *columns);
+  gradient = slopes.transpose();
+  const UnknownBounds bounds = scaled_bounds(problem_);
   for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const Unknown& unknown = problem_.unknowns()[static_cast<std::size_t>(j)];
     // What a bound keeps from falling further rests; the others move as if it were known.
-    const bool rests =
-        (x[j] <= unknown.least && gradient[j] > 0) || (x[j] >= unknown.most && gradient[j] < 0);
-    const double slope = rests ? 0 : unknown.scale == Scale::kLogarithmic ? x[j] : 1;
-    misfit_.residuals.jacobian.col(j) *= slope;
-    misfit_.constraints.jacobian.col(j) *= slope;
-    gradient[j] *= slope;
+    const bool rests = (y_[j] <= bounds.lower[j] && gradient[j] > 0) ||
+                       (y_[j] >= bounds.upper[j] && gradient[j] < 0);
+    if (!rests) continue;
+    misfit_.residuals.jacobian.col(j).setZero();
+    misfit_.constraints.jacobian.col(j).setZero();
+    gradient[j] = 0;
   }
   steepness_ = misfit_.error > 0 ? gradient.norm() / misfit_.error : 0;
 }

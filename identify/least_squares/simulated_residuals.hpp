@@ -42,7 +42,7 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
 
  private:
   void simulate(bool jacobian);
-  void scale_derivatives(const Eigen::VectorXd& x);
+  void change_derivatives(const Eigen::VectorXd& x);
 
   std::function<bool()> told_;
   const Problem& problem_;

@@ -12,6 +12,7 @@ Unknowns::Unknowns(const Case& the_case, const ParameterMap& map,
   for (const Experiment& experiment : experiments)
     given_.push_back({catena::case_values(the_case, experiment.spec.name), experiment.initial});
   add_parameters(the_case, map, experiments);
+  order(the_case.parameters);
   for (std::size_t e = 0; e < experiments.size(); ++e)
     add_coefficients(experiments[e], static_cast<int>(e));
 }
@@ -39,6 +40,24 @@ void Unknowns::add_parameters(const Case& the_case, const ParameterMap& map,
       list_.push_back(unknown);
     }
   }
+}
+
+void Unknowns::order(const std::vector<ParameterSpec>& parameters) {
+  const auto unknown_of = [&](const ParameterSpec& spec) {
+    return std::find_if(list_.begin(), list_.end(),
+                        [&](const Unknown& unknown) { return unknown.name == spec.name; });
+  };
+  for (const ParameterSpec& lesser : parameters)
+    for (const ParameterSpec& greater : parameters) {
+      if (lesser.at_most.empty() || lesser.at_most != greater.name) continue;
+      const auto less = unknown_of(lesser), more = unknown_of(greater);
+      if (less != list_.end() && more != list_.end())
+        less->at_most = static_cast<int>(more - list_.begin());
+      else if (less != list_.end())
+        less->most = std::min(less->most, greater.value);
+      else if (more != list_.end())
+        more->least = std::max(more->least, lesser.value);
+    }
 }
 
 void Unknowns::add_coefficients(const Experiment& experiment, int index) {

@@ -21,6 +21,7 @@ struct Unknown {
   /// Within the case's bounds and the model's. A fit, a profile and a verdict `at_bound` go by these; what the case
   /// says is where the value is expected.
   double least = 0, most = 0;
+  int at_most = -1;  ///< another unknown, which this one does not exceed; -1: none
   Group group = Group::kPhysics;
   int experiment = -1;  ///< the one experiment it belongs to; -1: all
   int parameter = -1;   ///< index into Case::parameters; -1: a coefficient of the initial state
@@ -58,6 +59,8 @@ class Unknowns {
   };
   void add_parameters(const Case& the_case, const ParameterMap& map,
                       const std::vector<Experiment>& experiments);
+  /// Where one parameter does not exceed another: an order of two unknowns, or a bound where one is known.
+  void order(const std::vector<ParameterSpec>& parameters);
   void add_coefficients(const Experiment& experiment, int index);
   const Given& given(int experiment) const {
     return given_[static_cast<std::size_t>(experiment + 1)];

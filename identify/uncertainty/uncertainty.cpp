@@ -97,6 +97,10 @@ struct Errors {
   bool before_fit;  ///< x is a start: none of it lies at a bound because of the data
 };
 
+double most_of(const Unknown& unknown, const VectorXd& x) {
+  return unknown.at_most < 0 ? unknown.most : std::min(unknown.most, x[unknown.at_most]);
+}
+
 /// Error, interval and verdict of each unknown, and their correlations.
 void fill_estimates(Uncertainty& out, const Problem& problem, const VectorXd& x,
                     const Errors& errors) {
@@ -125,7 +129,8 @@ void fill_estimates(Uncertainty& out, const Problem& problem, const VectorXd& x,
     const double near = 1e-6 * std::abs(x[j]);
     if (lost[static_cast<std::size_t>(j)])
       estimate.verdict = Verdict::kStructurallyNot;
-    else if (!errors.before_fit && (x[j] <= unknown.least + near || x[j] >= unknown.most - near))
+    else if (!errors.before_fit &&
+             (x[j] <= unknown.least + near || x[j] >= most_of(unknown, x) - near))
       estimate.verdict = Verdict::kAtBound;
     else if (kNormalQuantile95 * deviation[j] > 1)
       estimate.verdict = Verdict::kPracticallyNot;

@@ -198,6 +198,42 @@ TEST_CASE("noise may be estimated: a loss and a prior need no stated one") {
           "only the measure least_squares takes it");
 }
 
+TEST_CASE("a parameter does not exceed another one that can be compared with it") {
+  const std::string two = replaced(kWhole, "[initial]", R"([[parameter]]
+name = "a"
+sets = "air_drag_linear.tangential"
+value = 0.1
+free = true
+lower = 0.0
+at_most = "b"
+[[parameter]]
+name = "b"
+sets = "air_drag_linear.normal"
+value = 0.2
+lower = 0.0
+[initial])");
+  const testing::TemporaryFolder folder;
+  folder.write("data.csv", "x,y,phi\n");
+  const auto read = [&](const std::string& text) {
+    return parse_case(text, "case.toml", folder.path());
+  };
+  const Case the_case = read(two);
+  CHECK((the_case.parameters.end() - 2)->at_most == "b");
+  CHECK((read(case_text(the_case, folder.path())).parameters.end() - 2)->at_most == "b");
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    const std::string message = failure([&] { read(text); });
+    CAPTURE(message);
+    CHECK(message.find("at_most") != std::string::npos);
+    CHECK(message.find(why) != std::string::npos);
+  };
+  refused(replaced(two, "at_most = \"b\"", "at_most = \"z\""), "\"z\" is no other parameter");
+  refused(replaced(two, "at_most = \"b\"", "at_most = \"a\""), "\"a\" is no other parameter");
+  refused(replaced(two, "value = 0.2", "value = 0.05"), "0.1 is more than that of \"b\", 0.05");
+  refused(replaced(two, "value = 0.2\nlower = 0.0", "value = 0.2\nlower = 0.1"), "same lower");
+  refused(replaced(two, "value = 0.2", "value = 0.2\nfactor = 2"), "factor");
+  refused(replaced(two, "name = \"b\"", "name = \"b\"\nat_most = \"a\""), "in one order only");
+}
+
 TEST_CASE("a standard deviation needs a free parameter, least squares and the noise") {
   const testing::TemporaryFolder folder;
   folder.write("data.csv", "x,y,phi\n");

@@ -213,6 +213,15 @@ TEST_CASE("the built-in effects as candidates: amplitudes, shapes, phases, limit
   CHECK(find("axial_stretch").with_role(ParameterRole::kLimit).size() == 1);
   CHECK(find("air_drag_isotropic").effect.form_of == "air_drag_quadratic");
   CHECK(find("support_series").unavailable != "");
+  // A slender body resists, and moves fluid, less along itself than across.
+  for (const char* id :
+       {"air_drag_quadratic", "air_drag_linear", "added_mass", "steady_wind", "current"}) {
+    const catena::Candidate candidate = find(id);
+    for (const catena::CandidateParameter& parameter : candidate.parameters)
+      if (parameter.name.ends_with(".tangential"))
+        CHECK(candidate.parameters.at(static_cast<std::size_t>(parameter.at_most)).name ==
+              std::string(id) + ".normal");
+  }
 }
 
 }  // namespace
