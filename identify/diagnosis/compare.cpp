@@ -62,9 +62,9 @@ Decision decide(const FittedModel& better, const FittedModel& worse,
   const double by_error =
       count * std::max(0.0, decision.difference * (2 * shared - decision.difference));
   const double autocorrelation = autocorrelation_factor(white_residuals(better, noise));
-  const double needed = 2 * std::log(kThresholds.odds) * autocorrelation +
-                        std::log(std::max(2.0, count)) * (unknowns(better) - unknowns(worse));
-  decision.decided = decision.lead > by_error + needed &&
+  decision.needed = by_error + 2 * std::log(kThresholds.odds) * autocorrelation +
+                    std::log(std::max(2.0, count)) * (unknowns(better) - unknowns(worse));
+  decision.decided = decision.lead > decision.needed &&
                      predicts_as_well(held_out_gap(better, noise), held_out_gap(worse, noise));
   return decision;
 }

@@ -41,6 +41,7 @@ struct Decision {
   bool decided = false;
   double difference = 0;  ///< d, fitted and held-out parts
   double lead = 0;        ///< fall of the sum of squares from the worse to the better
+  double needed = 0;      ///< of that, to decide
 };
 /// `noise`: of every experiment.
 Decision decide(const FittedModel& better, const FittedModel& worse,

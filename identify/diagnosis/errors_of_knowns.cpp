@@ -110,14 +110,14 @@ void doubt_cameras(Case& the_case, const Model& model, std::map<std::string, dou
 }
 
 /// The case with everything free that may be wrong and changes the motion or has an effect of its
-/// own, and the standard deviations of these parameters by their names.
+/// own, and the standard deviations of these parameters by their names. `effects`: of the model.
 Case with_doubts(const DiagnosisState& state, const FittedModel& model,
+                 const std::vector<std::string>& effects,
                  std::map<std::string, double>& deviation) {
   const Case& the_case = model.problem->the_case();
   std::vector<Candidate> errors;
   for (const Candidate& candidate : state.context.library()) {
-    const auto& found = state.found.effects;
-    const bool there = std::find(found.begin(), found.end(), candidate.id) != found.end();
+    const bool there = std::find(effects.begin(), effects.end(), candidate.id) != effects.end();
     // What markers get wrong, errors_of_markers() says.
     if (there || !candidate.unavailable.empty() || candidate.own_model || candidate.of_case ||
         !is_error_of_known(candidate))
@@ -151,7 +151,7 @@ Case with_doubts(const DiagnosisState& state, const FittedModel& model,
 Parts squares_with_errors(const DiagnosisState& state, const FittedModel& model,
                           const std::vector<std::string>& effects) {
   std::map<std::string, double> deviation;
-  const Case doubtful = with_doubts(state, model, deviation);
+  const Case doubtful = with_doubts(state, model, effects, deviation);
   std::vector<std::string> own_models;
   for (const std::string& id : effects)
     if (state.context.find(id)->own_model) own_models.push_back(id);
@@ -232,6 +232,13 @@ BeyondErrorsOfKnowns beyond_errors_of_knowns(DiagnosisState& state, const std::s
                     share(left.held_out - with.held_out, all.held_out)}),
           std::max({0.0, of_own(left.fitted - with.fitted, before.fitted, after.fitted),
                     of_own(left.held_out - with.held_out, before.held_out, after.held_out)})};
+}
+
+double lead_beyond_errors_of_knowns(const DiagnosisState& state, const ModelWithEffects& better,
+                                    const ModelWithEffects& worse) {
+  const double left = squares_with_errors(state, better.model, better.effects).fitted;
+  const double left_by_worse = squares_with_errors(state, worse.model, worse.effects).fitted;
+  return std::isfinite(left_by_worse) ? left_by_worse - left : 0;
 }
 
 }  // namespace catena

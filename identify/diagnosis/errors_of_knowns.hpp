@@ -2,11 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace catena {
 
 class DiagnosisState;
 struct Candidate;
+struct FittedModel;
 
 /// Whether an effect is an error of what the case knows or of a sensor, and no physics that is
 /// missing: it changes what is reported, or its file has words for a wrong known.
@@ -25,5 +27,14 @@ struct BeyondErrorsOfKnowns {
 /// linearised, and fitted to the fitted part. Zero where the model without the effect cannot be fitted.
 /// Throws Interrupted.
 BeyondErrorsOfKnowns beyond_errors_of_knowns(DiagnosisState& state, const std::string& effect);
+
+struct ModelWithEffects {
+  const FittedModel& model;
+  const std::vector<std::string>& effects;
+};
+/// By how much one model leaves less of the fitted part than another where the same errors are added to both: sum
+/// of squares, in noise levels squared. Zero where the worse one cannot be simulated with them.
+double lead_beyond_errors_of_knowns(const DiagnosisState& state, const ModelWithEffects& better,
+                                    const ModelWithEffects& worse);
 
 }  // namespace catena

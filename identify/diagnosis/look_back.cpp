@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identify/diagnosis/choice.hpp"
+#include "identify/diagnosis/errors_of_knowns.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/search.hpp"
@@ -74,7 +75,28 @@ struct Weighed {
   bool no_rival = false;
 };
 
-Weighed weigh(const DiagnosisState& state, const std::string& named, const FittedModel& without,
+/// A law that leads another one in what was fitted has to lead beside plausible errors of what the case states
+/// and the sensors report, too: what these leave, the wrong law may fit. Else the other one leads, and perhaps so
+/// far that the data decide for it.
+void weigh_beside_errors_of_knowns(const DiagnosisState& state, const std::string& named,
+                                   const std::vector<std::string>& others, Weighed& weighed) {
+  const auto is_law = [&](const std::string& id) {
+    return !is_error_of_known(*state.context.find(id));
+  };
+  const Explanation& explanation = *weighed.explanation;
+  if (!weighed.effect || !is_law(explanation.id) || !is_law(named)) return;
+  const std::vector<std::string> effects = with(others, explanation.id);
+  const Stage& last = state.last();
+  const double lead =
+      lead_beyond_errors_of_knowns(state, {explanation.model, effects}, {last.model, last.effects});
+  Decision& decision = weighed.decision;
+  if (lead > decision.needed) return;
+  weighed.better = false;
+  decision.decided =
+      -lead > decision.needed && predicts_as_well(last.held_out, explanation.held_out);
+}
+
+Weighed weigh(const DiagnosisState& state, const std::string& named, const Stage& without,
               const Explanation& explanation) {
   Weighed weighed;
   weighed.explanation = &explanation;
@@ -85,8 +107,10 @@ Weighed weigh(const DiagnosisState& state, const std::string& named, const Fitte
                                     : decide(last, explanation.model, state.found.noise);
   weighed.no_rival =
       predicts_better(last, explanation.model, state.found.noise) ||
-      goes_with_the_motion(state, without, explanation) ||
+      goes_with_the_motion(state, without.model, explanation) ||
       needs_no_drive(state, named, state.last().held_out, explanation.id, explanation.held_out);
+  if (weighed.better && weighed.decision.decided && !weighed.no_rival)
+    weigh_beside_errors_of_knowns(state, named, without.effects, weighed);
   return weighed;
 }
 
@@ -110,7 +134,7 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
   const Explanation* successor = nullptr;
   for (const Explanation& explanation : without.explanations) {
     if (!explanation.refitted || explanation.id == id) continue;
-    const Weighed weighed = weigh(state, id, without.model, explanation);
+    const Weighed weighed = weigh(state, id, without, explanation);
     const Model all = state.context.model_with_all(state.last().links);
     const bool may_succeed = weighed.effect && !weighed.no_rival &&
                              !state.reopens_gap(explanation.model) &&

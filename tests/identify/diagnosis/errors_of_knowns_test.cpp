@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "identify/diagnosis/diagnosis_state.hpp"
+#include "identify/diagnosis/look_back.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
@@ -37,42 +38,70 @@ ProviderOptions provider() {
   return options;
 }
 
-/// What the effect explains beyond errors of knowns, of a motion with the effect's first parameter at
-/// `amount` and a cable that is heavier than stated by the share `heavier`.
-BeyondErrorsOfKnowns beyond(const std::string& effect, double amount, double heavier) {
-  const testing::TemporaryFolder folder;
-  DiagnosisContext context(two_links(), {}, folder.path(), fit_least_squares, provider());
-  const DiagnosisOptions options;
-  DiagnosisState state(context, options);
-  const auto with_effect = [&](const Case& the_case) {
+/// A motion with an effect and a cable that is heavier than stated by the share `heavier`, and what a diagnosis knows
+/// of it.
+struct Film {
+  testing::TemporaryFolder folder;
+  DiagnosisContext context{two_links(), {}, folder.path(), fit_least_squares, provider()};
+  DiagnosisOptions options;
+  DiagnosisState state{context, options};
+  Model model = context.model_with({"load_drag", "centre_offset"}, 2);
+  Case asked;
+
+  /// The effect's first parameter is `amount`.
+  Film(const std::string& effect, double amount, double heavier) {
+    Case truth = with_effect(two_links(), effect);
+    truth.parameters[0].value = 0.1;
+    truth.parameters[1].value = 0.005;
+    truth.parameters[2].value = amount;
+    truth.cable.density *= 1 + heavier;
+    asked = testing::measured(
+        two_links(), folder,
+        testing::with_truth(truth, model, testing::empty_markers(kPlaces, kFrames, 1.0 / 60),
+                            kNoise));
+    enter("");
+  }
+
+  Case with_effect(const Case& the_case, const std::string& effect) const {
     return with_effects(the_case, {*context.find(effect)}, false);
-  };
-  const Model model = context.model_with({effect}, 2);
-  Case truth = with_effect(two_links());
-  truth.parameters[0].value = 0.1;
-  truth.parameters[1].value = 0.005;
-  truth.parameters[2].value = amount;
-  truth.cable.density *= 1 + heavier;
-  Case asked = testing::measured(
-      two_links(), folder,
-      testing::with_truth(truth, model, testing::empty_markers(kPlaces, kFrames, 1.0 / 60),
-                          kNoise));
-  const auto fitted = [&](const Case& the_case) {
+  }
+  FittedModel fitted(const Case& the_case) const {
     const auto problem = std::make_shared<const Problem>(the_case, model);
     return fit_model(problem, problem->start(), {}, fit_least_squares, nullptr);
-  };
-  const auto enter = [&](const Case& the_case, const std::vector<std::string>& effects) {
-    state.enter(fitted(the_case), effects, effects.empty() ? "" : effects.back());
+  }
+  /// Takes the model with an effect, or with none, as the best so far.
+  void enter(const std::string& effect) {
+    std::vector<std::string> effects;
+    if (!effect.empty()) effects.push_back(effect);
+    state.enter(fitted(effect.empty() ? asked : with_effect(asked, effect)), effects, effect);
     state.found.noise = {NoiseModel{.level = kNoise}};
-  };
-  enter(asked, {});
-  enter(with_effect(asked), {effect});
-  state.found.effects = {effect};
-  state.found.final = state.last().model;
+    state.found.effects = effects;
+    state.found.final = state.last().model;
+  }
+  /// The model with an effect as an explanation of what the first one lacks.
+  Explanation explanation(const std::string& effect) const {
+    Explanation explanation;
+    explanation.id = effect;
+    explanation.candidate = static_cast<int>(context.find(effect) - context.library().data());
+    explanation.model = fitted(with_effect(asked, effect));
+    explanation.refitted = true;
+    explanation.chance = 0;
+    explanation.comparison =
+        compare(state.found.stages[0].model, explanation.model, state.found.noise);
+    explanation.fit = fit_gap(explanation.model, state.found.noise);
+    explanation.held_out = held_out_gap(explanation.model, state.found.noise);
+    return explanation;
+  }
+};
+
+/// What the effect explains beyond errors of knowns.
+BeyondErrorsOfKnowns beyond(const std::string& effect, double amount, double heavier) {
+  Film film(effect, amount, heavier);
+  film.enter(effect);
   // In the fitted part the effect explains what there is.
-  CHECK(state.found.stages[0].fit.ratio() > 1.3);
-  CHECK(state.found.stages[1].fit.ratio() < 1.1);
-  return beyond_errors_of_knowns(state, effect);
+  CHECK(film.state.found.stages[0].fit.ratio() > 1.3);
+  CHECK(film.state.found.stages[1].fit.ratio() < 1.1);
+  return beyond_errors_of_knowns(film.state, effect);
 }
 
 }  // namespace
@@ -87,6 +116,20 @@ TEST_CASE("mass centres off mid-link are not certain where the cable may be heav
   const BeyondErrorsOfKnowns of_offset = beyond("centre_offset", 0, 0.03);
   CHECK(of_offset.of_misfit < kThresholds.worthwhile);
   CHECK(of_offset.of_effect < kThresholds.worthwhile);
+}
+
+TEST_CASE("a law takes the place of another one for no lead that errors of knowns could leave") {
+  Film heavier("load_drag", 5e-4, 0.02);
+  const Explanation right = heavier.explanation("load_drag"),
+                    wrong = heavier.explanation("centre_offset");
+  CHECK(decide(wrong.model, right.model, heavier.state.found.noise).decided);
+  heavier.state.found.stages[0].explanations = {right, wrong};
+  heavier.enter("load_drag");
+  look_back(heavier.state);
+  CHECK(heavier.state.found.effects == std::vector<std::string>{"load_drag"});
+  // With such errors drag leads.
+  REQUIRE(heavier.state.found.runners_up.size() == 1);
+  CHECK(heavier.state.found.runners_up[0].explanation.id == "centre_offset");
 }
 
 TEST_CASE("effects of sensors and of wrong knowns are errors of knowns, physics is none") {
