@@ -272,9 +272,11 @@ std::string diagnosis_table(const Diagnosis& d, const DiagnosisFindings& finding
     std::string change = stage.added.empty() && stage.removed.empty() ? "baseline"
                          : stage.removed == kTooFewLinks
                              ? fmt::format("back to {} links", stage.links)
-                         : stage.added.empty()         ? "without " + stage.removed
-                         : stage.added == kTooFewLinks ? fmt::format("{} links", stage.links)
-                         : stage.removed.empty()       ? "+ " + stage.added
+                         : stage.added.empty() ? "without " + stage.removed
+                         : stage.added == kTooFewLinks
+                             ? fmt::format("{} links{}", stage.links,
+                                           stage.removed.empty() ? "" : " for " + stage.removed)
+                         : stage.removed.empty() ? "+ " + stage.added
                                                  : "+ " + stage.added + " for " + stage.removed;
     row(change, stage.fit, stage.held_out, stage.model);
   }

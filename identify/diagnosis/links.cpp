@@ -16,6 +16,45 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+bool acts_on_joints(const Effect& effect) {
+  return std::any_of(effect.scalars.begin(), effect.scalars.end(),
+                     [](const ScalarTerm& term) { return term.at == Place::kJoint; });
+}
+
+}  // namespace
+
+VectorXd start_with_links(const FittedModel& model, const Problem& problem,
+                          const std::vector<std::string>& effects,
+                          const std::vector<NoiseModel>& noise, const DiagnosisContext& context) {
+  const double ratio =
+      static_cast<double>(problem.the_case().links) / model.problem->the_case().links;
+  VectorXd best = transfer(*model.problem, model.x, problem);
+  for (const std::string& id : effects) {
+    const Candidate& candidate = *context.find(id);
+    if (!acts_on_joints(candidate.effect)) continue;
+    const VectorXd as_it_is = best;
+    double least = error_to_fit(problem, as_it_is, noise, {});
+    for (int power = 1; power <= 3; ++power) {
+      VectorXd x = as_it_is;
+      for (const int p : candidate.with_role(ParameterRole::kAmplitude)) {
+        const CandidateParameter& parameter = candidate.parameters[static_cast<std::size_t>(p)];
+        const Index j = unknown_index(problem, parameter.name);
+        if (j < 0) continue;
+        const Unknown& unknown = problem.unknowns()[static_cast<std::size_t>(j)];
+        x[j] = std::clamp(parameter.neutral + std::pow(ratio, power) * (x[j] - parameter.neutral),
+                          unknown.least, unknown.most);
+      }
+      const double error = error_to_fit(problem, x, noise, {});
+      if (error >= least) continue;
+      least = error;
+      best = x;
+    }
+  }
+  return best;
+}
+
 FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::string>& effects,
                            const std::vector<NoiseModel>& noise, int max_links,
                            DiagnosisContext& context) {
@@ -30,7 +69,7 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
   if (!larger) return finer;
   const auto problem =
       std::make_shared<const Problem>(*larger, context.model_with(effects, finer.links));
-  const VectorXd start = transfer(*model.problem, model.x, *problem);
+  const VectorXd start = start_with_links(model, *problem, effects, noise, context);
 
   std::vector<MatrixXd> change(model.fit_residual.size());
   for (std::size_t e = 0; e < change.size(); ++e) {
@@ -77,8 +116,8 @@ FittedModel fitted_with_links(const FittedModel& model, int links,
   if (!other) return {};
   const auto problem = std::make_shared<const Problem>(*other, context.model_with(effects, links));
   context.begin_task("refitting with " + std::to_string(links) + " links");
-  return fit_model(problem, transfer(*model.problem, model.x, *problem), noise, least_squares,
-                   context.stop);
+  return fit_model(problem, start_with_links(model, *problem, effects, noise, context), noise,
+                   least_squares, context.stop);
 }
 
 }  // namespace

@@ -29,6 +29,14 @@ FinerChain try_finer_chain(const FittedModel& model, const std::vector<std::stri
                            const std::vector<NoiseModel>& noise, int max_links,
                            DiagnosisContext& context);
 
+/// Where a fit with another number of links begins: unknowns of `problem` that make its cable the model's. Joints of a finer
+/// chain turn less: what goes with a power of a joint's angle or rate has a coefficient that goes with that power of
+/// the number of links. Of powers from 0 to 3 each effect has the one with which a simulation leaves least.
+Eigen::VectorXd start_with_links(const FittedModel& model, const Problem& problem,
+                                 const std::vector<std::string>& effects,
+                                 const std::vector<NoiseModel>& noise,
+                                 const DiagnosisContext& context);
+
 /// The same model with another number of links, fitted; not ok where the case cannot have it.
 FittedModel refitted_with_links(const FittedModel& model, int links,
                                 const std::vector<std::string>& effects,

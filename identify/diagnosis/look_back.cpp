@@ -6,6 +6,7 @@
 
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/errors_of_knowns.hpp"
+#include "identify/diagnosis/links.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/search.hpp"
@@ -163,6 +164,21 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
   return state.last().added;
 }
 
+/// A cable has no links, and their number needs no name: takes more links in the place of an effect where the data do
+/// not decide against them. Near a clamp, say, a long link is too stiff, or too soft.
+bool more_links_do_as_well(DiagnosisState& state, const std::string& id, const Stage& without) {
+  FinerChain finer = try_finer_chain(without.model, without.effects, state.found.noise,
+                                     state.options.max_links, state.context);
+  if (!finer.refitted || state.reopens_gap(finer.model)) return false;
+  const FittedModel& last = state.last().model;
+  const std::vector<NoiseModel>& noise = state.found.noise;
+  if (state.squares(last) < state.squares(finer.model) && decide(last, finer.model, noise).decided)
+    return false;
+  if (!predicts_as_well(held_out_gap(finer.model, noise), state.last().held_out)) return false;
+  state.enter(std::move(finer.model), without.effects, kTooFewLinks, id);
+  return true;
+}
+
 }  // namespace
 
 bool needless(const DiagnosisState& state, const Stage& without) {
@@ -198,11 +214,12 @@ bool look_back(DiagnosisState& state) {
       state.enter(without.model, others, "", id);
     } else {
       const std::string better = weigh_alternatives(state, id, without);
-      if (better.empty()) {
+      if (!better.empty()) {
+        others.push_back(better);
+      } else if (!more_links_do_as_well(state, id, without)) {
         ++i;
         continue;
       }
-      others.push_back(better);
     }
     changed = true;
     effects = others;

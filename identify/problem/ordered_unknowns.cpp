@@ -40,8 +40,7 @@ Eigen::VectorXd apart(const std::vector<Unknown>& unknowns, Eigen::VectorXd x) {
 
 Eigen::VectorXd together(const std::vector<Unknown>& unknowns, Eigen::VectorXd y) {
   for_each_order(unknowns, [&](Eigen::Index lesser, Eigen::Index greater) {
-    y[greater] =
-        std::min(y[greater] + y[lesser], unknowns[static_cast<std::size_t>(greater)].most);
+    y[greater] = std::min(y[greater] + y[lesser], unknowns[static_cast<std::size_t>(greater)].most);
   });
   return y;
 }

@@ -40,8 +40,7 @@ struct Search {
     the_case = testing::measured(
         the_case, folder,
         testing::with_truth(truth, model,
-                            testing::empty_markers({0.25, 0.5, 0.75, 1.0}, 240, 1.0 / 60),
-                            kNoise));
+                            testing::empty_markers({0.25, 0.5, 0.75, 1.0}, 240, 1.0 / 60), kNoise));
     const auto plain = std::make_shared<const Problem>(the_case, model);
     const CandidateSearch search{
         context, fit_model(plain, plain->start(), {}, fit_least_squares, nullptr), {}, noise};
