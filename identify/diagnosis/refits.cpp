@@ -45,12 +45,7 @@ struct Refits {
   explicit Refits(const CandidateSearch& of)
       : search(of), squares(sum_of_squares(of.base, of.noise)), limits(of.base, of.noise) {}
 
-  /// An effect with a model of its own (`own_model`) may need more of the integrator's steps.
-  LeastSquares least_squares(bool own_model) const {
-    RefitLimits some = limits;
-    if (own_model) some.most_steps = 0;
-    return some.within(search.context.least_squares);
-  }
+  LeastSquares least_squares() const { return limits.within(search.context.least_squares); }
 
   /// Whether a refit removed what the score promised: the linearised model is right, so that no other start
   /// is tried.
@@ -81,9 +76,7 @@ void fit_from(const Refits& refits, Explanation& explanation,
   const CandidateSearch& search = refits.search;
   DiagnosisContext& context = search.context;
   if (context.stopped()) return;
-  const bool own_model = explanation.is_effect() && candidate_of(search, explanation).own_model;
-  FittedModel model =
-      fit_model(problem, start, search.noise, refits.least_squares(own_model), context.stop);
+  FittedModel model = fit_model(problem, start, search.noise, refits.least_squares(), context.stop);
   if (!model.ok || (explanation.refitted && sum_of_squares(model, search.noise) >=
                                                 sum_of_squares(explanation.model, search.noise)))
     return;

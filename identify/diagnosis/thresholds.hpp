@@ -138,7 +138,7 @@ struct DiagnosisThresholds {
   /// Further refits where the gap is far.
   int more_refits_when_far = 2;
   /// Times the integrator's steps of the base, beyond which a simulation of a refit has failed: what
-  /// whirls or is that stiff is not what was recorded. Chosen; it saves time only. Of 152 refits of one
+  /// whirls or is that stiff is not what was recorded, be it in a model of its own. Chosen; it saves time only. Of 152 refits of one
   /// recording, two that ended at 25 times the base's misfit took 28 of 38 s.
   long steps_of_refits = 20;
   /// Sum of squares over the mean square that a step of a refit must promise: a tenth of what the cheapest decision

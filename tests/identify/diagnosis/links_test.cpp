@@ -64,8 +64,7 @@ TEST_CASE("with twice the links a law of the joints' angles begins as the law of
   const Problem finer(*with_links(model.problem->the_case(), 8, why_not),
                       film.context.model_with(effects, 8));
   const Eigen::VectorXd as_it_is = transfer(*model.problem, model.x, finer);
-  const Eigen::VectorXd start =
-      start_with_links(model, finer, effects, film.noise, film.context);
+  const Eigen::VectorXd start = start_with_links(model, finer, effects, film.noise, film.context);
   const Eigen::Index cubic = unknown_index(finer, "joint_stiffness_cubic.cubic");
   CHECK(start[cubic] > 3 * as_it_is[cubic]);
   CHECK(error_to_fit(finer, start, film.noise, {}) <
@@ -78,8 +77,7 @@ TEST_CASE("more links take the place of a stiff clamp that imitates them") {
   state.enter(film.fitted({}), {}, "");
   Explanation stiff;
   stiff.id = "pivot_stiffness";
-  stiff.candidate =
-      static_cast<int>(film.context.find(stiff.id) - film.context.library().data());
+  stiff.candidate = static_cast<int>(film.context.find(stiff.id) - film.context.library().data());
   stiff.model = film.fitted({stiff.id});
   stiff.refitted = true;
   state.found.stages[0].explanations = {stiff};

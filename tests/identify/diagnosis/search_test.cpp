@@ -8,6 +8,7 @@
 
 #include "identify/diagnosis/candidate_scores.hpp"
 #include "identify/diagnosis/close_simulation.hpp"
+#include "identify/diagnosis/refits.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/diagnosis/variant.hpp"
@@ -89,6 +90,28 @@ TEST_CASE("a refit begins where the linearised fit has the base beside the effec
   const double without = std::pow(error_to_fit(*film.base.problem, film.base.x, noise, {}), 2) - 1;
   const double alone = left_by(film.base.x);
   CHECK(left_by(drag->start.of_base) < 0.25 * std::min(without, alone));
+}
+
+TEST_CASE(
+    "a refit ends where simulations take many times the steps of the base, whatever its model") {
+  WithHiddenDrag film(60);
+  const testing::TemporaryFolder folder;
+  std::vector<long> most_steps;
+  const LeastSquares watched = [&](const Problem& problem, const FitOptions& options) {
+    most_steps.push_back(options.most_steps);
+    return fit_least_squares(problem, options);
+  };
+  DiagnosisContext context(testing::two_links_with({"axial_stretch"}), {}, folder.path(), watched,
+                           testing::provider_of_build());
+  Explanation stretch;
+  stretch.id = "axial_stretch";
+  stretch.candidate = static_cast<int>(context.find(stretch.id) - context.library().data());
+  stretch.score.admissible = true;
+  stretch.start.of_effect = {{"axial_stretch.axial_stiffness", 1e3}};
+  std::vector<Explanation> explanations = {stretch};
+  refit_rest({context, film.base, {}, {{.level = kNoise}}}, explanations);
+  REQUIRE(most_steps.size() == 1);
+  CHECK(most_steps[0] > 0);
 }
 
 TEST_CASE("the search simulates as closely as the noise needs, and no closer") {
