@@ -231,6 +231,7 @@ std::vector<results::Share> share_entries(const Shares& shares) {
 
 std::vector<results::OtherEffect> other_effects(const std::vector<Alternative>& alternatives) {
   std::vector<results::OtherEffect> entries;
+  entries.reserve(alternatives.size());
   for (const Alternative& other : alternatives)
     entries.push_back({other.explanation.id, other.instead_of, other.explanation.fit.rms,
                        other.explanation.held_out.rms, other.decision.difference,
