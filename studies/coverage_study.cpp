@@ -4,6 +4,7 @@
 // that stand there already are not made again. scripts/study_coverage reads it.
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -70,9 +71,7 @@ std::string kept_of(const char* file) {
   return kept;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const std::string what = argc == 4 ? argv[1] : "";
   if ((what != "parameters" && what != "predictions") || std::atoi(argv[3]) < 1) {
     std::fputs("coverage_study parameters|predictions FILE RECORDINGS\n", stderr);
@@ -97,4 +96,15 @@ int main(int argc, char** argv) {
       out << std::endl;  // at once: a run that is stopped loses one recording
     }
   return out ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "coverage_study: %s\n", error.what());
+    return 1;
+  }
 }

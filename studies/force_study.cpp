@@ -7,12 +7,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 
 #include "tests/identify/forces/hidden_force.hpp"
 
 using namespace catena;
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   testing::Film film;
   truth::Hidden hidden;
   std::vector<std::string> effects;
@@ -84,4 +88,16 @@ int main(int argc, char** argv) {
   fmt::print("at the place {:.3f} m (true {:.3f} m): error {:.1f} % (asked: 5), covered {:.1f} %\n",
              found.best->arc_length, testing::true_place(film), 100 * place.error,
              100 * place.covered);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "force_study: %s\n", error.what());
+    return 1;
+  }
 }
