@@ -113,6 +113,9 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
   for (std::size_t j = 0; j < along.size(); ++j) {
     const SensitivityDirection& direction = along[j];
     if (!direction.parameters.size() && !direction.q.size() && !direction.v.size()) continue;
+    // As where an unknown of the start is so large that a step beside it is none.
+    if (!direction.parameters.allFinite() || !direction.q.allFinite() || !direction.v.allFinite())
+      throw ImpossibleValue("the start has no derivative by one of its unknowns there");
     index_of.push_back(j);
     directions.push_back({or_zero(direction.parameters, model.parameters()),
                           or_zero(direction.q, model.coordinates()),
