@@ -326,72 +326,6 @@ TEST_CASE("effects in space do not see a turn about the vertical, and their powe
   }
 }
 
-// Forces F_k on the middles of links and on the load do on link i, whose unit vector is e_i, the virtual work
-// l_i (F_i / 2 + F_{i+1} + ... + F_n + F_load) . delta e_i.
-TEST_CASE("drag in space is the vector that Morison's law says") {
-  GiNaC::Digits = kDigits;
-  const auto dot = [](const Vector& a, const Vector& b) {
-    return ex(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).evalf();
-  };
-  const auto scaled = [](const ex& factor, const Vector& a) {
-    return Vector{ex(factor * a[0]).evalf(), ex(factor * a[1]).evalf(), ex(factor * a[2]).evalf()};
-  };
-  const auto plus = [](const Vector& a, const Vector& b) {
-    return Vector{ex(a[0] + b[0]).evalf(), ex(a[1] + b[1]).evalf(), ex(a[2] + b[2]).evalf()};
-  };
-  const numeric floor(1, 1000000);
-  const auto root = [&](const ex& square) { return GiNaC::sqrt(square + floor * floor).evalf(); };
-  Inputs inputs{5};
-  std::vector<Vector> e(kLinks + 1), rate(kLinks + 1);
-  for (int i = 1; i <= kLinks; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    Vector q, v;
-    for (std::size_t a = 0; a < 3; ++a) {
-      q[a] = draw(name(kAxes[a], i), 5);
-      v[a] = draw(name(std::string(kAxes[a]) + "_dot", i), 5);
-    }
-    e[k] = scaled(1 / GiNaC::sqrt(dot(q, q)), q);
-    rate[k] = plus(v, scaled(-dot(v, e[k]), e[k]));  // at a right angle to the link
-    set_vector(inputs, i, "", e[k]);
-    set_vector(inputs, i, "_dot", rate[k]);
-    set_vector(inputs, i, "_ddot", {0, 0, 0});
-  }
-  const auto p = [&](const std::string& parameter) { return inputs("current_" + parameter); };
-  const auto length = [&](int i) { return inputs(name("length", i)); };
-  const auto relative = [&](const Vector& velocity, const ex& depth) {
-    const ex height = 1 - depth / p("bed");
-    const ex profile =
-        GiNaC::exp(p("exponent") / 2 * GiNaC::log(height * height + numeric(1, 1000000)));
-    return plus(velocity, scaled(-profile, {p("side_speed"), 0, p("across_speed")}));
-  };
-  Vector velocity{0, 0, 0};
-  ex depth = 0;
-  std::vector<Vector> force(kLinks + 2);
-  for (int i = 1; i <= kLinks; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Vector u =
-        relative(plus(velocity, scaled(length(i) / 2, rate[k])), depth + length(i) / 2 * e[k][1]);
-    const Vector along = scaled(dot(u, e[k]), e[k]), normal = plus(u, scaled(-1, along));
-    force[k] = plus(scaled(-length(i) * p("normal") * root(dot(normal, normal)), normal),
-                    scaled(-length(i) * p("tangential") * root(dot(along, along)), along));
-    velocity = plus(velocity, scaled(length(i), rate[k]));
-    depth += length(i) * e[k][1];
-  }
-  const Vector u = relative(velocity, depth);
-  Vector below = scaled(-p("load") * root(dot(u, u)), u);
-  Chain chain(with({"current"}, Space::kThreeDimensional), kLinks, "current");
-  ExactEvaluation evaluation(chain.definitions(), inputs);
-  for (int i = kLinks; i >= 1; --i) {
-    CAPTURE(i);
-    const auto k = static_cast<std::size_t>(i);
-    const Vector on_link = scaled(length(i), plus(below, scaled(numeric(1, 2), force[k])));
-    const Vector normal = plus(on_link, scaled(-dot(on_link, e[k]), e[k]));
-    for (std::size_t a = 0; a < 3; ++a)
-      CHECK(difference(-normal[a], component(chain, evaluation, i, a)) < kTolerance);
-    below = plus(below, force[k]);
-  }
-}
-
 namespace {
 
 Vector cross(const Vector& a, const Vector& b) {
@@ -427,7 +361,96 @@ void set_links(Inputs& inputs, std::vector<Vector>& e, std::vector<Vector>& rate
   }
 }
 
+Vector scaled(const ex& factor, const Vector& a) {
+  return {ex(factor * a[0]).evalf(), ex(factor * a[1]).evalf(), ex(factor * a[2]).evalf()};
+}
+
+Vector plus(const Vector& a, const Vector& b) {
+  return {ex(a[0] + b[0]).evalf(), ex(a[1] + b[1]).evalf(), ex(a[2] + b[2]).evalf()};
+}
+
+// Forces F_k on the middles of links, `force` from entry 1, and on the load do on link i, whose unit vector is
+// e_i, the virtual work l_i (F_i / 2 + F_{i+1} + ... + F_n + F_load) . delta e_i.
+void check_forces(Chain& chain, ExactEvaluation& evaluation, const Inputs& inputs,
+                  const std::vector<Vector>& e, const std::vector<Vector>& force, Vector load) {
+  for (int i = kLinks; i >= 1; --i) {
+    CAPTURE(i);
+    const auto k = static_cast<std::size_t>(i);
+    const Vector on_link = scaled(inputs(name("length", i)), plus(load, scaled(numeric(1, 2), force[k])));
+    const Vector normal = plus(on_link, scaled(-dot(on_link, e[k]), e[k]));
+    for (std::size_t a = 0; a < 3; ++a)
+      CHECK(difference(-normal[a], component(chain, evaluation, i, a)) < kTolerance);
+    load = plus(load, force[k]);
+  }
+}
+
 }  // namespace
+
+TEST_CASE("drag in space is the vector that Morison's law says") {
+  GiNaC::Digits = kDigits;
+  const numeric floor(1, 1000000);
+  const auto root = [&](const ex& square) { return GiNaC::sqrt(square + floor * floor).evalf(); };
+  Inputs inputs{5};
+  std::vector<Vector> e, rate;
+  set_links(inputs, e, rate);
+  const auto p = [&](const std::string& parameter) { return inputs("current_" + parameter); };
+  const auto length = [&](int i) { return inputs(name("length", i)); };
+  const auto relative = [&](const Vector& velocity, const ex& depth) {
+    const ex height = 1 - depth / p("bed");
+    const ex profile =
+        GiNaC::exp(p("exponent") / 2 * GiNaC::log(height * height + numeric(1, 1000000)));
+    return plus(velocity, scaled(-profile, {p("side_speed"), 0, p("across_speed")}));
+  };
+  Vector velocity{0, 0, 0};
+  ex depth = 0;
+  std::vector<Vector> force(kLinks + 1);
+  for (int i = 1; i <= kLinks; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vector u =
+        relative(plus(velocity, scaled(length(i) / 2, rate[k])), depth + length(i) / 2 * e[k][1]);
+    const Vector along = scaled(dot(u, e[k]), e[k]), normal = plus(u, scaled(-1, along));
+    force[k] = plus(scaled(-length(i) * p("normal") * root(dot(normal, normal)), normal),
+                    scaled(-length(i) * p("tangential") * root(dot(along, along)), along));
+    velocity = plus(velocity, scaled(length(i), rate[k]));
+    depth += length(i) * e[k][1];
+  }
+  const Vector u = relative(velocity, depth);
+  Chain chain(with({"current"}, Space::kThreeDimensional), kLinks, "current");
+  ExactEvaluation evaluation(chain.definitions(), inputs);
+  check_forces(chain, evaluation, inputs, e, force, scaled(-p("load") * root(dot(u, u)), u));
+}
+
+// Each axis is turned from side and across about down x e by the angle from down to the link (Rodrigues).
+TEST_CASE("drag of a box acts on each axis of its section by itself") {
+  GiNaC::Digits = kDigits;
+  const numeric floor(1, 1000000);
+  Inputs inputs{8};
+  std::vector<Vector> e, rate;
+  set_links(inputs, e, rate);
+  Vector velocity{0, 0, 0};
+  std::vector<Vector> force(kLinks + 1, Vector{0, 0, 0});
+  for (int i = 1; i <= kLinks; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const ex length = inputs(name("length", i));
+    const Vector u = plus(velocity, scaled(length / 2, rate[k]));
+    const Vector about = cross(Vector{0, 1, 0}, e[k]);  // of the size of the sine
+    const auto turned = [&](const Vector& a) {
+      return plus(plus(scaled(e[k][1], a), cross(about, a)),
+                  scaled(dot(about, a) / (1 + e[k][1]), about));
+    };
+    for (const auto& [axis, coefficient] :
+         {std::pair{turned({1, 0, 0}), "normal"}, {turned({0, 0, 1}), "normal"}, {e[k], "tangential"}}) {
+      const ex speed = dot(u, axis);
+      const ex drag = inputs(std::string("air_drag_box_") + coefficient) * speed *
+                      GiNaC::sqrt(speed * speed + floor * floor);
+      force[k] = plus(force[k], scaled(-length * drag, axis));
+    }
+    velocity = plus(velocity, scaled(length, rate[k]));
+  }
+  Chain chain(with({"air_drag_box"}, Space::kThreeDimensional), kLinks, "air_drag_box");
+  ExactEvaluation evaluation(chain.definitions(), inputs);
+  check_forces(chain, evaluation, inputs, e, force, {0, 0, 0});
+}
 
 // With the bend b_i, a vector of the size of the angle along e_{i-1} x e_i, V = sum k_i |b_i - r_i|^2 / 2. Its
 // derivative along e_i, by differences of V in 50 digits.
