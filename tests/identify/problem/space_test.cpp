@@ -133,6 +133,20 @@ TEST_CASE("a start that is not finite fails as a simulation does") {
   }
 }
 
+TEST_CASE("a start without a derivative by one of its unknowns fails as a simulation does") {
+  Case the_case = three_links();
+  the_case.initial = askew();
+  the_case.initial.free = the_case.initial.velocity_free = true;
+  const Problem problem(the_case, model(),
+                        {testing::empty_markers({0.2, 0.5, 0.9}, 4, 0.1, true)});
+  const VectorXd x = problem.start();
+  auto along = problem.directions(x, 0);
+  along.back().v[0] = std::numeric_limits<double>::quiet_NaN();
+  const Prediction prediction = problem.predict(x, 0, true, along);
+  CHECK(prediction.status == Status::kNotFinite);
+  CHECK(prediction.message.find("no derivative") != std::string::npos);
+}
+
 namespace {
 
 /// Five links whose far end is held at 0.6 m aside and 0.3 m down, where it swings across.
