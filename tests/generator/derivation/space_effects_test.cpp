@@ -376,7 +376,8 @@ void check_forces(Chain& chain, ExactEvaluation& evaluation, const Inputs& input
   for (int i = kLinks; i >= 1; --i) {
     CAPTURE(i);
     const auto k = static_cast<std::size_t>(i);
-    const Vector on_link = scaled(inputs(name("length", i)), plus(load, scaled(numeric(1, 2), force[k])));
+    const Vector on_link =
+        scaled(inputs(name("length", i)), plus(load, scaled(numeric(1, 2), force[k])));
     const Vector normal = plus(on_link, scaled(-dot(on_link, e[k]), e[k]));
     for (std::size_t a = 0; a < 3; ++a)
       CHECK(difference(-normal[a], component(chain, evaluation, i, a)) < kTolerance);
@@ -438,8 +439,9 @@ TEST_CASE("drag of a box acts on each axis of its section by itself") {
       return plus(plus(scaled(e[k][1], a), cross(about, a)),
                   scaled(dot(about, a) / (1 + e[k][1]), about));
     };
-    for (const auto& [axis, coefficient] :
-         {std::pair{turned({1, 0, 0}), "normal"}, {turned({0, 0, 1}), "normal"}, {e[k], "tangential"}}) {
+    for (const auto& [axis, coefficient] : {std::pair{turned({1, 0, 0}), "normal"},
+                                            {turned({0, 0, 1}), "normal"},
+                                            {e[k], "tangential"}}) {
       const ex speed = dot(u, axis);
       const ex drag = inputs(std::string("air_drag_box_") + coefficient) * speed *
                       GiNaC::sqrt(speed * speed + floor * floor);

@@ -137,8 +137,7 @@ TEST_CASE("a start without a derivative by one of its unknowns fails as a simula
   Case the_case = three_links();
   the_case.initial = askew();
   the_case.initial.free = the_case.initial.velocity_free = true;
-  const Problem problem(the_case, model(),
-                        {testing::empty_markers({0.2, 0.5, 0.9}, 4, 0.1, true)});
+  const Problem problem(the_case, model(), {testing::empty_markers({0.2, 0.5, 0.9}, 4, 0.1, true)});
   const VectorXd x = problem.start();
   auto along = problem.directions(x, 0);
   along.back().v[0] = std::numeric_limits<double>::quiet_NaN();
