@@ -32,6 +32,8 @@ const char* word(Place place) {
       return "link_centre";
     case Place::kLoad:
       return "load";
+    case Place::kChord:
+      return "chord";
     case Place::kAnywhere:
       return "anywhere";
   }
@@ -143,6 +145,8 @@ class CanonicalText {
     line("held_end.clamp_damping", effect.held_end.clamp_damping);
     line("held_end.torsional_stiffness", effect.held_end.torsional_stiffness);
     line("held_end.roll", effect.held_end.roll);
+    line("chord.from", effect.chord.from);
+    line("chord.to", effect.chord.to);
     line("centre_offset", effect.kinematics.centre_offset);
     line("load_offset", effect.kinematics.load_offset);
     line("load_side", effect.kinematics.load_side);

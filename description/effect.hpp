@@ -32,6 +32,7 @@ enum class Place {
   kLink,        ///< every link as a rigid body: its absolute angle, or an added coordinate
   kLinkCentre,  ///< the mass centre of every link
   kLoad,        ///< the load
+  kChord,       ///< the straight line between two places of the chain (Chord)
   kAnywhere,    ///< definitions only: from time, parameters, constants and signals alone
 };
 
@@ -75,7 +76,7 @@ struct Definition {
 /// the link and is evaluated at its centre. Given are some of side, down and across, or normal,
 /// tangential or both. Components that are not given are zero. In the plane a force across does nothing.
 struct ForceTerm {
-  Place at = Place::kLinkCentre;  ///< kLinkCentre, kJoint, kLoad
+  Place at = Place::kLinkCentre;  ///< kLinkCentre, kJoint, kLoad; kChord with `along` only
   bool per_length = false;        ///< kLinkCentre only
   Expression side, down, across;
   /// kLinkCentre, kLoad. Tangential: along the link, away from the support. Normal: in the plane along
@@ -170,6 +171,14 @@ struct HeldEnd {
   }
 };
 
+/// The straight line between two places of the chain, at the arc lengths `from` and `to`, m: functions of
+/// parameters and constants. Beyond the ends of the chain they stand for its ends.
+struct Chord {
+  Expression from, to;
+
+  bool given() const { return from.given(); }
+};
+
 /// Changes of the kinematics. Changes by several effects are added.
 struct Kinematics {
   Expression centre_offset;  ///< m, mass centre of link i past its middle, away from the support
@@ -245,6 +254,7 @@ struct Effect {
   std::vector<ScalarTerm> scalars;
   Support support;
   HeldEnd held_end;
+  Chord chord;
   Kinematics kinematics;
   std::vector<Coordinate> coordinates;
   std::vector<ExtraState> states;

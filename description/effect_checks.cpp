@@ -89,7 +89,7 @@ class Checks {
   // A potential depends on the shape only, a kinetic energy on shape and rates. If they depended on
   // anything else, the energy balance would lack its work.
   void check_energies() const {
-    std::set<std::string> times = {"time"}, rates = {"rate", "joint_rate"}, states;
+    std::set<std::string> times = {"time"}, rates = {"rate", "joint_rate", "distance_rate"}, states;
     for (const SignalChannel& signal : effect_.signals) {
       times.insert({signal.name, signal.name + "_rate", signal.name + "_acceleration"});
     }
@@ -127,9 +127,29 @@ class Checks {
       if (expression->given())
         refuse(*expression, times, "cannot stand here: the stiffness would change with time");
     }
+    for (const Expression* expression : {&effect_.chord.from, &effect_.chord.to})
+      if (expression->given())
+        refuse(*expression, times, "cannot stand here: the places would change with time");
     each_kinematic([&](const Expression& expression) {
       refuse(expression, times, "cannot stand here: the shape of the chain would change with time");
     });
+  }
+
+  // What acts along a chord needs its ends, and these need something that acts there.
+  void check_chord() const {
+    const auto on_chord = [](const auto& term) { return term.at == Place::kChord; };
+    const auto force = std::find_if(effect_.forces.begin(), effect_.forces.end(), on_chord);
+    const auto scalar = std::find_if(effect_.scalars.begin(), effect_.scalars.end(), on_chord);
+    const bool acts = force != effect_.forces.end() || scalar != effect_.scalars.end();
+    if (acts && !effect_.chord.given())
+      fail_at(
+          force != effect_.forces.end() ? force->value : scalar->value,
+          "at = \"chord\" needs a table [chord], which says from where to where, as from = 0.2, "
+          "to = 0.8");
+    if (!acts && effect_.chord.given())
+      fail_at(effect_.chord.from,
+              "nothing acts along this chord; give a potential, a dissipation or a force with at = "
+              "\"chord\"");
   }
 
   void check_all_used() const {
@@ -178,6 +198,7 @@ std::set<std::string> names_in(const Effect& effect) {
   }
   for (const Expression* expression : effect.support.all()) use(*expression);
   for (const Expression* expression : effect.held_end.all()) use(*expression);
+  for (const Expression* expression : {&effect.chord.from, &effect.chord.to}) use(*expression);
   for (const Expression* expression : effect.kinematics.all()) use(*expression);
   return used;
 }
@@ -187,6 +208,7 @@ void check_consistency(const Effect& effect) {
   checks.check_size();
   checks.check_physics();
   checks.check_energies();
+  checks.check_chord();
   checks.check_all_used();
 }
 

@@ -59,6 +59,8 @@ const std::set<std::string, std::less<>>& reserved_names() {
                                                            "damping",
                                                            "arc",
                                                            "spacing",
+                                                           "distance",
+                                                           "distance_rate",
                                                            "pi",
                                                            "sin",
                                                            "cos",
@@ -125,7 +127,7 @@ class EffectReader {
     if (effect_.space.empty() && file_.has("space"))
       effect_.space = space_words()[file_.choice("space", space_words())];
     for (const char* const table :
-         {"flow", "support", "held_end", "held_joint", "kinematics", "sensor"})
+         {"flow", "support", "held_end", "held_joint", "chord", "kinematics", "sensor"})
       if (file_.has(table) && own.has(table))
         own.fail(table,
                  "stands in " + in_quotes(id) + ", too, which this effect extends; leave one away");
@@ -197,7 +199,8 @@ class EffectReader {
 
   // The place named by `at`; those allowed are given in the order of their words.
   static Place place(const TomlTable& table, const std::vector<Place>& allowed) {
-    static const std::vector<std::string> words = {"joint", "pivot", "link", "link_centre", "load"};
+    static const std::vector<std::string> words = {"joint",       "pivot", "link",
+                                                   "link_centre", "load",  "chord"};
     std::vector<std::string> here;
     for (const Place p : allowed) here.push_back(words[static_cast<std::size_t>(p)]);
     return allowed[table.choice("at", here)];
@@ -413,8 +416,8 @@ class EffectReader {
       definition.name = table.text("name");
       add_name(table, "name", definition.name);
       if (table.has("at")) {
-        definition.at = place(
-            table, {Place::kJoint, Place::kPivot, Place::kLink, Place::kLinkCentre, Place::kLoad});
+        definition.at = place(table, {Place::kJoint, Place::kPivot, Place::kLink,
+                                      Place::kLinkCentre, Place::kLoad, Place::kChord});
       }
       if (definition.at == Place::kLoad && effect_.moves_load())
         add_name(table, "name", definition.name + "_rate");
@@ -438,7 +441,7 @@ class EffectReader {
       const bool generalised = table.has("along") || table.has("value");
       force.at =
           place(table, generalised ? std::vector{Place::kJoint, Place::kPivot, Place::kLink,
-                                                 Place::kLinkCentre, Place::kLoad}
+                                                 Place::kLinkCentre, Place::kLoad, Place::kChord}
                                    : std::vector{Place::kJoint, Place::kLinkCentre, Place::kLoad});
       force.per_length = per_length(table, force.at);
       force.side = expression(table, "side");
@@ -467,13 +470,17 @@ class EffectReader {
   void read_scalars() {
     static const std::vector<Place> bodies = {Place::kJoint, Place::kPivot, Place::kLink,
                                               Place::kLinkCentre, Place::kLoad};
+    static const std::vector<Place> deforming = {Place::kJoint,      Place::kPivot, Place::kLink,
+                                                 Place::kLinkCentre, Place::kLoad,  Place::kChord};
     static const std::vector<Place> turning = {Place::kJoint, Place::kPivot, Place::kLink,
                                                Place::kLoad};
     const auto read = [&](const char* key, ScalarKind kind) {
       for (const TomlTable& table : file_.tables(key)) {
         ScalarTerm term;
         term.kind = kind;
-        term.at = place(table, kind == ScalarKind::kTorque ? turning : bodies);
+        term.at = place(table, kind == ScalarKind::kTorque    ? turning
+                               : kind == ScalarKind::kKinetic ? bodies
+                                                              : deforming);
         term.per_length = per_length(table, term.at);
         term.value = required(table, "value");
         effect_.scalars.push_back(term);
@@ -542,6 +549,8 @@ class EffectReader {
         table->fail(
             "has none of side, down and across, which say where the joint is held; give them");
     }
+    if (const auto table = file_.optional_table("chord"))
+      effect_.chord = {required(*table, "from"), required(*table, "to")};
     if (const auto table = file_.optional_table("kinematics")) {
       Kinematics& kinematics = effect_.kinematics;
       kinematics.centre_offset = expression(*table, "centre_offset");

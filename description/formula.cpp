@@ -54,6 +54,8 @@ const std::map<std::string, Letter>& letters() {
       {"damping", {"c", "c", "", 0}},
       {"arc", {"s", "s", "", 0}},
       {"spacing", {"\\Delta", "&#916;", "", 0}},
+      {"distance", {"d", "d", "", 0}},
+      {"distance_rate", {"d", "d", "", 1}},
       {"pi", {"\\pi", "&#960;", "", 0}},
   };
   return all;
@@ -292,6 +294,8 @@ const char* place_words(Place place) {
       return ", at the middle of every link";
     case Place::kLoad:
       return ", at the load";
+    case Place::kChord:
+      return ", along the chord";
     case Place::kAnywhere:
       return "";
   }
@@ -396,6 +400,8 @@ std::vector<Formula> formulas(const Effect& effect) {
   all.add("Damping of the clamp at the held end", "c", effect.held_end.clamp_damping);
   all.add("Torsional stiffness GJ", "torsional_stiffness", effect.held_end.torsional_stiffness);
   all.add("Roll of the held end", "roll", effect.held_end.roll);
+  all.add("The chord begins at the arc length", subscripted("s", "1"), effect.chord.from);
+  all.add("The chord ends at the arc length", subscripted("s", "2"), effect.chord.to);
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);

@@ -269,15 +269,20 @@ class Measurement {
     return matrix;
   }
 
-  // Growth of the entries when rows are eliminated from the last to the first, without exchanges; the
-  // constraint, whose coordinates are the last and have no mass, is eliminated after the chain.
+  // Growth of the entries when rows are eliminated as the emitted code does, without exchanges: the last link
+  // first, in space its components in their order, and what belongs to no link after the chain.
   double elimination_growth(const Values& given) const {
     const double before = largest(given);
-    const int n = table_.coordinates, chain = n - chain_.constraints();
+    const int n = table_.coordinates, components = table_.positions_across != nullptr ? 3 : 1;
+    // The first one is eliminated last. A table has all links of a component one after the other.
+    std::vector<int> order;
+    for (int k = components * table_.links; k < n; ++k) order.push_back(k);
+    for (int i = 0; i < table_.links; ++i)
+      for (int a = components - 1; a >= 0; --a) order.push_back(a * table_.links + i);
     Values matrix(given);
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < n; ++i)
-        matrix[as_index(k * n + i)] = given[as_index((k + chain) % n * n + (i + chain) % n)];
+        matrix[as_index(k * n + i)] = given[as_index(order[as_index(k)] * n + order[as_index(i)])];
     double met = before;
     for (int j = n - 1; j > 0; --j) {
       for (int k = 0; k < j; ++k) {

@@ -456,11 +456,15 @@ void Chain::pull_back() {
         if (GiNaC::is_a<GiNaC::symbol>(direction_[axis][i]))
           keep(direction_force_[axis], direction_[axis][i], i);
   }
+  for (const auto& [id, chord] : chords_)
+    for (const ex& component : chord.vector)
+      if (const ex force = generalised_force_[definitions_.number_of(component)]; !force.is_zero())
+        chord_forces_.push_back(force);
   for (Link i = 1; i <= links_; ++i) {
     ex tension = 0;
     for (const Axis axis : axes()) {
       keep(cut[axis], joint_[axis][i - 1], i);
-      tension += cut[axis][i] * direction_[axis][i];
+      tension += (cut[axis][i] + force_of_chords(axis, i)) * direction_[axis][i];
     }
     tensions_.push_back(definitions_.named(-tension, "tension", i));
     if (!in_plane()) {

@@ -135,6 +135,8 @@ class Chain {
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
   /// The state of torsion, zero without it. Its rate is a sum over all joints; it is in no rate itself.
   const GiNaC::ex& path() const { return path_; }
+  /// The forces along the chords of effects, by effect and axis, N: each acts on all links between two places.
+  const std::vector<GiNaC::ex>& chord_forces() const { return chord_forces_; }
 
   /// Where the support (0), the far end of each link (1..n) and the load (n + 1) are.
   const std::vector<GiNaC::ex>& position(Axis axis) const { return point_[axis]; }
@@ -185,6 +187,8 @@ class Chain {
   void place_bend_axis();
   std::vector<ex> rest_bend(Link i);
   void add_steady_tensions();
+  void place_chord(const Effect& effect);
+  ex force_of_chords(Axis axis, Link i);
   void place_held();
   void clamp_end(const Effect& effect);
   void hold();
@@ -283,7 +287,7 @@ class Chain {
   std::vector<ex> direction_at(Place place, Link i) const;
   /// How what is defined at a place is numbered and called.
   static int index_at(Place place, Link i);
-  static std::string at_load(Place place);
+  static std::string named_at(Place place);
   ex effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i);
 
   Description description_;
@@ -302,6 +306,7 @@ class Chain {
   std::vector<ex> direction_square_;  ///< in space: |q_i|^2
   Points direction_force_;            ///< entry 0: of the clamp
   Points joint_;                      ///< far end of link i; 0 is the support
+  Points span_;                       ///< from the upper to the lower end of link i
   Points centre_;                     ///< mass centre of link i
   Points middle_;                     ///< middle of link i, where effects act
   std::vector<ex> joint_angle_, arc_, hanging_depth_;
@@ -332,6 +337,14 @@ class Chain {
     std::vector<ex> mu;  ///< by axis
   };
   std::vector<Held> held_;
+  /// The line between two places of the chain.
+  struct ChordLine {
+    std::vector<ex> fraction;  ///< of link i: the part that lies between
+    std::vector<ex> vector;    ///< by axis
+    ex distance;
+  };
+  std::map<std::string, ChordLine> chords_;  ///< by the effect's id
+  std::vector<ex> chord_forces_;
   std::vector<ex> gap_;            ///< by place and axis
   ex path_, roll_, twist_moment_;  ///< of torsion; none: zero
   std::vector<ex> path_turning_;   ///< by joint

@@ -119,7 +119,7 @@ std::vector<ex> Chain::force_along_normal(const Effect& effect, const ForceTerm&
             "relative_normal; write an odd function of one of them, such as "
             "-c*velocity_normal*sqrt(velocity_normal^2 + floor^2)");
   const ex factor =
-      definitions_.define(effect.id + "_" + at_load(force.at) + "normal_force_per_" + along->name,
+      definitions_.define(effect.id + "_" + named_at(force.at) + "normal_force_per_" + along->name,
                           index_at(force.at, i), scale * along->factor);
   std::vector<ex> components;
   for (const ex& component : along->direction) components.push_back(factor * component);
@@ -137,7 +137,7 @@ ex Chain::kinematic(Expression Kinematics::*quantity, const char* unit, Place pl
 
 void Chain::add_effect_terms(const Effect& effect) {
   const auto each = [&](Place place, const auto& act) {
-    if (place == Place::kLoad) {
+    if (place == Place::kLoad || place == Place::kChord) {
       act(0);
     } else {
       const Link last = place == Place::kPivot ? 1 : links_;
@@ -201,7 +201,7 @@ void Chain::add_force_along(const Effect& effect, const ForceTerm& force, Link i
         "it is not linear in velocities and rates; a force does work along one of them, such as "
         "velocity_side, or along a sum of them times functions of the shape");
   const ex value =
-      definitions_.define(effect.id + "_" + at_load(force.at) + "force_along",
+      definitions_.define(effect.id + "_" + named_at(force.at) + "force_along",
                           index_at(force.at, i), (force.per_length ? length_[i] : ex(1)) * size);
   for (const auto& [rate, coefficient] : *coefficients) {
     const auto variable = variable_of_rate_.find(rate);
@@ -216,7 +216,7 @@ void Chain::add_force_term(const Effect& effect, const ForceTerm& force, Link i)
   const char* unit = force.per_length ? "N/m" : "N";
   const ex scale = force.per_length ? length_[i] : ex(1);
   const auto part = [&](const char* what, const Expression& expression) {
-    return definitions_.define(effect.id + "_" + at_load(force.at) + "force_" + what,
+    return definitions_.define(effect.id + "_" + named_at(force.at) + "force_" + what,
                                index_at(force.at, i),
                                scale * evaluate(effect, expression, kMotion, force.at, i, unit));
   };
@@ -255,7 +255,7 @@ void Chain::add_scalar_term(const Effect& effect, const ScalarTerm& term, Link i
         break;
       }
       add_force(effect.id, {{joint ? joint_angle_[i] : theta_[i == 0 ? links_ : i],
-                             definitions_.define(effect.id + "_" + at_load(term.at) + "torque",
+                             definitions_.define(effect.id + "_" + named_at(term.at) + "torque",
                                                  index_at(term.at, i), value("N m", "N"))}});
       break;
     case ScalarKind::kPotential:

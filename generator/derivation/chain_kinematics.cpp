@@ -151,7 +151,7 @@ void Chain::make_kinematics() {
   }
   for (const Axis axis : axes())
     joint_.push_back({define_variable("joint" + ending(axis), 0, support[axis])});
-  centre_ = middle_ = Points(joint_.size(), std::vector<ex>(1));
+  span_ = centre_ = middle_ = Points(joint_.size(), std::vector<ex>(1));
   reach_ = joint_angle_ = std::vector<ex>(1);
   arc_ = hanging_depth_ = {ex(0)};
 
@@ -162,13 +162,12 @@ void Chain::make_kinematics() {
                          : define_variable("stretched_length", i, length_[i] + extension));
     const ex offset = kinematic(&Kinematics::centre_offset, "m", Place::kLink, i);
     arc_.push_back(definitions_.define("arc", i, arc_[i - 1] + length_[i]));
-    // from the upper to the lower end of the link
-    ex span[3];
     for (const Axis axis : axes())
-      span[axis] = define_variable("span" + ending(axis), i, reach_[i] * direction_[axis][i]);
+      span_[axis].push_back(
+          define_variable("span" + ending(axis), i, reach_[i] * direction_[axis][i]));
     for (const Axis axis : axes())
       middle_[axis].push_back(
-          define_variable("centre" + ending(axis), i, joint_[axis][i - 1] + span[axis] / 2));
+          define_variable("centre" + ending(axis), i, joint_[axis][i - 1] + span_[axis][i] / 2));
     for (const Axis axis : axes()) {
       const ex& middle = middle_[axis][i];
       centre_[axis].push_back(offset.is_zero()
@@ -178,7 +177,7 @@ void Chain::make_kinematics() {
     }
     for (const Axis axis : axes())
       joint_[axis].push_back(
-          define_variable("joint" + ending(axis), i, joint_[axis][i - 1] + span[axis]));
+          define_variable("joint" + ending(axis), i, joint_[axis][i - 1] + span_[axis][i]));
     if (!in_plane()) continue;
     ex rest = kinematic(&Kinematics::rest_angle, "rad", Place::kJoint, i);
     if (i == 1) rest += kinematic(&Kinematics::pivot_rest_angle, "rad", Place::kPivot, i);
@@ -202,6 +201,7 @@ void Chain::make_kinematics() {
       tilt.is_zero() ? ex(1) : definitions_.define("tilt_cosine", kNoIndex, GiNaC::cos(tilt));
   sin_tilt_ = tilt.is_zero() ? ex(0) : definitions_.define("tilt_sine", kNoIndex, GiNaC::sin(tilt));
 
+  for (const Effect& effect : description_.effects) place_chord(effect);
   place_held();
   point_ = joint_;
   for (const Axis axis : axes()) point_[axis].push_back(load_[axis]);

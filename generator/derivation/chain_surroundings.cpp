@@ -16,9 +16,13 @@ namespace catena {
 
 using GiNaC::ex;
 
-// What is at the load belongs to no link, and has a family of its own.
-int Chain::index_at(Place place, Link i) { return place == Place::kLoad ? kNoIndex : i; }
-std::string Chain::at_load(Place place) { return place == Place::kLoad ? "load_" : ""; }
+// What is at the load or along a chord belongs to no link, and has a family of its own.
+int Chain::index_at(Place place, Link i) {
+  return place == Place::kLoad || place == Place::kChord ? kNoIndex : i;
+}
+std::string Chain::named_at(Place place) {
+  return place == Place::kLoad ? "load_" : place == Place::kChord ? "chord_" : "";
+}
 
 ex Chain::effect_parameter(const Effect& effect, const EffectParameter& parameter, Link i) {
   const bool shared = parameter.scope == Scope::kModel;
@@ -55,7 +59,7 @@ std::vector<ex> Chain::flow(const Effect& effect, Place place, Link i) {
   Surroundings here = surroundings(effect, kPosition, place, i);
   add_definitions(effect, kPosition, place, here);
   std::vector<ex> velocity;
-  const std::string prefix = effect.id + "_" + at_load(place) + "flow_";
+  const std::string prefix = effect.id + "_" + named_at(place) + "flow_";
   for (const auto& [axis, part] : {std::pair{"side", &effect.flow.side},
                                    {"down", &effect.flow.down},
                                    {"across", &effect.flow.across}}) {
@@ -94,7 +98,7 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
     add_size(here, name, "m/s", crossing, normal);
   };
   const auto quasi_velocity = [&](const std::string& family, const ex& value) {
-    return define_quasi_velocity(at_load(place) + family, index, value);
+    return define_quasi_velocity(named_at(place) + family, index, value);
   };
   const auto dot = [](const std::vector<ex>& a, const std::vector<ex>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -120,7 +124,7 @@ void Chain::add_motion_along_link(const Effect& effect, Place place, Link i, Sur
   } else {
     add_normal("relative_normal", effect.id + "_crossing_", relative,
                [&](const std::string& family, const ex& value) {
-                 return definitions_.define(at_load(place) + family, index, value);
+                 return definitions_.define(named_at(place) + family, index, value);
                });
   }
 }
@@ -251,6 +255,10 @@ Chain::Surroundings Chain::surroundings(const Effect& effect, Knowledge knowledg
     if (motion) add_angle_of_link(links_, here);
     add_point(effect, motion, place, i, here);
     if (motion) add_motion_along_link(effect, place, i, here);
+  } else if (place == Place::kChord) {
+    const ex& distance = chords_.at(effect.id).distance;
+    here.add("distance", distance, "m");
+    if (motion) here.add("distance_rate", time_.of(distance), "m/s");
   }
   return here;
 }

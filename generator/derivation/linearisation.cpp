@@ -41,6 +41,7 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights, Moving moving
       move(chain.rate(chain.rate(chain.directions()[axis][1])), axis, weights_.acceleration);
     }
   }
+  for (const ex& force : chain.chord_forces()) chord_forces_.insert(definitions_.number_of(force));
   for (size_t k = 0; k < chain.states().size(); ++k) {
     if (!chain.states()[k].is_equal(chain.path()))
       state_rates_[definitions_.symbols_of(chain.states()[k]).front()] = chain.state_rates()[k];
@@ -94,9 +95,10 @@ Form Linearisation::at_link(const ex& expression, int i) {
   }
   for (const auto& [basis, coefficient] : form) {
     const int reach = basis.index - i;
-    const bool allowed = basis.kind == Basis::kPerturbation  ? reach >= -1 && reach <= 1
-                         : basis.kind == Basis::kCarriedDown ? reach == -1
-                                                             : reach == 1;
+    const bool allowed = basis.kind == Basis::kChordForce     ? true
+                         : basis.kind == Basis::kPerturbation ? reach >= -1 && reach <= 1
+                         : basis.kind == Basis::kCarriedDown  ? reach == -1
+                                                              : reach == 1;
     if (!allowed) {
       throw NotOfThisForm("link " + std::to_string(i) + " depends on " +
                           (basis.family.empty() ? "the angle" : basis.family) + " of link " +
@@ -109,9 +111,18 @@ Form Linearisation::at_link(const ex& expression, int i) {
 Form Linearisation::of_no_link(const ex& expression) {
   Form form = change_of(expression);
   for (const auto& [basis, coefficient] : form)
-    if (basis.kind == Basis::kCarriedUp)
-      throw NotOfThisForm("an equation of no link depends on cut forces");
+    if (basis.kind == Basis::kCarriedUp || basis.kind == Basis::kChordForce)
+      throw NotOfThisForm("what belongs to no link depends on " + basis.family);
   return form;
+}
+
+std::map<Basis, Form> Linearisation::chord_forces() {
+  std::map<Basis, Form> changes;
+  for (const int number : chord_forces_) {
+    const Form itself = change_of_symbol(number);
+    if (!itself.empty()) changes[itself.begin()->first] = of_no_link(definitions_[number].value);
+  }
+  return changes;
 }
 
 Form Linearisation::along_links(const ex& expression) {
@@ -221,6 +232,8 @@ Form Linearisation::change_of_symbol(int number) {
     const Form inner = change_of(symbol.value);
     if (inner.empty()) {
       // no change
+    } else if (chord_forces_.count(number)) {
+      form[{Basis::kChordForce, symbol.family, symbol.index}] = 1;
     } else if (down_.count(symbol.family)) {
       form[{Basis::kCarriedDown, symbol.family, symbol.index}] = 1;
     } else if (up_.count(symbol.family)) {

@@ -25,10 +25,10 @@ struct NotOfThisForm : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A linear form over perturbations u_i and over definitions that carry perturbations along the
-/// chain.
+/// A linear form over perturbations u_i, over definitions that carry perturbations along the chain, and over the
+/// forces along chords, which change with all links between their places.
 struct Basis {
-  enum Kind { kPerturbation, kCarriedDown, kCarriedUp } kind;
+  enum Kind { kPerturbation, kCarriedDown, kCarriedUp, kChordForce } kind;
   std::string family;  ///< empty for u
   int index;
   int component = 0;  ///< of u
@@ -52,8 +52,10 @@ class Linearisation {
   const std::vector<GiNaC::ex>& equations() const { return equations_; }
   /// The change of an expression, in terms that are allowed at link i.
   Form at_link(const GiNaC::ex& expression, int i);
-  /// The change of what belongs to no link, in u and in what is carried down to any link.
+  /// The change of what belongs to no link, in u and in what is carried down to any link. Not that of chord forces.
   Form of_no_link(const GiNaC::ex& expression);
+  /// The changes of the forces along chords that change, in the same.
+  std::map<Basis, Form> chord_forces();
   /// The change of a sum over links, in u of all of them.
   Form along_links(const GiNaC::ex& expression);
   /// Of u at one link.
@@ -88,6 +90,7 @@ class Linearisation {
   std::vector<GiNaC::ex> equations_;
   std::map<std::string, Moved> moved_;    // families of q, v and a
   std::map<int, GiNaC::ex> state_rates_;  // of extra states, by the state's number
+  std::set<int> chord_forces_;            // numbers
   std::set<int> reached_;                 // definitions that the equations need
   std::set<std::string> down_, up_;
   std::map<Basis, int> numbers_;

@@ -70,6 +70,24 @@ Differential along_border(Chain& chain, const Weights& weights, size_t coordinat
 
 using Columns = std::vector<std::vector<ex>>;  // [component][rank] or [component][component]
 
+/// [i][a]: of component a of link i.
+using OfLinks = std::vector<std::vector<ex>>;
+
+// A column times a row: one rank more in each triangle, and the diagonal.
+void add_product(const OfLinks& column, const OfLinks& row, Quasiseparable& result) {
+  for (size_t i = 1; i + 1 < result.diagonal.size(); ++i) {
+    for (size_t a = 0; a < column[i].size(); ++a) {
+      result.upper_row[i][a].push_back(column[i][a]);
+      result.lower_row[i][a].push_back(column[i][a]);
+      result.upper_column[i][a].push_back(row[i][a]);
+      result.lower_column[i][a].push_back(row[i][a]);
+      for (size_t b = 0; b < column[i].size(); ++b)
+        result.diagonal[i][a][b] += column[i][a] * row[i][b];
+    }
+  }
+  result.symmetric = false;
+}
+
 // What the elimination of the state of torsion adds: its column times its row.
 void add_path(Chain& chain, const Weights& weights, const std::string& prefix,
               Linearisation& linearisation, Quasiseparable& result) {
@@ -84,28 +102,21 @@ void add_path(Chain& chain, const Weights& weights, const std::string& prefix,
   for (size_t k = block * n; k < chain.residual().size(); ++k)
     if (!by_path.of(chain.residual()[k]).is_zero())
       throw NotOfThisForm("an equation of no link depends on torsion");
+  OfLinks column(n + 1), row(n + 1);
   for (size_t i = 1; i <= n; ++i) {
     const int link = static_cast<int>(i);
     for (size_t a = 0; a < block; ++a) {
       const auto named = [&](std::string family) {
         return family.append("_").append(std::to_string(a));
       };
-      const ex column = definitions.define(named(prefix + "path_column"), link,
-                                           by_path.of(chain.residual()[a * n + i - 1]));
+      column[i].push_back(definitions.define(named(prefix + "path_column"), link,
+                                             by_path.of(chain.residual()[a * n + i - 1])));
       const Basis moved{Basis::kPerturbation, "", link, static_cast<int>(a)};
-      const ex row = definitions.define(named(prefix + "path_row"), link,
-                                        weights.velocity * entry(rate, moved));
-      result.upper_row[i][a].push_back(column);
-      result.lower_row[i][a].push_back(column);
-      result.upper_column[i][a].push_back(row);
-      result.lower_column[i][a].push_back(row);
+      row[i].push_back(definitions.define(named(prefix + "path_row"), link,
+                                          weights.velocity * entry(rate, moved)));
     }
-    for (size_t a = 0; a < block; ++a)
-      for (size_t b = 0; b < block; ++b)
-        result.diagonal[i][a][b] +=
-            result.upper_row[i][a].back() * result.upper_column[i][b].back();
   }
-  result.symmetric = false;
+  add_product(column, row, result);
 }
 
 void find(Chain& chain, const Weights& weights, const std::string& prefix, Moving moving,
@@ -139,6 +150,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
   auto G = table(up.size()), Hy = G;
   std::vector<Columns> S(links, Columns(up.size(), std::vector<ex>(down.size())));
   auto D = table(block), below = D, above = D;
+  // What the equation of link i has of each force along a chord.
+  std::map<Basis, OfLinks> chord_columns;
 
   for (int i = 1; i <= n; ++i) {
     for (size_t f = 0; f < down.size(); ++f) {
@@ -154,6 +167,17 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
     for (size_t a = 0; a < block; ++a) {
       const size_t row = a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1;
       Form r = linearisation.at_link(equations[row], i);
+      for (auto term = r.begin(); term != r.end();) {
+        if (term->first.kind != Basis::kChordForce) {
+          ++term;
+          continue;
+        }
+        OfLinks& column =
+            chord_columns.try_emplace(term->first, links, std::vector<ex>(block)).first->second;
+        column[i][a] =
+            definitions.define(joined({term->first.family, "_column", ending(a)}), i, term->second);
+        term = r.erase(term);
+      }
       for (auto& [basis, coefficient] : r) {
         const std::string by = basis.family.empty() ? ending(basis.component) : basis.family;
         const std::string place = std::to_string(basis.index - i + 1);
@@ -174,6 +198,15 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
         Hy[i][a][g] = entry(r, {Basis::kCarriedUp, up[g], i + 1});
     }
   }
+  // What a form that belongs to no link has of component a of link i.
+  const auto by_link = [&](const Form& form, size_t a, int i) {
+    ex sum = entry(form, perturbation(a, i));
+    for (size_t f = 0; f < down.size(); ++f)
+      for (auto carried = form.lower_bound({Basis::kCarriedDown, down[f], i});
+           carried != form.end() && carried->first.family == down[f]; ++carried)
+        sum += carried->second * B[i][a][f];
+    return sum;
+  };
   result.border = static_cast<int>(border);
   result.border_column = result.border_row = table(border);
   result.corner.assign(border, std::vector<ex>(border));
@@ -186,13 +219,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
         const ex& r = equations[a * static_cast<size_t>(n) + static_cast<size_t>(i) - 1];
         result.border_column[i][a][k] =
             definitions.named(along.of(r), joined({"border_column", ending(a), numbered(k)}), i);
-        ex by_link = entry(row, perturbation(a, i));
-        for (size_t f = 0; f < down.size(); ++f)
-          for (auto carried = row.lower_bound({Basis::kCarriedDown, down[f], i});
-               carried != row.end() && carried->first.family == down[f]; ++carried)
-            by_link += carried->second * B[i][a][f];
-        result.border_row[i][a][k] =
-            definitions.named(by_link, joined({"border_row", ending(a), numbered(k)}), i);
+        result.border_row[i][a][k] = definitions.named(
+            by_link(row, a, i), joined({"border_row", ending(a), numbered(k)}), i);
       }
     }
     for (size_t l = 0; l < border; ++l)
@@ -310,6 +338,14 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
       result.symmetric = result.symmetric && equal(result.corner[k][l], result.corner[l][k]);
   result.below = below;
   result.above = above;
+  for (const auto& [force, form] : linearisation.chord_forces()) {
+    OfLinks row(links, std::vector<ex>(block));
+    for (int i = 1; i <= n; ++i)
+      for (size_t a = 0; a < block; ++a)
+        row[i][a] =
+            definitions.define(joined({force.family, "_row", ending(a)}), i, by_link(form, a, i));
+    add_product(chord_columns.at(force), row, result);
+  }
   if (!chain.path().is_zero() && !weights.velocity.is_zero())
     add_path(chain, weights, prefix, linearisation, result);
   // One link has nothing to couple. Blocks, and what has a border, have arrays all the same, of zeros.

@@ -27,11 +27,15 @@
 // the equation of s times the B_j; nothing that is carried down depends on s, so columns are derivatives along
 // s; the corner where both meet is the derivative of the equations of s along s.
 //
+// A force along the line between two places of the chain acts on all links between and changes with all of them:
+// each of its components F adds to N the product of a column, dr_i/dF, and a row, the change of F by u_j, which
+// is found as the row of a coordinate of no link is.
+//
 // Extra states of joints have rates f(q, v, z); the rate of a state must not depend on another state. In an
 // implicit step they change by delta z = wv (df/dv delta v + df/dq delta q) / (1 - wv df/dz), wa =
 // 1. They are eliminated, and N is the rest. The state of torsion is in no rate, and its own rate is a sum over
 // links. Its elimination adds to N the product of a column, dr/dz, and a row, wv times the change of
-// the rate: one column more in each triangle, and the diagonal.
+// the rate. Such products are one column more in each triangle, and the diagonal.
 #pragma once
 
 #include <ginac/ginac.h>

@@ -20,8 +20,8 @@ const std::string kParameter = "[parameters.c]\nunit = \"N s/m\"\ndescription = 
 // A force that uses its parameter, and one that has none.
 const std::string kForceAlone = "[[force]]\nat = \"load\"\nside = \"load_mass*gravity\"\n";
 
-std::string energy(const char* kind, const char* value) {
-  return std::string("[[") + kind + "]]\nat = \"load\"\nvalue = \"" + value + "\"\n";
+std::string energy(const char* kind, const char* value, const char* at = "load") {
+  return std::string("[[") + kind + "]]\nat = \"" + at + "\"\nvalue = \"" + value + "\"\n";
 }
 
 Effect read(const std::string& body) {
@@ -265,6 +265,19 @@ TEST_CASE("errors in an effect name their line") {
        "drag.toml:9: unknown key \"held_joint.clamp_down\""},
       {"[held_end]\nside = \"1\"\n[held_joint]\nlink = 2\nside = \"1\"\n",
        "drag.toml:8: held_joint: stands beside [held_end]; an effect holds one place"},
+      {"[chord]\nfrom = \"0.1\"\n", "drag.toml:6: chord: \"to\" is missing"},
+      {"[chord]\nfrom = \"0.1\"\nto = \"0.4\"\n" + kForce,
+       "drag.toml:7: chord.from: in \"0.1\": nothing acts along this chord"},
+      {energy("potential", "distance", "chord"),
+       "drag.toml:8: potential.value: in \"distance\": at = \"chord\" needs a table [chord]"},
+      {"[chord]\nfrom = \"0.1\"\nto = \"time\"\n" + energy("potential", "distance", "chord"),
+       "drag.toml:8: chord.to: in \"time\": \"time\" cannot stand here: the places would change"},
+      {"[chord]\nfrom = \"0.1\"\nto = \"0.4\"\n" + energy("potential", "distance_rate^2", "chord"),
+       "drag.toml:11: potential.value: in \"distance_rate^2\": \"distance_rate\" cannot stand"},
+      {"[chord]\nfrom = \"0.1\"\nto = \"0.4\"\n" + energy("kinetic", "distance_rate^2", "chord"),
+       "drag.toml:10: kinetic.at: \"chord\" is not known here"},
+      {"[parameters.distance]\nunit = \"m\"\n" + kForce,
+       "drag.toml:6: parameters.distance: \"distance\" has a meaning in expressions already"},
       {"[kinematics]\ncenter_offset = \"1\"\n",
        "drag.toml:7: unknown key \"kinematics.center_offset\"; did you mean \"centre_offset\"?"},
       {"[[coordinate]]\nname = \"x\"\nunit = \"m\"\nper = \"joint\"\n" + kForce,
