@@ -89,16 +89,9 @@ class SpatialMujoco : public SpatialPeer {
   void set(const SpatialState& state) override {
     positions_.clear();
     rates_.clear();
-    Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d above_rate = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < state.rotation.size(); ++i) {
-      const Eigen::Matrix3d& own = state.rotation[i];
-      const Eigen::Quaterniond turn(Eigen::Matrix3d(above.transpose() * own));
+    for (const auto& [turn, rate] : ball_joints(state, frame())) {
       positions_.insert(positions_.end(), {turn.w(), turn.x(), turn.y(), turn.z()});
-      const Eigen::Vector3d rate = own.transpose() * (state.angular_velocity[i] - above_rate);
       rates_.insert(rates_.end(), rate.begin(), rate.end());
-      above = own;
-      above_rate = state.angular_velocity[i];
     }
   }
   void accelerate(const Vectors& moments) override {

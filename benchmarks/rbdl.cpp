@@ -66,17 +66,10 @@ class SpatialRbdl : public SpatialPeer {
   const char* name() const override { return "RBDL"; }
 
   void set(const SpatialState& state) override {
-    Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d above_rate = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < state.rotation.size(); ++i) {
-      const Eigen::Matrix3d& own = state.rotation[i];
-      const Eigen::Quaterniond turn(Eigen::Matrix3d(above.transpose() * own));
-      model_.SetQuaternion(static_cast<unsigned>(i) + 1,
-                           rbd::Math::Quaternion(turn.x(), turn.y(), turn.z(), turn.w()), q_);
-      v_.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          own.transpose() * (state.angular_velocity[i] - above_rate);
-      above = own;
-      above_rate = state.angular_velocity[i];
+    unsigned i = 0;
+    for (const auto& [turn, rate] : ball_joints(state, frame())) {
+      v_.segment<3>(3 * i) = rate;
+      model_.SetQuaternion(++i, rbd::Math::Quaternion(turn.x(), turn.y(), turn.z(), turn.w()), q_);
     }
   }
 

@@ -95,17 +95,12 @@ struct SpatialChain {
   }
 
   void put(const SpatialState& from, SimTK::State& state) const {
-    Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d above_rate = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < from.rotation.size(); ++i) {
-      const int k = static_cast<int>(i);
-      const Eigen::Quaterniond turn(Eigen::Matrix3d(above.transpose() * from.rotation[i]));
+    int k = 0;
+    for (const auto& [turn, rate] : ball_joints(from, SpatialPeer::Frame::kOfParent)) {
       const double parts[] = {turn.w(), turn.x(), turn.y(), turn.z()};
       for (int c = 0; c < 4; ++c) state.updQ()[4 * k + c] = parts[c];
-      const Eigen::Vector3d rate = above.transpose() * (from.angular_velocity[i] - above_rate);
       for (int c = 0; c < 3; ++c) state.updU()[3 * k + c] = rate[c];
-      above = from.rotation[i];
-      above_rate = from.angular_velocity[i];
+      ++k;
     }
   }
 

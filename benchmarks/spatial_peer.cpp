@@ -96,6 +96,22 @@ VectorXd joints(const Cable& cable, const SpatialState& state) {
   return list;
 }
 
+std::vector<BallJoint> ball_joints(const SpatialState& state, SpatialPeer::Frame frame) {
+  std::vector<BallJoint> result;
+  Matrix3d above = Matrix3d::Identity();
+  Vector3d above_rate = Vector3d::Zero();
+  for (std::size_t i = 0; i < state.rotation.size(); ++i) {
+    const Matrix3d& own = state.rotation[i];
+    const Vector3d& rate = state.angular_velocity[i];
+    const Matrix3d& axes = frame == SpatialPeer::Frame::kOfLink ? own : above;
+    result.push_back(
+        {Quaterniond(Matrix3d(above.transpose() * own)), axes.transpose() * (rate - above_rate)});
+    above = own;
+    above_rate = rate;
+  }
+  return result;
+}
+
 Vectors angular_accelerations(const SpatialState& state, const SpatialPeer& peer) {
   Vectors result;
   Matrix3d above = Matrix3d::Identity();

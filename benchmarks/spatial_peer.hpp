@@ -48,6 +48,13 @@ class SpatialPeer {
   virtual Frame frame() const = 0;
 };
 
+/// What a ball joint turns by, from the link above to its own, and how fast (rad/s, in the frame asked for).
+struct BallJoint {
+  Eigen::Quaterniond turn;
+  Eigen::Vector3d rate;
+};
+std::vector<BallJoint> ball_joints(const SpatialState& state, SpatialPeer::Frame frame);
+
 /// In the world, from what an engine found.
 Vectors angular_accelerations(const SpatialState& state, const SpatialPeer& peer);
 
