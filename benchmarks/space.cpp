@@ -167,6 +167,9 @@ int main(int argc, char** argv) {
 #ifdef CATENA_BENCHMARK_RBDL
   peers.push_back(catena::benchmark::make_rbdl_in_space(cable));
 #endif
+#ifdef CATENA_BENCHMARK_PINOCCHIO
+  peers.push_back(catena::benchmark::make_pinocchio_in_space(cable));
+#endif
   const auto bodies = catena::benchmark::spatial_state(states[1].start.q, states[1].start.v);
   for (const auto& peer : peers) {
     double differs = 0;

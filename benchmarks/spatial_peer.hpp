@@ -60,8 +60,9 @@ Vectors angular_accelerations(const SpatialState& state, const SpatialPeer& peer
 
 std::unique_ptr<SpatialPeer> make_mujoco_in_space(const Cable& cable);
 std::unique_ptr<SpatialPeer> make_simbody_in_space(const Cable& cable);
-// If compiled with CATENA_BENCHMARK_RBDL:
+// If compiled with CATENA_BENCHMARK_RBDL and CATENA_BENCHMARK_PINOCCHIO:
 std::unique_ptr<SpatialPeer> make_rbdl_in_space(const Cable& cable);
+std::unique_ptr<SpatialPeer> make_pinocchio_in_space(const Cable& cable);
 
 /// Simbody's CPodes (BDF) at the given accuracy, from askew_start(); q holds joints(), one column per time.
 Solution simulate_simbody_in_space(const Cable& cable, const std::vector<double>& times,
