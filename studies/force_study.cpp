@@ -72,7 +72,8 @@ int run(int argc, char** argv) {
   if (found.law) {
     fmt::print("law found {}: {} against {}, confirmed {:.3f}, chance {:.3f}\n", found.law->found,
                found.law->force, found.law->variable, found.law->confirmed, found.law->chance);
-    fmt::print("  place        {:.6g} +- {:.2g} m\n", found.law->place, found.law->place_deviation);
+    fmt::print("  place        {:.6g} +- {:.2g} m\n", found.law->site.arc_length,
+               found.law->place_deviation);
     for (const CandidateLaw::Constant& c : found.law->formula.constants)
       fmt::print("  {:12} {:.6g} +- {:.2g} {}\n", c.name, c.value, c.deviation, c.unit);
   }

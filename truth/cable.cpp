@@ -64,6 +64,7 @@ class Chain {
  private:
   Vector cable_force(Vector velocity, Vector along, Vector across) const;
   Vector load_force(double t, Vector at, Vector velocity) const;
+  double tie_force(double distance, double rate) const;
   Vector middle_force(double t, Vector at, Vector velocity, Vector acceleration) const;
   double middle_moment(double angle, double rate) const;
   double joint_moment(int i, double angle, double rate, double tension, double memory,
@@ -127,6 +128,11 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
     force.side += h.gusts * std::sin(2 * std::numbers::pi * (0.3 + 0.5 * j) * t +
                                      (j + 1) * (j + 1) * h.gusts_turn);
   return force;
+}
+
+/// Hidden force that draws mid-cable and the middle of the last link together.
+double Chain::tie_force(double distance, double rate) const {
+  return hidden_.tie * std::max(0.0, distance - hidden_.tie_slack) + hidden_.tie_damping * rate;
 }
 
 /// Hidden moment against the angle of the joint at mid-cable.
@@ -198,7 +204,7 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
 
   const Vector gravity = {cable_.gravity * std::sin(h.gravity_tilt),
                           cable_.gravity * std::cos(h.gravity_tilt)};
-  Moving end = support(t);
+  Moving end = support(t), tied;  // what the tie holds at mid-cable
 
   // Down the chain: positions, velocities, accelerations and the force that each link lacks.
   for (int i = 0; i < n_; ++i) {
@@ -232,6 +238,17 @@ void Chain::residual(double t, const VectorXd& q, const VectorXd& v, const Vecto
       lack[k] = lack[k] + force;
       if (outside)
         outside->middle = {centre.position, centre.velocity, centre.acceleration, q[i], force};
+      tied = centre;
+    }
+    if (i == n_ - 1 && n_ > 2) {
+      const Vector apart = centre.position - tied.position;
+      const double distance = norm(apart),
+                   rate = dot(apart, centre.velocity - tied.velocity) / distance;
+      const Vector drawn = (tie_force(distance, rate) / distance) * apart;
+      lack[k] = lack[k] - drawn;
+      const auto above = static_cast<std::size_t>(n_ / 2 - 1);
+      lack[above] = lack[above] + drawn;
+      if (outside) outside->tie = {distance, rate, -tie_force(distance, rate)};
     }
     end = beyond(link_, 1.0);
   }

@@ -44,7 +44,11 @@ struct OutsideForces {
   double time = 0;  // s
   AtPoint middle, load;
   double joint_angle = 0, joint_rate = 0, joint_moment = 0;  // rad, rad/s, N m that opens the joint
-  std::vector<Joint> joints;                                 // the support first
+  struct Tie {
+    double distance = 0, rate = 0, force = 0;  // m, m/s, N that parts its two ends
+  };
+  Tie tie;
+  std::vector<Joint> joints;  // the support first
 };
 
 struct Integration {

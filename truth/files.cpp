@@ -78,7 +78,7 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
     for (const char* what : {"side", "down", "velocity_side", "velocity_down", "acceleration_side",
                              "acceleration_down", "angle", "force_side", "force_down"})
       text.append(",").append(where).append(what);
-  text += ",joint_angle,joint_rate,joint_moment";
+  text += ",joint_angle,joint_rate,joint_moment,tie_distance,tie_rate,tie_force";
   for (std::size_t i = 0; !forces.empty() && i < forces.front().joints.size(); ++i)
     for (const char* what : {"angle", "rate", "friction"})
       text += ",joint_" + std::to_string(i + 1) + "_" + what;
@@ -92,7 +92,8 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
       add({at->position.side, at->position.down, at->velocity.side, at->velocity.down,
            at->acceleration.side, at->acceleration.down, at->angle, at->force.side,
            at->force.down});
-    add({row.joint_angle, row.joint_rate, row.joint_moment});
+    add({row.joint_angle, row.joint_rate, row.joint_moment, row.tie.distance, row.tie.rate,
+         row.tie.force});
     for (const OutsideForces::Joint& joint : row.joints)
       add({joint.angle, joint.rate, joint.friction});
     text += '\n';

@@ -58,12 +58,15 @@ struct Hidden {
   double stop = 0, stop_side = 0.3;       // N/m, m; pushes mid-cable back beyond it
   double string = 0, string_slack = 0.6;  // N/m, m; from mid-cable to a hook, taut when longer
   double string_side = -0.3, string_down = 0.6;  // m, of the hook
-  double brake = 0, brake_rate = 2;              // N m s/rad, rad/s; eddy brake in mid-joint
-  double joint_stop = 0, joint_gap = 0.1;        // N m/rad, rad; play of mid-joint
-  double maxwell = 0, maxwell_lag = 0.3;         // N m/rad, s; spring before a dashpot in mid-joint
-  double tension_friction = 0;                   // m; every joint's friction over its tension
-  double leak = 0;                               // kg/s that the load loses
-  double insect = 0;                             // kg at mid-cable
+  double tie = 0,
+         tie_slack = 1;  // N/m, m; from mid-cable to the middle of the last link, taut when longer
+  double tie_damping = 0;                  // N s/m, between these two
+  double brake = 0, brake_rate = 2;        // N m s/rad, rad/s; eddy brake in mid-joint
+  double joint_stop = 0, joint_gap = 0.1;  // N m/rad, rad; play of mid-joint
+  double maxwell = 0, maxwell_lag = 0.3;   // N m/rad, s; spring before a dashpot in mid-joint
+  double tension_friction = 0;             // m; every joint's friction over its tension
+  double leak = 0;                         // kg/s that the load loses
+  double insect = 0;                       // kg at mid-cable
   double carried =
       0;  // share of the load's weight carried by a hand in the first second: a slack start
 };

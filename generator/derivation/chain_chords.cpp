@@ -16,7 +16,7 @@ namespace {
 
 // m: over this length a place goes from one link to the next as its arc length is changed, so that it has a
 // derivative. It is off by half of this at a joint, and by less elsewhere.
-const ex kPlaceRounding = GiNaC::numeric(1, 1000000);
+const ex kPlaceRounding = GiNaC::numeric(1, 1000000000);
 
 }  // namespace
 
@@ -29,8 +29,10 @@ void Chain::place_chord(const Effect& effect) {
   const ex from = evaluate(effect, effect.chord.from, kShape, Place::kAnywhere, 0, "m");
   const ex to = evaluate(effect, effect.chord.to, kShape, Place::kAnywhere, 0, "m");
   const auto edge = [&](Link i) {
+    // Named before it is squared: written out, the square would cancel where a place is at a joint.
     const auto distance = [&](const ex& place) {
-      return GiNaC::sqrt(GiNaC::pow(place - arc_[i], 2) + kPlaceRounding * kPlaceRounding);
+      const ex beyond = definitions_.define(name + "_beyond", i, place - arc_[i]);
+      return GiNaC::sqrt(beyond * beyond + kPlaceRounding * kPlaceRounding);
     };
     return definitions_.define(name + "_edge", i, distance(to) - distance(from));
   };

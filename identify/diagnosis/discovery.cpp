@@ -45,7 +45,7 @@ const Candidate& add_to_library(DiagnosisContext& context, const FittedModel& ba
   const auto value_of = [&](const std::string& name) {
     for (const CandidateLaw::Constant& constant : law.formula.constants)
       if (name == constant.name) return constant.value;
-    return law.place;
+    return name == kLawOtherPlace ? law.site.other_arc_length : law.site.arc_length;
   };
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     candidate.parameters[i].value = value_of(candidate.effect.parameters[i].name);

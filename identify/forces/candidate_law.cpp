@@ -114,12 +114,13 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
              : has_lag()                            ? relaxing_grammar()
              : has_time()                           ? time_grammar(least, most)
              : over_tension(variable)               ? friction_grammar()
+             : variable == LawVariable::kChordRate  ? dashpot_grammar()
              : against()                            ? velocity_grammar()
              : angle                                ? angle_grammar()
-             : has_point()                          ? distance_grammar()
+             : is_distance()                        ? distance_grammar()
                                                     : position_grammar();
   if (has_time()) return;  // in s
-  if (!against() && !angle && !has_point()) middle_ = 0.5 * (least + most);
+  if (!against() && !angle && !is_distance()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
   const double mean = against() ? 0 : sum / count;  // a sign changes at 0
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
@@ -177,8 +178,10 @@ bool CandidateLaw::admits(const VectorXd& coefficients) const {
   return (coefficients.array() != 0).all() && (!against() || (coefficients.array() <= 0).all());
 }
 
-bool CandidateLaw::has_place() const {
-  return site_.kind == SiteKind::kPlace && !at_end(site_.arc_length, chain_.lengths.sum());
+Index CandidateLaw::places() const {
+  const double length = chain_.lengths.sum();
+  if (site_.kind == SiteKind::kPair) return 1 + !at_end(site_.other_arc_length, length);
+  return site_.kind == SiteKind::kPlace && !at_end(site_.arc_length, length);
 }
 
 std::string CandidateLaw::shape_name(int term) const {
@@ -192,7 +195,8 @@ bool CandidateLaw::has_moment(int term) const {
 
 VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
   std::vector<double> numbers;
-  if (has_place()) numbers.push_back(site_.arc_length);
+  if (places() > 0) numbers.push_back(site_.arc_length);
+  if (places() > 1) numbers.push_back(site_.other_arc_length);
   for (Index k = 0; k < of_point(); ++k) numbers.push_back(numbers_.fixed_point[k]);
   if (has_lag()) numbers.push_back(numbers_.lag);
   for (const int place : form) {
@@ -205,8 +209,8 @@ VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
 
 VectorXd CandidateLaw::steps(const std::vector<int>& form) const {
   VectorXd steps = kNumberStep * numbers(form).cwiseAbs();
-  steps.segment(has_place(), of_point()).setConstant(kNumberStep * half_);
-  Index next = has_place() + of_point() + has_lag();
+  steps.segment(places(), of_point()).setConstant(kNumberStep * half_);
+  Index next = places() + of_point() + has_lag();
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
     if (shape_name(term) == kEdge) steps[next] = kNumberStep;
@@ -220,12 +224,15 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
                                                const VectorXd& numbers) const {
   CandidateLaw other = *this;
   Index next = 0;
-  if (has_place()) other.site_.arc_length = numbers[next++];
+  if (places() > 0) other.site_.arc_length = numbers[next++];
+  if (places() > 1) other.site_.other_arc_length = numbers[next++];
   for (Index k = 0; k < of_point(); ++k) other.numbers_.fixed_point[k] = numbers[next++];
   if (has_lag()) other.numbers_.lag = numbers[next++];
-  bool possible = numbers.allFinite() &&
-                  (!has_place() || (other.site_.arc_length > 0 && other.has_place())) &&
-                  (!has_lag() || other.numbers_.lag > kLeastLag);
+  bool possible =
+      numbers.allFinite() &&
+      (places() == 0 || (other.site_.arc_length > 0 && other.places() == places())) &&
+      (site_.kind != SiteKind::kPair || other.site_.arc_length < other.site_.other_arc_length) &&
+      (!has_lag() || other.numbers_.lag > kLeastLag);
   for (const int term : form) {
     if (shape_name(term).empty()) continue;
     const double shape = numbers[next++];
@@ -253,7 +260,7 @@ bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw
 bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
                                       const std::vector<int>& other_form) const {
   return site_.kind == other.site_.kind && site_.joint == other.site_.joint &&
-         has_place() == other.has_place() && variable_ == other.variable_ &&
+         places() == other.places() && variable_ == other.variable_ &&
          has_terms_of(form, other, other_form);
 }
 
@@ -328,7 +335,7 @@ void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
   char knot = 'a';  // names that end with a number are those of one joint or link
-  Index number = coefficients.size() + has_place() + of_point() + has_lag();  // the next shape's
+  Index number = coefficients.size() + places() + of_point() + has_lag();  // the next shape's
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
@@ -395,7 +402,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
     add_spring_about_rest(formula, coefficients, covariance);
   else
     add_terms(formula, form, coefficients, deviations);
-  const Index numbers = coefficients.size() + has_place();
+  const Index numbers = coefficients.size() + places();
   for (Index k = 0; k < of_point(); ++k) {
     const double at = numbers_.fixed_point[k];
     formula.constants.push_back({fmt::format("point_{}", word_of(static_cast<ForceDirection>(k))),

@@ -27,6 +27,8 @@ class CandidateLaw {
                const std::vector<LawMotion>& visited, const Numbers& numbers);
 
   const LawSite& site() const { return site_; }
+  /// How many arc lengths of places are free: that of one inside of the cable, those of a pair. The end is known.
+  Eigen::Index places() const;
   /// The force is against a velocity, an acceleration or a stretch that relaxes: no coefficient is positive.
   bool against() const { return !has_potential(variable_); }
   /// The force depends on nothing but the time.
@@ -56,7 +58,7 @@ class CandidateLaw {
   /// potential, every term is against the velocity, or it is a mass or a spring before a dashpot, none negative.
   bool admits(const Eigen::VectorXd& coefficients) const;
 
-  /// Numbers that the force of a formula is not linear in: the arc length of a place inside of the cable, m; the
+  /// Numbers that the force of a formula is not linear in: the arc lengths of places inside of the cable, m; the
   /// fixed point, m; the lag, s; the shape of every term that has one, in units of the half width (s
   /// of the time), and its moment, s.
   Eigen::VectorXd numbers(const std::vector<int>& form) const;
@@ -112,8 +114,8 @@ class CandidateLaw {
                   const Eigen::MatrixXd& covariance) const;
 
  private:
-  bool has_place() const;
   bool has_point() const { return variable_ == LawVariable::kDistance; }
+  bool is_distance() const { return has_point() || variable_ == LawVariable::kChord; }
   /// Numbers of the fixed point, if it has one.
   Eigen::Index of_point() const { return has_point() ? numbers_.fixed_point.size() : 0; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }

@@ -113,17 +113,18 @@ LinearProblem of_points(const ForcePaths& paths, const LinearProblem& linear, Fr
 
 class LawSearch {
  public:
-  /// `random`: of each recording. `linear`: with a torque on every link as its forces.
+  /// `random`: of each recording. `linear`: with a torque on every link as its forces. `searches`: with this one.
   LawSearch(ForcePaths& paths, const std::vector<NodeForces>& random, std::mt19937_64& numbers,
             LinearProblem linear, const LawChain& chain, std::vector<CandidateLaw> candidates,
-            Split split)
+            Split split, int searches)
       : paths_(paths),
         random_(random),
         numbers_(numbers),
         linear_(std::move(linear)),
         chain_(chain),
         candidates_(std::move(candidates)),
-        split_(split) {}
+        split_(split),
+        searches_(searches) {}
 
   ForceLaw run() {
     ForceLaw law;
@@ -139,7 +140,7 @@ class LawSearch {
       as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
                                   static_cast<double>(second.seen)) >= law.confirmed;
     law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomSeries);
-    if (split_ == Split::kPoints) law.chance *= 2;  // another search has been done before
+    law.chance *= searches_;
     law.by_points = split_ == Split::kPoints;
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
     if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
@@ -536,10 +537,12 @@ class LawSearch {
     take_names(fitted.law, law);
     law.formula =
         fitted.law.sharp().formula(fitted.form, fitted.coefficients, inflation * fitted.covariance);
-    law.place = law.site.arc_length;
-    const Index terms = fitted.coefficients.size();
-    if (law.site.kind == SiteKind::kPlace && !at_end(law.place, chain_.lengths.sum()))
-      law.place_deviation = std::sqrt(inflation * fitted.covariance(terms, terms));
+    const auto deviation = [&](Index number) {
+      const Index at = fitted.coefficients.size() + number;
+      return std::sqrt(inflation * fitted.covariance(at, at));
+    };
+    if (fitted.law.places() > 0) law.place_deviation = deviation(0);
+    if (fitted.law.places() > 1) law.other_place_deviation = deviation(1);
   }
 
   ForcePaths& paths_;
@@ -549,13 +552,13 @@ class LawSearch {
   const LawChain& chain_;
   std::vector<CandidateLaw> candidates_;
   Split split_;
+  int searches_;
 };
 
 }  // namespace
 
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const std::vector<LawSite>& sites,
-                                     const std::optional<LawSite>& pushed) {
+                                     const LawSites& sites) {
   std::mt19937_64 numbers(kLawSeed);
   std::vector<NodeForces> random;
   for (const ForcePath& path : paths.paths())
@@ -564,24 +567,25 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   for (Index k = 0; k < chain.lengths.size(); ++k)
     for (ForcePattern& torque : torque_patterns(k, chain)) torques.push_back(std::move(torque));
   paths.act(std::move(torques));
-  std::optional<LinearProblem> linear = paths.linearise(kFiner);
+  const std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
   const std::vector<LawMotion> visited = motions_of(paths);
-  std::vector<CandidateLaw> candidates, of_time;
-  for (const LawSite& site : sites)
-    for (CandidateLaw& candidate : candidates_at(site, chain, visited))
-      candidates.push_back(std::move(candidate));
-  ForceLaw law =
-      LawSearch(paths, random, numbers, *linear, chain, std::move(candidates), Split::kFrames)
-          .run();
-  if (pushed) of_time = candidates_of_time(*pushed, chain, visited);
-  if (!law.found && !of_time.empty()) {
-    const ForceLaw timed = LawSearch(paths, random, numbers, std::move(*linear), chain,
-                                     std::move(of_time), Split::kPoints)
-                               .run();
-    if (timed.found) law = timed;
-  }
-  return law;
+  const auto law_at = [&](const std::vector<LawSite>& of, Split split, int searches) {
+    std::vector<CandidateLaw> candidates;
+    for (const LawSite& site : of)
+      for (CandidateLaw& candidate : split == Split::kPoints
+                                         ? candidates_of_time(site, chain, visited)
+                                         : candidates_at(site, chain, visited))
+        candidates.push_back(std::move(candidate));
+    if (candidates.empty()) return ForceLaw{};
+    return LawSearch(paths, random, numbers, *linear, chain, std::move(candidates), split, searches)
+        .run();
+  };
+  ForceLaw law = law_at(sites.first, Split::kFrames, 1);
+  if (law.found) return law;
+  ForceLaw second = sites.pushed ? law_at({*sites.pushed}, Split::kPoints, 2)
+                                 : law_at(sites.pairs, Split::kFrames, 2);
+  return second.found ? std::move(second) : std::move(law);
 }
 
 }  // namespace catena

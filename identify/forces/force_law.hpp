@@ -39,8 +39,7 @@ struct ForceLaw {
   std::string force, variable;    ///< of the best candidate: "side force", "side position"
   LawSite site;                   ///< of the best candidate
   CandidateLaw::Formula formula;  ///< empty where nothing is found
-  double place = 0;               ///< m, arc length of the place or joint, if the law is right
-  double place_deviation = 0;     ///< m
+  double place_deviation = 0, other_place_deviation = 0;  ///< m, of the arc lengths of the site
   int candidates = 0;
   bool by_points =
       false;  ///< chosen by every other point that is seen and confirmed by the rest: a law of the time
@@ -58,11 +57,16 @@ struct ForceLaw {
   std::vector<std::string> words;
 };
 
-/// `paths`: settled with forces; other patterns act on it afterwards. `sites`: where a law may act.
-/// `pushed`: the one place of the force, where a law of the time may act, too.
+/// Where a law may act. The others are looked at where the first have none.
+struct LawSites {
+  std::vector<LawSite> first;
+  std::vector<LawSite> pairs;     ///< of places; none where the force is at one place
+  std::optional<LawSite> pushed;  ///< the one place of the force, where it may follow the time
+};
+
+/// `paths`: settled with forces; other patterns act on it afterwards.
 /// Nothing where the motion cannot be followed.
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const std::vector<LawSite>& sites,
-                                     const std::optional<LawSite>& pushed);
+                                     const LawSites& sites);
 
 }  // namespace catena

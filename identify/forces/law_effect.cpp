@@ -31,6 +31,8 @@ EffectPlace place_of(const LawSite& site, double length) {
     case SiteKind::kPlace:
       if (at_end(site.arc_length, length)) return {"load", nullptr};
       return {"link_centre", "length"};
+    case SiteKind::kPair:
+      return {"chord", nullptr};
     case SiteKind::kJoint:
       if (site.joint == 0) return {"pivot", nullptr};
       return {"joint", "spacing"};
@@ -78,16 +80,26 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     text += fmt::format("description = \"Found: {:.6g} +- {:.2g}\"\n", of.value, of.deviation);
   };
   for (const CandidateLaw::Constant& constant : formula.constants) parameter(constant);
-  if (point) parameter({kLawPlace, "m", law.place, law.place_deviation, false, 0, length});
+  const LawSite& site = law.site;
+  const bool pair = site.kind == SiteKind::kPair;
+  const bool to_end = pair && at_end(site.other_arc_length, length);
+  if (point || pair)
+    parameter({kLawPlace, "m", site.arc_length, law.place_deviation, false, 0, length});
+  if (pair && !to_end)
+    parameter(
+        {kLawOtherPlace, "m", site.other_arc_length, law.other_place_deviation, false, 0, length});
 
   std::vector<CandidateLaw::Constant> fixed = formula.fixed;
   if (where.gate) fixed.push_back({"width", "m", kStepWidth});
-  if (where.gate && !point) fixed.push_back({kLawPlace, "m", law.place});
+  if (where.gate && !point) fixed.push_back({kLawPlace, "m", site.arc_length});
+  if (to_end) fixed.push_back({kLawOtherPlace, "m", length});
   if (load && (formula.energy + formula.along).find("offset") != std::string::npos)
     fixed.push_back({"offset", "m", 0});
   for (const CandidateLaw::Constant& constant : fixed)
     text += fmt::format("\n[constants.{}]\nvalue = {}\nunit = \"{}\"\n", constant.name,
                         shortest_number(constant.value), constant.unit);
+  if (pair)
+    text += fmt::format("\n[chord]\nfrom = \"{}\"\nto = \"{}\"\n", kLawPlace, kLawOtherPlace);
   const auto define = [&](const char* name, const std::string& value) {
     text += fmt::format("\n[[definition]]\nname = \"{}\"\nat = \"{}\"\nvalue = \"{}\"\n", name,
                         where.at, value);

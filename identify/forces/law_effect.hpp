@@ -16,5 +16,6 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
 
 /// Name of the parameter.
 inline constexpr const char* kLawPlace = "place";
+inline constexpr const char* kLawOtherPlace = "other_place";
 
 }  // namespace catena

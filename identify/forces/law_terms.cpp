@@ -253,6 +253,14 @@ const LawGrammar& friction_grammar() {
   return kGrammar;
 }
 
+const LawGrammar& dashpot_grammar() {
+  static const LawGrammar kGrammar = [] {
+    const LawTerm v{TermKind::kViscous}, v2{TermKind::kSquare};
+    return grammar({{v}, {v2}, {v, v2}});
+  }();
+  return kGrammar;
+}
+
 const LawGrammar& inertia_grammar() {
   static const LawGrammar kGrammar = grammar({{{TermKind::kInertia}}});
   return kGrammar;

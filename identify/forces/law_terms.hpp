@@ -83,6 +83,7 @@ const LawGrammar& distance_grammar();
 const LawGrammar& angle_grammar();
 const LawGrammar& velocity_grammar();
 const LawGrammar& friction_grammar();  ///< of these friction alone
+const LawGrammar& dashpot_grammar();   ///< for the rate of a distance
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
 /// Between these times, s.

@@ -32,6 +32,9 @@ constexpr NamesOfVariable kNames[] = {
     {LawVariable::kDistance, true, "force away from a fixed point", "distance from it", "m", ""},
     {LawVariable::kAcceleration, false, "force of a mass", "acceleration less gravity", "m/s^2",
      ""},
+    {LawVariable::kChord, true, "force that parts two places", "their distance", "m", "distance"},
+    {LawVariable::kChordRate, false, "force that parts two places", "rate of their distance", "m/s",
+     "distance_rate"},
     {LawVariable::kRelaxingSidePosition, false, "side force", "relaxing side position", "m",
      "velocity_side"},
     {LawVariable::kRelaxingDownPosition, false, "down force", "relaxing down position", "m",
@@ -75,6 +78,9 @@ const NamesOfVariable& row_of(LawVariable variable) {
                        [&](const NamesOfVariable& names) { return names.variable == variable; });
 }
 
+/// m, m/s: a vector that is shorter has no direction.
+constexpr double kLeastDistance = 1e-12;
+
 /// A variable of a place, and its derivative by the position or by the velocity.
 struct OfPlace {
   double value = 0;
@@ -87,7 +93,7 @@ OfPlace of_place(LawVariable variable, const PlaceMotion& motion, const ChainVec
     return OfPlace{vector[i], VectorXd::Unit(vector.size(), i)};
   };
   const auto size_of = [](const ChainVector& vector) {
-    const double size = std::max(vector.norm(), 1e-12);
+    const double size = std::max(vector.norm(), kLeastDistance);
     return OfPlace{size, vector / size};
   };
   switch (variable) {
@@ -244,6 +250,9 @@ std::string site_in_words(const LawSite& site) {
   switch (site.kind) {
     case SiteKind::kPlace:
       return fmt::format(" at arc length {:.3g} m", site.arc_length);
+    case SiteKind::kPair:
+      return fmt::format(" between arc lengths {:.3g} m and {:.3g} m", site.arc_length,
+                         site.other_arc_length);
     case SiteKind::kJoint:
       return site.joint == 0 ? std::string()
                              : fmt::format(" in the joint at arc length {:.3g} m", site.arc_length);
@@ -325,6 +334,19 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
       elements.push_back({of.value, place.by_turns.transpose() * of.along, 1});
       break;
     }
+    case SiteKind::kPair: {
+      const PlaceKinematics one =
+          place_kinematics(state, chain.coordinates, chain, site.arc_length);
+      const PlaceKinematics other =
+          place_kinematics(state, chain.coordinates, chain, site.other_arc_length);
+      const ChainVector apart = other.motion.position - one.motion.position;
+      const double distance = std::max(apart.norm(), kLeastDistance);
+      const ChainVector along = apart / distance;
+      const ChainVector parting = other.motion.velocity - one.motion.velocity;
+      const double value = variable == LawVariable::kChord ? distance : along.dot(parting);
+      elements.push_back({value, (other.by_turns - one.by_turns).transpose() * along, 1});
+      break;
+    }
     case SiteKind::kJoint:
       add_joint(site.joint, 1, 1);
       break;
@@ -378,6 +400,9 @@ std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain
         add({LawVariable::kRelaxingSidePosition, LawVariable::kRelaxingDownPosition});
       else
         add({LawVariable::kAcceleration});
+      break;
+    case SiteKind::kPair:
+      add({LawVariable::kChord, LawVariable::kChordRate});
       break;
     case SiteKind::kCable:
       add({LawVariable::kNormalVelocity, LawVariable::kTangentialVelocity, LawVariable::kSpeed,

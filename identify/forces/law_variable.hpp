@@ -12,6 +12,7 @@ namespace catena {
 
 enum class SiteKind {
   kPlace,   ///< one point of the cable
+  kPair,    ///< two points of the cable
   kJoint,   ///< one joint; joint 0 is the support
   kCable,   ///< every piece of the cable, per length
   kJoints,  ///< every joint, as the bending of the cable per length
@@ -20,8 +21,10 @@ enum class SiteKind {
 /// Where a law acts.
 struct LawSite {
   SiteKind kind = SiteKind::kPlace;
-  double arc_length = 0;  ///< m, of the place or the joint
+  double arc_length =
+      0;  ///< m, of the place or the joint, of a pair of places the one nearer to the support
   Eigen::Index joint = 0;
+  double other_arc_length = 0;  ///< m, of the other place of a pair
 };
 
 /// What a law may depend on. Its force is along the change of the variable, so that force times rate
@@ -33,6 +36,9 @@ enum class LawVariable {
   kAcrossPosition,
   kDistance,      ///< from a fixed point
   kAcceleration,  ///< less that of gravity, as a vector
+  // of a pair of places
+  kChord,      ///< their distance
+  kChordRate,  ///< its rate
   // of the end of the cable
   kRelaxingSidePosition,
   kRelaxingDownPosition,
@@ -87,7 +93,7 @@ LawNames names_of(const LawSite& site, LawVariable variable, bool in_space);
 /// A variable of a place in the language of effects, `offset` past the middle of a link.
 std::string symbols_of(LawVariable variable, bool in_space);
 
-/// " at arc length 1.08 m", " along the cable", or nothing for the support.
+/// " at arc length 1.08 m", " between arc lengths 1.08 m and 2.37 m", " along the cable", or nothing for the support.
 std::string site_in_words(const LawSite& site);
 
 /// The variable at one piece of a site, or one component of it: its value, its derivative by the turns of the links (by

@@ -35,19 +35,35 @@ void add_parameters(const Problem& problem, const VectorXd& before, const ForceP
 }
 
 /// Where a law of the force may act: at its place, or at all that were tried where it has none, in
-/// every joint by itself, along the cable and in all joints.
-std::vector<LawSite> sites_of(const MissingForce& missing, const ChainMeasures& chain) {
-  std::vector<LawSite> sites;
+/// every joint by itself, along the cable and in all joints. Then in time at its place, or between two of those that
+/// were tried.
+LawSites sites_of(const MissingForce& missing, const ChainMeasures& chain) {
+  std::vector<double> places;
   const auto add_place = [&](const MissingForce::Place& place) {
-    if (place.joint < 0) sites.push_back({SiteKind::kPlace, place.arc_length});
+    if (place.joint < 0) places.push_back(place.arc_length);
   };
   add_place(*missing.best);
   if (!missing.one_place)
     for (const MissingForce::Place& place : missing.places) add_place(place);
+  LawSites sites;
+  for (const double place : places) sites.first.push_back({SiteKind::kPlace, place});
   for (Index joint = 0; joint < chain.lengths.size(); ++joint)
-    sites.push_back({SiteKind::kJoint, chain.lengths.head(joint).sum(), joint});
-  sites.push_back({SiteKind::kCable});
-  sites.push_back({SiteKind::kJoints});
+    sites.first.push_back({SiteKind::kJoint, chain.lengths.head(joint).sum(), joint});
+  sites.first.push_back({SiteKind::kCable});
+  sites.first.push_back({SiteKind::kJoints});
+  if (missing.one_place) {
+    sites.pushed = missing.best->joint >= 0
+                       ? LawSite{SiteKind::kJoint, missing.best->arc_length, missing.best->joint}
+                       : LawSite{SiteKind::kPlace, missing.best->arc_length};
+    return sites;
+  }
+  const double near = 0.5 * chain.length / kForcePlaces;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = i + 1; j < places.size(); ++j)
+      if (std::abs(places[i] - places[j]) > near)
+        sites.pairs.push_back({.kind = SiteKind::kPair,
+                               .arc_length = std::min(places[i], places[j]),
+                               .other_arc_length = std::max(places[i], places[j])});
   return sites;
 }
 
@@ -228,14 +244,10 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
     missing.log_evidence = missing.best->log_evidence;
     missing.share = 1 - paths.squares() / squares_without;
   }
-  std::optional<LawSite> pushed;
-  if (missing.one_place)
-    pushed = moment ? LawSite{SiteKind::kJoint, missing.best->arc_length, missing.best->joint}
-                    : LawSite{SiteKind::kPlace, missing.best->arc_length};
   missing.law =
       law_of_force(missing.one_place ? paths : with_all,
                    {chain, problem.model().coordinates(), chain.gravity, chain.masses, chain.load},
-                   sites_of(missing, chain), pushed);
+                   sites_of(missing, chain));
   return true;
 }
 

@@ -23,7 +23,7 @@ struct Slope {
 
 // Forward sensitivities, the adjoint and both linear solvers against differences.
 inline void check_derivatives(const Model& model, const VectorXd& p, const State& initial,
-                       const catena::Signals& signals, const Slope& slope) {
+                              const catena::Signals& signals, const Slope& slope) {
   CHECK(model.table().structured == 1);
   catena::SimulationOptions dense = tight();
   dense.linear_solver = catena::LinearSolver::kDense;

@@ -28,9 +28,9 @@ using testing::set;
 /// From the middle of link 1 (of 5, 0.24 m each) to 0.06 m above the end of link 4.
 VectorXd tied(const Model& model) {
   VectorXd p = testing::cable(model, 0.05, 1e-3);
-  const std::pair<const char*, double> values[] = {
-      {"spring", 20},       {"dashpot", 0.5},      {"pull", 1.5},
-      {"rest_length", 0.4}, {"upper_place", 0.12}, {"lower_place", 0.9}};
+  const std::pair<const char*, double> values[] = {{"spring", 20},        {"dashpot", 0.5},
+                                                   {"pull", 1.5},         {"rest_length", 0.4},
+                                                   {"upper_place", 0.12}, {"lower_place", 0.9}};
   for (const auto& [name, value] : values)
     set(model, p, (std::string("tie.") + name).c_str(), value);
   return p;

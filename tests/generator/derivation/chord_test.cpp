@@ -24,7 +24,7 @@ namespace chord_test {
 namespace {
 
 constexpr int kLinks = 4;
-// A place goes from one link to the next over 1e-6 m; the places of these tests are 1e-2 m and more from a joint.
+// A place goes from one link to the next over 1e-9 m; at the ends of the chain it is off by half of that.
 constexpr double kTolerance = 1e-8;
 
 using Vector = std::array<ex, 3>;
@@ -90,8 +90,8 @@ ex above(const ex& place, int i) {
 Description tied(Space space, bool with_tie) {
   Description description = plain_chain();
   description.space = space;
-  if (with_tie) description.effects.push_back(
-        read_effect(tests::source_folder() / "tests/runtime/tie.toml"));
+  if (with_tie)
+    description.effects.push_back(read_effect(tests::source_folder() / "tests/runtime/tie.toml"));
   return description;
 }
 
@@ -135,8 +135,8 @@ void compare_with_virtual_work(Space space, const ex& from, const ex& to) {
     }
     // The tie draws links together; what they bear of it is the opposite of its pull.
     const ex tension = with_tie.of(chain.tensions()[at - 1]) - without.of(plain.tensions()[at - 1]);
-    CHECK(std::abs(number(tension + drawn * 2 * between[at] *
-                                        dot(motion.direction[at], apart) / distance)) < kTolerance);
+    CHECK(std::abs(number(tension + drawn * 2 * between[at] * dot(motion.direction[at], apart) /
+                                        distance)) < kTolerance);
   }
   CHECK(std::abs(number(drawn)) > 0.1);
 }
@@ -154,7 +154,8 @@ TEST_CASE("a tie does the work of its force on the two places") {
   }
 }
 
-TEST_CASE("a tie adds a column for each axis to the triangles of the Newton matrix, and none to M") {
+TEST_CASE(
+    "a tie adds a column for each axis to the triangles of the Newton matrix, and none to M") {
   for (const Space space : {Space::kPlane, Space::kThreeDimensional}) {
     CAPTURE(static_cast<int>(space));
     const auto ranks = [&](bool with_tie, bool mass_alone) {

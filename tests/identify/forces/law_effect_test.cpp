@@ -34,6 +34,7 @@ constexpr double kStretch = 0.3;                  // of everything that relaxes,
 /// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
 /// joint the effect is the mean of both links, whose directions differ.
 constexpr double kInside = 0.8 * kLength;
+constexpr double kAbove = 0.3 * kLength;  // of a pair of places the other one
 
 VectorXd lengths_of(int links) { return VectorXd::Constant(links, kLength / links); }
 
@@ -98,6 +99,7 @@ std::vector<MadeLaw> laws_of_all_pairs(bool in_space) {
   std::set<std::vector<std::vector<int>>> grammars;  // by their forms
   for (const LawSite& site :
        {LawSite{SiteKind::kPlace, kInside}, LawSite{SiteKind::kPlace, kLength},
+        LawSite{SiteKind::kPair, kAbove, 0, kInside}, LawSite{SiteKind::kPair, kAbove, 0, kLength},
         LawSite{SiteKind::kJoint, 0, 0}, LawSite{SiteKind::kJoint, 0.5 * kLength, 1},
         LawSite{SiteKind::kCable}, LawSite{SiteKind::kJoints}}) {
     std::set<std::string> variables;
@@ -120,9 +122,9 @@ std::vector<MadeLaw> laws_of_all_pairs(bool in_space) {
         made.found.force = law.force_name();
         made.found.variable = law.variable_name();
         made.found.site = site;
-        made.found.place = site.arc_length;
         made.of_any_links =
-            energies.empty() && (site.arc_length == kInside || site.kind == SiteKind::kJoints);
+            energies.empty() && (site.arc_length == kInside || site.other_arc_length == kInside ||
+                                 site.kind == SiteKind::kJoints);
         made.found.formula = law.formula(
             form, made.coefficients, 1e-4 * MatrixXd::Identity(terms + numbers, terms + numbers));
         if (!energies.insert(made.found.formula.energy).second) continue;

@@ -270,13 +270,37 @@ TEST_CASE("the law of a spring to a wall: stiffness and rest position") {
   CHECK(found.law->variable == "side position");
   CHECK(found.law->confirmed == doctest::Approx(1).epsilon(0.02));
   CHECK(found.sensor->log_evidence < found.log_evidence);
-  CHECK(std::abs(found.law->place - testing::true_place(film)) < 3 * found.law->place_deviation);
+  CHECK(std::abs(found.law->site.arc_length - testing::true_place(film)) <
+        3 * found.law->place_deviation);
   REQUIRE(found.law->formula.constants.size() == 2);
   check_constant(found.law->formula.constants[0], 0.3, "N/m");
   check_constant(found.law->formula.constants[1], 0.3, "m");
   CHECK(std::any_of(found.words.begin(), found.words.end(), [](const std::string& words) {
     return words.starts_with("its law: side force = -linear x (side position - rest), linear = ");
   }));
+}
+
+TEST_CASE("the law of a tie between two places: its stiffness and both places") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  truth::Hidden hidden;
+  hidden.tie = 5;        // N/m
+  hidden.tie_slack = 1;  // m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  const ForceLaw& law = *found.law;
+  CHECK(law.found);
+  CHECK(law.force == "force that parts two places");
+  CHECK(law.variable == "their distance");
+  CHECK(law.site.kind == SiteKind::kPair);
+  const double length = film.cable().length, last = length - 0.5 * length / film.links;
+  CHECK(std::abs(law.site.arc_length - testing::true_place(film)) < 3 * law.place_deviation);
+  CHECK(std::abs(law.site.other_arc_length - last) < 3 * law.other_place_deviation);
+  CHECK(law.place_deviation < 0.01 * length);
+  CHECK(law.other_place_deviation < 0.01 * length);
+  REQUIRE(law.formula.constants.size() == 2);
+  CHECK(law.formula.constants[0].value == doctest::Approx(5).epsilon(0.1));
+  CHECK(law.formula.constants[1].value == doctest::Approx(1).epsilon(0.02));
 }
 
 TEST_CASE("the law of drag at a place: along the velocity, with the square of the speed") {
@@ -405,7 +429,8 @@ TEST_CASE("a mass at a place: it pulls down, and lags behind") {
   REQUIRE(found.law.has_value());
   REQUIRE(found.law->found);
   CHECK(found.law->variable == "acceleration less gravity");
-  CHECK(std::abs(found.law->place - testing::true_place(film)) < 3 * found.law->place_deviation);
+  CHECK(std::abs(found.law->site.arc_length - testing::true_place(film)) <
+        3 * found.law->place_deviation);
   REQUIRE(found.law->formula.constants.size() == 1);
   check_constant(found.law->formula.constants[0], hidden.insect, "kg");
 }
