@@ -10,6 +10,8 @@ import tomllib
 
 # Where an effect acts, as the truth's forces.csv calls it (make_recording --forces).
 PLACES = {"link_centre": "middle_", "load": "load_"}
+# What a law may go with that is no point: its position and its rate.
+NUMBERS = {"joint": ("joint_angle", "joint_rate"), "chord": ("distance", "distance_rate")}
 STEP = 1e-5  # of differences, m, m/s, rad, rad/s
 GRAVITY = 9.81  # m/s^2, of make_recording
 LINK_ENDS = 2  # every so many-th marker is the end of a link
@@ -28,7 +30,8 @@ def rms(values):
 
 
 class Law:
-    """A discovered effect with the values that were fitted; it acts at one place or joint, or `at` is None."""
+    """A discovered effect with the values that were fitted; it acts at one place or joint or between two places, or `at` is
+    None."""
 
     def __init__(self, found):
         law = tomllib.loads((found / "discovered_law.toml").read_text())
@@ -46,7 +49,7 @@ class Law:
         kind = next(kind for kind in ("force", "torque", "potential", "dissipation") if kind in law)
         energy = law[kind][0]
         self.along = energy.get("along")  # of what remembers, or depends on the time: `value` is the force
-        one_place = energy["at"] == "load" or any(of["name"] == "here" for of in law.get("definition", []))
+        one_place = energy["at"] in ("load", "chord") or any(of["name"] == "here" for of in law.get("definition", []))
         self.at = energy["at"] if one_place else None
         self.joints = None if one_place else {"joint": slice(None), "pivot": slice(1)}.get(energy["at"])
         self.energy = compile(energy["value"].replace("^", "**"), "effect", "eval")
@@ -56,14 +59,15 @@ class Law:
         return eval(self.energy, {"__builtins__": {}}, functions | self.constants | state)  # noqa: S307
 
     def force(self, state):
-        """Its parts: side and down, N, of a place; the moment, N m, of a joint."""
-        names = ("joint_angle",) if self.at == "joint" else ("side", "down")
-        if not self.potential:
-            names = ("joint_rate",) if self.at == "joint" else ("velocity_side", "velocity_down")
+        """Its parts: side and down, N, of a place; the moment, N m, of a joint; what parts two places, N."""
+        if self.at in NUMBERS:
+            names = NUMBERS[self.at][not self.potential :][:1]
+        else:
+            names = ("side", "down") if self.potential else ("velocity_side", "velocity_down")
 
         def energy(name, change):
             moved = state | {name: state[name] + change}
-            if self.at != "joint":
+            if self.at not in NUMBERS:
                 s, c = math.sin(moved["angle"]), math.cos(moved["angle"])
                 moved["velocity_normal"] = c * moved["velocity_side"] - s * moved["velocity_down"]
                 moved["velocity_tangential"] = s * moved["velocity_side"] + c * moved["velocity_down"]
@@ -142,9 +146,9 @@ def curve_error(found, forces):
     law, true = Law(found), columns(forces)
     if law.joints:
         return friction_error(law, true)
-    if law.at == "joint":
-        there, states = [true["joint_moment"]], ("joint_angle", "joint_rate")
-        where = ""
+    if law.at in NUMBERS:
+        where = {"joint": "", "chord": "tie_"}[law.at]
+        there, states = [true[{"joint": "joint_moment", "chord": "tie_force"}[law.at]]], NUMBERS[law.at]
     elif law.at in PLACES:
         where = PLACES[law.at]
         there = [true[f"{where}force_side"], true[f"{where}force_down"]]

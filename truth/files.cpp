@@ -78,7 +78,7 @@ void write_outside_forces(const std::vector<OutsideForces>& forces,
     for (const char* what : {"side", "down", "velocity_side", "velocity_down", "acceleration_side",
                              "acceleration_down", "angle", "force_side", "force_down"})
       text.append(",").append(where).append(what);
-  text += ",joint_angle,joint_rate,joint_moment,tie_distance,tie_rate,tie_force";
+  text += ",joint_angle,joint_rate,joint_moment,tie_distance,tie_distance_rate,tie_force";
   for (std::size_t i = 0; !forces.empty() && i < forces.front().joints.size(); ++i)
     for (const char* what : {"angle", "rate", "friction"})
       text += ",joint_" + std::to_string(i + 1) + "_" + what;
