@@ -95,6 +95,12 @@ class Measurement {
     return (ahead_->of(expression) - behind_->of(expression)) / (2 * step_);
   }
 
+  // Of a value that a small change of its inputs changes by more than itself: the square of a difference that is nearly
+  // zero, the angle of two links that nearly fold back on each other.
+  static double size_with_slope(double size, const numeric& change) {
+    return size + std::abs(change.to_double());
+  }
+
   // The largest sum of the sizes of r's terms, over its rows
   double size_of_terms(const catena_point& point) const {
     Values sum(as_index(table_.coordinates)), term(as_index(table_.coordinates));
@@ -120,7 +126,7 @@ class Measurement {
       note("residual", difference(r[i], exact), size);
       note("residual_term", difference(total[i], exact), size);
       const numeric change = slope(chain_.residual()[i]);
-      note("residual_tangent", difference(tangent[i], change), size + std::abs(change.to_double()));
+      note("residual_tangent", difference(tangent[i], change), size_with_slope(size, change));
     }
   }
 
@@ -393,16 +399,17 @@ class Measurement {
     double powers = 0;  // the sum of the sizes of all
     for (std::size_t k = 0; k < energy.size(); ++k) {
       const EnergyItem& item = chain_.energies()[k];
-      numeric sum = 0;
+      numeric sum = 0, change = 0;
       double size = 0;
       for (const ex& part : item.parts) {
         const numeric value = here_->of(part);
         sum = sum + value;
+        change = change + slope(part);
         size += std::abs(value.to_double());
       }
       exact.push_back(sum);
       if (item.kind == EnergyItem::kStored) {
-        note("energy", difference(energy[k], sum), size);
+        note("energy", difference(energy[k], sum), size_with_slope(size, change));
       } else {
         balance = item.kind == EnergyItem::kDissipated ? balance + sum : balance - sum;
         powers += size;
@@ -433,7 +440,8 @@ class Measurement {
     table_.internal_forces(table_.context, &here, moment.data(), tension.data(), curvature.data());
     const auto compare = [&](const Values& values, const std::vector<ex>& exact, double size) {
       for (std::size_t i = 0; i < n; ++i)
-        note("internal_forces", difference(values[i], here_->of(exact[i])), size);
+        note("internal_forces", difference(values[i], here_->of(exact[i])),
+             size_with_slope(size, slope(exact[i])));
     };
     compare(moment, chain_.moments(), largest(moment));
     compare(tension, chain_.tensions(), largest(tension) + size_of_terms(here));
