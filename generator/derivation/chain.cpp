@@ -426,6 +426,16 @@ void Chain::pull_back() {
     const ex force = definitions_.define(force_family(symbol.family), force_index(symbol),
                                          generalised_force_of(number));
     generalised_force_[number] = force;
+    if (const auto carried = of_carried_axis_.find(number); carried != of_carried_axis_.end()) {
+      const auto& [link, component] = carried->second;
+      if (link == 0) continue;  // nothing but time moves it
+      const CarriedAxis& of = bend_axes_[static_cast<std::size_t>(link)];
+      add_generalised_force(of.roll_rate, force * of.crossing[component]);
+      for (const Axis axis : axes())
+        add_generalised_force(direction_[axis][link],
+                              -force * direction_[component][link] * of.axis[axis]);
+      continue;
+    }
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       const Symbol below = definitions_[argument];
       const ex partial = symbol.value.diff(GiNaC::ex_to<GiNaC::symbol>(below.symbol));

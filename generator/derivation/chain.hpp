@@ -57,6 +57,17 @@
 // so path is a state with this rate, which counts whole turns, too, and dpath/dq = dpath'/dq': w_k are
 // quasi-velocities, and the generalised force of each is dV/dpath = GJ twist / L.
 //
+// Rest angles bend the cable about an axis a_i of each link, which is carried from link to link without twist, a_0 with
+// the clamp:
+//
+//     a_i = a_{i-1} - (a_{i-1} . e_i) (e_{i-1} + e_i) / (1 + e_{i-1} . e_i).
+//
+// It leans with its link and rolls about it,
+//
+//     a_i' = (w_0 - w_1 - ... - w_i) e_i x a_i - (a_i . e_i') e_i,    w_0 = a_0' . (e_0 x a_0),
+//
+// with the w_k of torsion, so a generalised force on a_i is one on w_0 ... w_i and on e_i.
+//
 // The velocity v of a point, normal to its link, is a vector in space. Effects are written in its size,
 // which is that of v x e, and the force along it is (a number) e x (v x e). In the plane v x e has one
 // component, across, which is the velocity along the normal (cos a, -sin a).
@@ -135,6 +146,16 @@ class Chain {
   const std::vector<GiNaC::ex>& state_rates() const { return state_rates_; }
   /// The state of torsion, zero without it. Its rate is a sum over all joints; it is in no rate itself.
   const GiNaC::ex& path() const { return path_; }
+  /// In space: the axis about which rest angles bend the cable, carried along the links without twist.
+  struct CarriedAxis {
+    std::vector<GiNaC::ex> axis;      ///< by axis, at a right angle to the link
+    std::vector<GiNaC::ex> crossing;  ///< link x axis: where it goes as it rolls about the link
+    std::vector<GiNaC::ex>
+        turning;  ///< what it rolls by, from the axis before: turning . (edot_{i-1} + edot_i)
+    GiNaC::ex roll_rate;  ///< how fast, about the link, rad/s
+  };
+  /// By link, as far as rest angles ask for them; entry 0: of the clamp, which nothing but time moves.
+  const std::vector<CarriedAxis>& bend_axes() const { return bend_axes_; }
   /// The forces along the chords of effects, by effect and axis, N: each acts on all links between two places.
   const std::vector<GiNaC::ex>& chord_forces() const { return chord_forces_; }
 
@@ -185,6 +206,9 @@ class Chain {
   void add_directions();
   void turn_clamp();
   void place_bend_axis();
+  std::vector<ex> turning_between(Link i);
+  ex path_turning(Link i);
+  void carry_bend_axis(Link i);
   std::vector<ex> rest_bend(Link i);
   void add_steady_tensions();
   void place_chord(const Effect& effect);
@@ -313,9 +337,10 @@ class Chain {
   std::vector<ex> steady_tension_;  ///< in joint i; empty: no effect asks for it
   std::vector<ex> joint_cosine_;    ///< in space
   Points link_turning_, joint_turning_,
-      joint_cross_;                         ///< in space, [axis]: angular velocity of a link, of
-                                            ///< a joint; cross product of its links
-  std::vector<ex> bend_axis_;               ///< in space, by axis: rest angles bend about it
+      joint_cross_;  ///< in space, [axis]: angular velocity of a link, of
+                     ///< a joint; cross product of its links
+  std::vector<CarriedAxis>
+      bend_axes_;  ///< in space: rest angles bend about them; entry 0: of the clamp
   std::vector<std::vector<ex>> rest_bend_;  ///< in space, [joint][axis]: empty if straight at rest
   std::vector<ex> load_;                    ///< by axis
   ex cos_tilt_, sin_tilt_;
@@ -344,6 +369,12 @@ class Chain {
     ex distance;
   };
   std::map<std::string, ChordLine> chords_;  ///< by the effect's id
+  /// Where a component of a carried axis belongs.
+  struct OfCarriedAxis {
+    Link link;
+    Axis component;
+  };
+  std::map<int, OfCarriedAxis> of_carried_axis_;  ///< by its number
   std::vector<ex> chord_forces_;
   std::vector<ex> gap_;            ///< by place and axis
   ex path_, roll_, twist_moment_;  ///< of torsion; none: zero

@@ -64,20 +64,106 @@ void Chain::turn_clamp() {
   }
 }
 
-// The axis about which rest angles bend the cable: if no effect gives it, from down towards side.
+namespace {
+
+std::vector<ex> cross_product(const std::vector<ex>& a, const std::vector<ex>& b) {
+  std::vector<ex> product;
+  for (std::size_t k = 0; k < 3; ++k)
+    product.push_back(a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+  return product;
+}
+
+}  // namespace
+
+// The axis about which rest angles bend the cable at the clamp, at a right angle to it: if no effect gives it, from
+// down towards side.
 void Chain::place_bend_axis() {
-  bend_axis_ = {0, 0, -1};
+  std::vector<ex> given = {0, 0, -1};
   for (const Effect& effect : description_.effects) {
     const Support& support = effect.support;
     if (!support.has_bend_axis()) continue;
-    bend_axis_ = unit_vector(
+    given = unit_vector(
         effect, {&support.bend_axis_side, &support.bend_axis_down, &support.bend_axis_across},
         "bend_axis", "unit_bend_axis", kNoIndex);
   }
+  const std::vector<ex> clamp = by_axis(direction_, 0);
+  ex along = 0, square = 0, rate = 0;
+  for (const Axis axis : axes()) along += given[axis] * clamp[axis];
+  CarriedAxis& first = bend_axes_.emplace_back();
+  if (along.is_zero()) {
+    first.axis = given;
+  } else {
+    std::vector<ex> across;
+    for (const Axis axis : axes()) {
+      across.push_back(define_variable("bend_axis_across_clamp" + ending(axis), kNoIndex,
+                                       given[axis] - along * clamp[axis]));
+      square += across.back() * across.back();
+    }
+    const ex scale = definitions_.define(
+        "bend_axis_across_clamp_scale", kNoIndex,
+        inverse_square_root(define_variable("bend_axis_across_clamp_square", kNoIndex, square)));
+    for (const Axis axis : axes())
+      first.axis.push_back(define_variable("carried_axis" + ending(axis), 0, scale * across[axis]));
+  }
+  first.crossing = cross_product(clamp, first.axis);
+  for (const Axis axis : axes()) {
+    rate += time_.of(first.axis[axis]) * first.crossing[axis];
+    if (GiNaC::is_a<GiNaC::symbol>(first.axis[axis]))
+      of_carried_axis_[definitions_.number_of(first.axis[axis])] = {0, axis};
+  }
+  first.roll_rate = define_quasi_velocity("carried_roll_rate", 0, rate);
 }
 
-// The bend of joint i without a moment: a vector along the axis. The joint beyond the last link bends by what is
-// the same for all joints.
+// By how much a frame that is carried from link i - 1 to link i without twist turns about it, per velocity of the two.
+std::vector<ex> Chain::turning_between(Link i) {
+  std::vector<ex> turning;
+  for (const Axis axis : axes())
+    turning.push_back(definitions_.define("turning_between" + ending(axis), i,
+                                          joint_cross_[axis][i] / (1 + joint_cosine_[i])));
+  return turning;
+}
+
+ex Chain::path_turning(Link i) {
+  const std::vector<ex> turning = turning_between(i);
+  ex sum = 0;
+  for (const Axis axis : axes())
+    sum += turning[axis] * (time_.of(direction_[axis][i - 1]) + time_.of(direction_[axis][i]));
+  return define_quasi_velocity("path_turning", i, sum);
+}
+
+// From link i - 1 to link i.
+void Chain::carry_bend_axis(Link i) {
+  const CarriedAxis& before = bend_axes_.back();
+  const std::vector<ex> above = by_axis(direction_, i - 1), link = by_axis(direction_, i);
+  ex along = 0;
+  for (const Axis axis : axes()) along += before.axis[axis] * link[axis];
+  const ex share = definitions_.define("carried_axis_share", i, along / (1 + joint_cosine_[i]));
+  CarriedAxis next;
+  next.turning = turning_between(i);
+  // Before the axis: what moves the axis is later than what it moves by.
+  next.roll_rate =
+      definitions_.define_always("carried_roll_rate", i, before.roll_rate - path_turning(i));
+  quasi_velocities_.insert(definitions_.number_of(next.roll_rate));
+  for (const Axis axis : axes())
+    next.axis.push_back(definitions_.define_always(
+        "carried_axis" + ending(axis), i, before.axis[axis] - share * (above[axis] + link[axis])));
+  const std::vector<ex> crossing = cross_product(link, next.axis);
+  for (const Axis axis : axes())
+    next.crossing.push_back(
+        definitions_.define("carried_axis_crossing" + ending(axis), i, crossing[axis]));
+  ex leaning = 0;
+  for (const Axis axis : axes()) leaning += next.axis[axis] * time_.of(link[axis]);
+  for (const Axis axis : axes()) {
+    const int number = definitions_.number_of(next.axis[axis]);
+    variables_.insert(number);
+    of_carried_axis_[number] = {i, axis};
+    time_.set(next.axis[axis], next.roll_rate * next.crossing[axis] - leaning * link[axis]);
+  }
+  bend_axes_.push_back(std::move(next));
+}
+
+// The bend of joint i without a moment: a vector along the axis that is carried to it. The joint beyond the last link
+// bends by what is the same for all joints.
 std::vector<ex> Chain::rest_bend(Link i) {
   ex angle = 0;
   for (const Effect& effect : description_.effects) {
@@ -92,11 +178,14 @@ std::vector<ex> Chain::rest_bend(Link i) {
   }
   if (angle.is_zero()) return {};
   angle = definitions_.define("rest_angle", i, angle);
+  while (static_cast<Link>(bend_axes_.size()) < i)
+    carry_bend_axis(static_cast<Link>(bend_axes_.size()));
   std::vector<ex> rest;
-  for (const Axis axis : axes())
-    rest.push_back(bend_axis_[axis].is_zero()
-                       ? ex(0)
-                       : define_variable("rest_bend" + ending(axis), i, angle * bend_axis_[axis]));
+  for (const Axis axis : axes()) {
+    const ex& along = bend_axes_[static_cast<std::size_t>(i) - 1].axis[axis];
+    rest.push_back(along.is_zero() ? ex(0)
+                                   : define_variable("rest_bend" + ending(axis), i, angle * along));
+  }
   return rest;
 }
 
@@ -191,14 +280,7 @@ void Chain::hold() {
 
 // Uniform twist of an isotropic rod between two clamps.
 void Chain::twist(const Effect& effect) {
-  for (Link k = 1; k <= links_ + 1; ++k) {
-    ex across = 0;
-    for (const Axis axis : axes())
-      across += joint_cross_[axis][k] *
-                (time_.of(direction_[axis][k - 1]) + time_.of(direction_[axis][k]));
-    path_turning_.push_back(
-        define_quasi_velocity("path_turning", k, across / (1 + joint_cosine_[k])));
-  }
+  for (Link k = 1; k <= links_ + 1; ++k) path_turning_.push_back(path_turning(k));
   ex rate = 0;
   for (const ex& turning : path_turning_) rate += turning;
   time_.set(path_, rate);
@@ -253,12 +335,10 @@ void Chain::add_power_of_ends() {
   ex of_support = 0;
   for (const Axis axis : axes())
     of_support += reactions_[0].force[axis] * time_.of(joint_[axis][0]) + turning(axis, 0);
-  for (const auto& rest : rest_bend_) {
-    for (const ex& component : rest) {
-      const ex rate = time_.of(component);
-      if (!rate.is_zero())
-        of_support += generalised_force_[definitions_.number_of(component)] * rate;
-    }
+  // The axis of rest angles at the clamp moves with time, and all the axes roll with it.
+  for (const ex& component : in_plane() ? std::vector<ex>() : bend_axes_.front().axis) {
+    const ex rate = time_.of(component);
+    if (!rate.is_zero()) of_support += generalised_force_[definitions_.number_of(component)] * rate;
   }
   if (!of_support.is_zero()) add_energy("support", EnergyItem::kSupplied, of_support);
   for (std::size_t k = 0; k < held_.size(); ++k) {

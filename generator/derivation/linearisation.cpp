@@ -7,6 +7,10 @@ using GiNaC::ex;
 
 namespace {
 
+/// The turn of carried axes about their links: a sum along the chain that no equation names, but all of its changes are
+/// made of.
+constexpr const char* kRoll = "carried_roll";
+
 void add(Form& form, const Basis& basis, const ex& coefficient) {
   if (coefficient.is_zero()) return;
   ex& entry = form[basis];
@@ -41,6 +45,10 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights, Moving moving
       move(chain.rate(chain.rate(chain.directions()[axis][1])), axis, weights_.acceleration);
     }
   }
+  for (std::size_t i = 1; i < chain.bend_axes().size(); ++i)
+    for (const Axis axis : chain.axes())
+      of_axis_[definitions_.number_of(chain.bend_axes()[i].axis[axis])] = {static_cast<int>(i),
+                                                                           axis};
   for (const ex& force : chain.chord_forces()) chord_forces_.insert(definitions_.number_of(force));
   for (size_t k = 0; k < chain.states().size(); ++k) {
     if (!chain.states()[k].is_equal(chain.path()))
@@ -62,6 +70,8 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights, Moving moving
   for (const int k : reached_) {
     const Symbol& symbol = definitions_[k];
     if (symbol.is_input || symbol.index == kNoIndex) continue;
+    if (of_axis_.contains(k) && !weights_.position.is_zero()) down_.insert(kRoll);
+    if (of_axis_.contains(k)) continue;
     for (const int argument : definitions_.symbols_of(symbol.value)) {
       if (definitions_[argument].family != symbol.family) continue;
       if (definitions_[argument].index == symbol.index - 1) down_.insert(symbol.family);
@@ -77,7 +87,10 @@ Linearisation::Linearisation(Chain& chain, const Weights& weights, Moving moving
 }
 
 Form Linearisation::at_link(const ex& expression, int i) {
-  Form form = change_of(expression);
+  return at_link_of_form(change_of(expression), i);
+}
+
+Form Linearisation::at_link_of_form(Form form, int i) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [basis, coefficient] : form) {
@@ -158,6 +171,7 @@ ex Linearisation::one_name(const std::string& family, int index, const ex& value
 }
 
 Form Linearisation::carried(const std::string& family, int i) {
+  if (family == kRoll) return at_link_of_form(change_of_roll(i), i);
   for (const Basis::Kind kind : {Basis::kCarriedDown, Basis::kCarriedUp}) {
     const auto found = numbers().find({kind, family, i});
     if (found != numbers().end()) return at_link(definitions_[found->second].value, i);
@@ -196,6 +210,7 @@ const std::map<Basis, int>& Linearisation::numbers() {
 }
 
 Form Linearisation::definition_of(const Basis& basis) {
+  if (basis.family == kRoll) return change_of_roll(basis.index);
   return change_of(definitions_[numbers().at(basis)].value);
 }
 
@@ -220,6 +235,8 @@ Form Linearisation::change_of_symbol(int number) {
   } else if (const auto moved = moved_.find(symbol.family); moved != moved_.end()) {
     add(form, {Basis::kPerturbation, "", symbol.index, moved->second.component},
         moved->second.weight);
+  } else if (const auto axis = of_axis_.find(number); axis != of_axis_.end()) {
+    form = change_of_axis(number, axis->second.link, axis->second.component);
   } else if (symbol.family == "sine") {
     add(form, {Basis::kPerturbation, "", symbol.index},
         weights_.position *
@@ -266,6 +283,39 @@ std::string Linearisation::slope_family(const Symbol& symbol, const Basis& basis
   if (symbol.index == kNoIndex || basis.index == symbol.index)
     return symbol.family + "_slope_by_" + by;
   return symbol.family + "_slope_by_" + by + (basis.index < symbol.index ? "_before" : "_after");
+}
+
+// The roll of a carried axis is that of the one before less turning . (change of e_{i-1} + change of e_i).
+Form Linearisation::change_of_roll(int link) {
+  Form form, change;
+  const auto i = static_cast<std::size_t>(link);
+  if (i == 0 || i >= chain_.bend_axes().size()) return form;
+  if (i > 1) form[{Basis::kCarriedDown, kRoll, link - 1}] = 1;
+  for (const Axis axis : chain_.axes())
+    for (const std::size_t of : {i - 1, i}) {
+      for (const auto& [basis, coefficient] : change_of(chain_.directions()[axis][of]))
+        add(change, basis, -chain_.bend_axes()[i].turning[axis] * coefficient);
+    }
+  for (const auto& [basis, coefficient] : change)
+    form[basis] =
+        one_name(std::string(kRoll) + "_slope_by_component_" + std::to_string(basis.component) +
+                     (basis.index < link ? "_before" : ""),
+                 link, coefficient);
+  return form;
+}
+
+// It goes along link x axis with its roll, and leans with its link.
+Form Linearisation::change_of_axis(int number, int link, Axis component) {
+  Form change, form;
+  if (weights_.position.is_zero()) return form;
+  const auto i = static_cast<std::size_t>(link);
+  const Chain::CarriedAxis& carried = chain_.bend_axes()[i];
+  add(change, {Basis::kCarriedDown, kRoll, link}, carried.crossing[component]);
+  for (const Axis axis : chain_.axes())
+    for (const auto& [basis, coefficient] : change_of(chain_.directions()[axis][i]))
+      add(change, basis, -chain_.directions()[component][i] * carried.axis[axis] * coefficient);
+  for (const auto& [basis, coefficient] : change) form[basis] = slope(number, basis, coefficient);
+  return form;
 }
 
 // delta z = cv (f' u + df/dz delta z), f' the change of the rate f with z held.

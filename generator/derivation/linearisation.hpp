@@ -72,12 +72,15 @@ class Linearisation {
  private:
   std::set<int> reached_from(const std::vector<GiNaC::ex>& expressions);
   const std::map<Basis, int>& numbers();
+  Form at_link_of_form(Form form, int i);
   Form definition_of(const Basis& basis);
   Form change_of(const GiNaC::ex& expression);
   Form change_of_symbol(int number);
   GiNaC::ex slope(int number, const Basis& basis, const GiNaC::ex& coefficient);
   std::string slope_family(const Symbol& symbol, const Basis& basis) const;
   Form change_of_state(int number);
+  Form change_of_roll(int link);
+  Form change_of_axis(int number, int link, Axis component);
 
   const Chain& chain_;
   Definitions& definitions_;
@@ -88,7 +91,13 @@ class Linearisation {
     GiNaC::ex weight;
   };
   std::vector<GiNaC::ex> equations_;
-  std::map<std::string, Moved> moved_;    // families of q, v and a
+  std::map<std::string, Moved> moved_;  // families of q, v and a
+  /// Components of carried axes.
+  struct OfAxis {
+    int link;
+    Axis component;
+  };
+  std::map<int, OfAxis> of_axis_;
   std::map<int, GiNaC::ex> state_rates_;  // of extra states, by the state's number
   std::set<int> chord_forces_;            // numbers
   std::set<int> reached_;                 // definitions that the equations need

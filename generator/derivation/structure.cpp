@@ -30,12 +30,12 @@ size_t length_of(const ex& expression) {
   return GiNaC::is_a<GiNaC::add>(expression) ? expression.nops() : 1;
 }
 
-void require_only(const Form& form, const std::string& family, int i, bool allow_carried) {
+void require_only(const Form& form, const std::string& family, int i, bool up) {
   for (const auto& [basis, coefficient] : form) {
     const bool own = basis.family == family;
-    const bool fine = (basis.kind == Basis::kPerturbation && basis.index == i) ||
-                      (own && coefficient.is_equal(1)) ||
-                      (allow_carried && basis.kind == Basis::kCarriedDown);
+    const bool near = basis.index == i || basis.index == i - 1 || (up && basis.index == i + 1);
+    const bool fine = (basis.kind == Basis::kPerturbation && near) ||
+                      (own && coefficient.is_equal(1)) || (up && basis.kind == Basis::kCarriedDown);
     if (!fine) throw NotOfThisForm(family + " is not a running sum at link " + std::to_string(i));
   }
 }
@@ -146,9 +146,9 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
     for (const std::string_view part : parts) name += part;
     return name;
   };
-  auto B = table(down.size()), B_value = B, Hx = B;
-  auto G = table(up.size()), Hy = G;
-  std::vector<Columns> S(links, Columns(up.size(), std::vector<ex>(down.size())));
+  auto B = table(down.size()), B_value = B, B_before = B, Hx = B;
+  auto G = table(up.size()), G_before = G, G_after = G, Hy = G;
+  std::vector<Columns> S(links + 1, Columns(up.size(), std::vector<ex>(down.size())));
   auto D = table(block), below = D, above = D;
   // What the equation of link i has of each force along a chord.
   std::map<Basis, OfLinks> chord_columns;
@@ -162,6 +162,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
         B_value[i][b][f] = definitions.named(entry(form, perturbation(b, i)), name, i);
         B[i][b][f] = block == 1 ? definitions.define(name, i, B_value[i][b][f])
                                 : linearisation.one_name(name, i, B_value[i][b][f]);
+        B_before[i][b][f] =
+            linearisation.one_name(name + "_before", i, entry(form, perturbation(b, i - 1)));
       }
     }
     for (size_t a = 0; a < block; ++a) {
@@ -204,7 +206,8 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
     for (size_t f = 0; f < down.size(); ++f)
       for (auto carried = form.lower_bound({Basis::kCarriedDown, down[f], i});
            carried != form.end() && carried->first.family == down[f]; ++carried)
-        sum += carried->second * B[i][a][f];
+        sum += carried->second *
+               (B[i][a][f] + (carried->first.index > i ? B_before[i + 1][a][f] : ex(0)));
     return sum;
   };
   result.border = static_cast<int>(border);
@@ -232,7 +235,15 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
     for (size_t g = 0; g < up.size(); ++g) {
       const Form form = linearisation.carried(up[g], i);
       require_only(form, up[g], i, true);
-      for (size_t b = 0; b < block; ++b) G[i][b][g] = entry(form, perturbation(b, i));
+      for (size_t b = 0; b < block; ++b) {
+        const auto gain = [&](const char* where, int of) {
+          return linearisation.one_name(joined({up[g], "_gain", where, ending(b)}), i,
+                                        entry(form, perturbation(b, of)));
+        };
+        G[i][b][g] = entry(form, perturbation(b, i));
+        G_before[i][b][g] = gain("_before", i - 1);
+        G_after[i][b][g] = gain("_after", i + 1);
+      }
       for (size_t f = 0; f < down.size(); ++f) {
         const ex F = entry(form, {Basis::kCarriedDown, down[f], i - 1});
         S[i][g][f] = definitions.define(prefix + up[g] + "_per_" + down[f], i, S[i + 1][g][f] + F);
@@ -244,7 +255,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
     }
   }
   // Rows and columns of the two triangles, without those that are zero for every link.
-  auto P = table(down.size()), V = table(up.size());
+  auto P = table(down.size()), C = P, V = table(up.size());
   std::vector<bool> keep_lower(down.size()), keep_upper(up.size());
   for (int i = 1; i <= n; ++i) {
     for (size_t a = 0; a < block; ++a) {
@@ -258,7 +269,12 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
         for (size_t b = 0; b < block; ++b) {
           D[i][a][b] += below_here * B[i][b][f];
           written_out[b] += below_here * B_value[i][b][f];
+          below[i][a][b] -= Hx[i][a][f] * B_before[i][b][f];
         }
+        C[i][a][f] = B[i][a][f];
+        if (!B_before[i + 1][a][f].is_zero())
+          C[i][a][f] = definitions.define(joined({down[f], "_gain_of_both", ending(a)}), i,
+                                          B[i][a][f] + B_before[i + 1][a][f]);
       }
       if (block == 1) {
         // sin^2 + cos^2 = 1 may make the written-out form shorter.
@@ -266,9 +282,16 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
         if (length_of(shorter) <= length_of(D[i][0][0].expand())) D[i][0][0] = shorter;
       }
       for (size_t g = 0; g < up.size(); ++g) {
-        V[i][a][g] = G[i][a][g];
-        for (size_t f = 0; f < down.size(); ++f) V[i][a][g] += S[i + 1][g][f] * B[i][a][f];
+        V[i][a][g] = G[i][a][g] + G_before[i + 1][a][g] + G_after[i - 1][a][g];
+        for (size_t f = 0; f < down.size(); ++f)
+          V[i][a][g] += S[i + 1][g][f] * B[i][a][f] + S[i + 2][g][f] * B_before[i + 1][a][f];
         V[i][a][g] = V[i][a][g].expand();
+        for (size_t b = 0; b < block; ++b) {
+          above[i][a][b] -= Hy[i][a][g] * G_after[i][b][g];
+          D[i][a][b] += Hy[i][a][g] * G_before[i + 1][b][g];
+          for (size_t f = 0; f < down.size(); ++f)
+            D[i][a][b] += Hy[i][a][g] * S[i + 2][g][f] * B_before[i + 1][b][f];
+        }
         if (i < n && !Hy[i][a][g].is_zero()) keep_upper[g] = true;
       }
     }
@@ -276,7 +299,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
   for (size_t f = 0; f < down.size(); ++f) {
     bool column = false;
     for (int i = 1; i < n; ++i)
-      for (size_t b = 0; b < block; ++b) column = column || !B[i][b][f].is_zero();
+      for (size_t b = 0; b < block; ++b) column = column || !C[i][b][f].is_zero();
     keep_lower[f] = keep_lower[f] && column;
   }
   // Symmetric if the rows of each triangle are the columns of the other, coefficient by
@@ -309,7 +332,7 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
       for (size_t f = 0; f < down.size(); ++f) {
         if (!keep_lower[f]) continue;
         lower_row.push_back(named(P[i][a][f], "lower_row" + ending(a)));
-        result.lower_column[i][a].push_back(B[i][a][f]);
+        result.lower_column[i][a].push_back(C[i][a][f]);
       }
       for (size_t g = 0; g < up.size(); ++g) {
         if (!keep_upper[g]) continue;
@@ -336,6 +359,12 @@ void find(Chain& chain, const Weights& weights, const std::string& prefix, Movin
   for (size_t k = 0; k < border; ++k)
     for (size_t l = 0; l < k; ++l)
       result.symmetric = result.symmetric && equal(result.corner[k][l], result.corner[l][k]);
+  for (int i = 1; i <= n; ++i)
+    for (size_t a = 0; a < block; ++a)
+      for (size_t b = 0; b < block; ++b) {
+        below[i][a][b] = definitions.named(below[i][a][b], prefix + "below", i);
+        above[i][a][b] = definitions.named(above[i][a][b], prefix + "above", i);
+      }
   result.below = below;
   result.above = above;
   for (const auto& [force, form] : linearisation.chord_forces()) {

@@ -8,17 +8,18 @@
 // themselves at the link below (cut forces) carry it up. If each of them carries it unchanged, as
 // sums do,
 //
-//     delta X_i = delta X_{i-1} + B_i u_i
-//     delta Y_i = delta Y_{i+1} + F_i delta X_{i-1} + G_i u_i
+//     delta X_i = delta X_{i-1} + B_i u_i + B'_i u_{i-1}
+//     delta Y_i = delta Y_{i+1} + F_i delta X_{i-1} + G_i u_i + G'_i u_{i-1} + G"_i u_{i+1}
 //     delta r_i = Hy_i delta Y_{i+1} + Hx_i delta X_{i-1} + D_i u_i + e_i u_{i-1} + f_i u_{i+1},
 //
 // then, with S_i = sum_{k >= i} F_k,
 //
-//     N_ij = Hy_i (G_j + S_{j+1} B_j)           j > i + 1
-//     N_ii = D_i + Hy_i S_{i+1} B_i
-//     N_ij = (Hx_i + Hy_i S_{i+1}) B_j          j < i - 1
+//     N_ij = Hy_i (G_j + G'_{j+1} + G"_{j-1} + S_{j+1} B_j + S_{j+2} B'_{j+1})           j > i + 1
+//     N_ii = D_i + Hy_i (S_{i+1} B_i + S_{i+2} B'_{i+1} + G'_{i+1})
+//     N_ij = (Hx_i + Hy_i S_{i+1}) (B_j + B'_{j+1})                                      j < i - 1
 //
-// and e_i, f_i are added on the two neighbouring diagonals: N is tridiagonal plus semiseparable.
+// and e_i - Hx_i B'_i, f_i - Hy_i G"_i are added to the same on the two neighbouring diagonals: N is tridiagonal plus
+// semiseparable. What is carried depends on the neighbouring links only by rest angles in space.
 // Whether the definitions have this form is decided exactly, coefficient by coefficient, for each
 // link. In space u_i has three components, and what has the index i above are blocks.
 //

@@ -32,6 +32,13 @@ class Schedule {
         backward = sweep_in(-1, guard);
         if (!forward.empty() || !backward.empty()) break;
       }
+      if (forward.empty() && backward.empty()) {
+        for (const std::set<int>& guard : open_guards()) {
+          forward = joint_sweep_in(1, guard);
+          backward = joint_sweep_in(-1, guard);
+          if (!forward.empty() || !backward.empty()) break;
+        }
+      }
       if (forward.empty() && backward.empty()) throw std::logic_error("no order of statements");
       const int direction = forward.size() >= backward.size() ? 1 : -1;
       const auto& members = direction > 0 ? forward : backward;
@@ -88,6 +95,46 @@ class Schedule {
       }
     }
     return included;
+  }
+
+  // Families that need one another at the link before, such as the components of a vector that is turned from link to
+  // link: all that need nothing else, in an order in which each comes after what it needs at its own link.
+  std::vector<size_t> joint_sweep_in(int direction, const std::set<int>& guard) const {
+    std::set<size_t> members;
+    for (size_t k = 0; k < families_.all.size(); ++k) {
+      const Family& family = families_.all[k];
+      if (family.sweep < 0 && !family.items.count(kNoIndex) && family.guard == guard)
+        members.insert(k);
+    }
+    const auto fits = [&](size_t k) {
+      const auto& dependencies = families_.all[k].dependencies;
+      return std::all_of(dependencies.begin(), dependencies.end(), [&](const Dependency& d) {
+        if (done(d.family)) return true;
+        return d.offset != kUnrelated && d.offset * direction <= 0 &&
+               members.contains(families_.position(d.family));
+      });
+    };
+    while (std::erase_if(members, [&](size_t k) { return !fits(k); }) > 0) {
+    }
+    std::vector<size_t> ordered;
+    const auto comes_next = [&](size_t k) {
+      const auto& dependencies = families_.all[k].dependencies;
+      return std::all_of(dependencies.begin(), dependencies.end(), [&](const Dependency& d) {
+        return d.offset != 0 || done(d.family) ||
+               std::find(ordered.begin(), ordered.end(), families_.position(d.family)) !=
+                   ordered.end();
+      });
+    };
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const size_t k : members) {
+        if (std::find(ordered.begin(), ordered.end(), k) != ordered.end() || !comes_next(k))
+          continue;
+        ordered.push_back(k);
+        grown = true;
+      }
+    }
+    return ordered.size() == members.size() ? ordered : std::vector<size_t>();
   }
 
   void add_sweep(int direction, std::vector<size_t> members) {
