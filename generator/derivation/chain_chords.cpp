@@ -44,7 +44,8 @@ void Chain::place_chord(const Effect& effect) {
         definitions_.define(name + "_fraction", i, (above - below) / (2 * length_[i])));
     above = below;
   }
-  ex square = 0;
+  ex square =
+      kPlaceRounding * kPlaceRounding;  // two places that touch have no direction between them
   for (const Axis axis : axes()) {
     ex sum = 0;
     for (Link i = 1; i <= links_; ++i)
