@@ -359,6 +359,8 @@ std::vector<Formula> formulas(const Effect& effect) {
     all.add(what, subscripted(letter, "a"), force.across);
     all.add(what, subscripted(letter, "n"), force.normal);
     all.add(what, subscripted(letter, "t"), force.tangential);
+    all.add(what + ", along a velocity", subscripted(letter, "v"), force.value);
+    all.add("This velocity", subscripted("v", letter), force.along);
   }
   static const std::map<ScalarKind, std::pair<const char*, const char*>> scalars = {
       {ScalarKind::kTorque, {"Torque", "\\tau"}},
@@ -405,6 +407,10 @@ std::vector<Formula> formulas(const Effect& effect) {
   const Kinematics& kinematics = effect.kinematics;
   all.add("Mass centre past mid-link", "centre_offset", kinematics.centre_offset);
   all.add("Load past the end of the last link", "load_offset", kinematics.load_offset);
+  const std::string load = "Load from the end of the last link, ";
+  all.add(load + "side", subscripted("d", "s"), kinematics.load_side);
+  all.add(load + "down", subscripted("d", "d"), kinematics.load_down);
+  all.add(load + "across", subscripted("d", "a"), kinematics.load_across);
   all.add("Inertia of the load", subscripted("I", "c"), kinematics.load_inertia);
   all.add("Added to the load", "load_mass", kinematics.load_mass);
   const Letter rest = {"\\varphi", "&#966;", "0", 0};

@@ -49,6 +49,23 @@ TEST_CASE("LaTeX keeps the meaning: parentheses where they are needed and only t
   }
 }
 
+TEST_CASE("a force along a velocity and a load that is displaced have formulas") {
+  Effect effect;
+  const auto written = [](const char* text) { return Expression{text, "f.toml", 1, "force"}; };
+  ForceTerm force;
+  force.at = Place::kChord;
+  force.value = written("-pull");
+  force.along = written("distance_rate");
+  effect.forces = {force};
+  effect.kinematics.load_down = written("reach");
+  const std::vector<Formula> all = formulas(effect);
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].what == "Force, along the chord, along a velocity");
+  CHECK(all[0].latex == "F_{v} = -\\mathrm{pull}");
+  CHECK(all[1].latex == "v_{F} = \\dot{d}");
+  CHECK(all[2].latex == "d_{d} = \\mathrm{reach}");
+}
+
 TEST_CASE("MathML says the same and is balanced") {
   CHECK(torque("-a*joint_rate^2").mathml ==
         "<math><mi>&#964;</mi><mo>=</mo><mrow><mo>&#8722;</mo><mi mathvariant=\"normal\">a</mi>"
