@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "generator/certificate/exact_evaluation.hpp"
 #include "generator/derivation/chain.hpp"
 #include "generator/derivation/structure.hpp"
+#include "tests/generator/derivation/seeded_vectors.hpp"
 #include "tests/support/data.hpp"
 
 using namespace catena;
@@ -27,22 +27,9 @@ constexpr int kLinks = 4;
 // A place goes from one link to the next over 1e-9 m; at the ends of the chain it is off by half of that.
 constexpr double kTolerance = 1e-8;
 
-using Vector = std::array<ex, 3>;
-const char* const kAxes[] = {"side", "down", "across"};
-
-ex draw(const std::string& name) {
-  std::seed_seq sequence(name.begin(), name.end());
-  std::mt19937 generator(sequence);
-  return numeric(2 * (static_cast<int>(generator() % 1801) - 900) + 1, 1000);
-}
-
-ex dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using testing::dot, testing::draw, testing::kAxes, testing::name, testing::Vector;
 
 double number(const ex& e) { return GiNaC::ex_to<numeric>(e.evalf()).to_double(); }
-
-std::string name(const std::string& family, int i) {
-  return family + "[" + std::to_string(i) + "]";
-}
 
 // A chain of links of 0.5 m, and how the ends of its links move.
 struct Motion {
@@ -62,16 +49,10 @@ Motion motion_in(Space space, const ex& from, const ex& to) {
       e = {GiNaC::sin(theta).evalf(), GiNaC::cos(theta).evalf(), 0};
       rate = {(turning * e[1]).evalf(), (-turning * e[0]).evalf(), 0};
     } else {
-      for (std::size_t a = 0; a < 3; ++a) {
-        e[a] = draw(name(kAxes[a], i));
-        rate[a] = draw(name(kAxes[a] + std::string("_rate"), i));
-      }
-      const ex length = GiNaC::sqrt(dot(e, e)).evalf();
-      for (ex& component : e) component = (component / length).evalf();
-      const ex along = dot(rate, e);
+      const testing::LinkDirection drawn = testing::drawn_direction(i);
+      e = drawn.along, rate = drawn.rate;
       for (std::size_t a = 0; a < 3; ++a) {
         const std::string family = "direction_" + std::string(kAxes[a]);
-        rate[a] = (rate[a] - along * e[a]).evalf();
         motion.inputs[name(family, i)] = e[a];
         motion.inputs[name(family + "_dot", i)] = rate[a];
       }

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "generator/certificate/exact_evaluation.hpp"
 #include "generator/derivation/chain.hpp"
+#include "tests/generator/derivation/seeded_vectors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -26,26 +26,13 @@ constexpr int kLinks = 3;
 // Evaluation in 50 digits loses a few to cancellation; a wrong term would be of order one.
 constexpr double kTolerance = 1e-40;
 
-using Vector = std::array<ex, 3>;
-const char* const kAxes[] = {"side", "down", "across"};
-
-ex draw(const std::string& name) {
-  std::seed_seq sequence(name.begin(), name.end());
-  std::mt19937 generator(sequence);
-  return numeric(2 * (static_cast<int>(generator() % 1801) - 900) + 1, 1000);
-}
-
-ex dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+using testing::dot, testing::draw, testing::kAxes, testing::name, testing::Vector;
 
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 double size(const ex& e) { return std::abs(GiNaC::ex_to<numeric>(e.evalf()).to_double()); }
-
-std::string name(const std::string& family, int i) {
-  return family + "[" + std::to_string(i) + "]";
-}
 
 const char* const kEffect =
     "format = 1\nkind = \"effect\"\nid = \"own\"\ntitle = \"Own\"\ndescription = \"One\"\n"
@@ -108,15 +95,7 @@ TEST_CASE("in space the steady tension is the tension without angular accelerati
   std::map<std::string, ex> set;
   std::vector<Vector> turning = {{0, 0, 0}};
   for (int i = 1; i <= kLinks; ++i) {
-    Vector e, rate;
-    for (std::size_t a = 0; a < 3; ++a) {
-      e[a] = draw(name(kAxes[a], i));
-      rate[a] = draw(name(kAxes[a] + std::string("_rate"), i));
-    }
-    const ex length = GiNaC::sqrt(dot(e, e)).evalf();
-    for (ex& component : e) component = (component / length).evalf();
-    const ex along = dot(rate, e);
-    for (std::size_t a = 0; a < 3; ++a) rate[a] = (rate[a] - along * e[a]).evalf();
+    const auto [e, rate] = testing::drawn_direction(i);
     for (std::size_t a = 0; a < 3; ++a) {
       const std::string family = "direction_" + std::string(kAxes[a]);
       set[name(family, i)] = e[a];
