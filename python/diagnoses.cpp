@@ -103,7 +103,7 @@ void run_interruptibly(F f, std::atomic<bool>& stop) {
 py::object diagnose_case(const std::filesystem::path& case_file,
                          const std::optional<py::dict>& handed_in,
                          const std::vector<std::filesystem::path>& effects, int max_effects,
-                         int max_links, int refits, int threads,
+                         int max_links, int refits, bool discover, int threads,
                          const std::optional<py::function>& progress, bool large_work) {
   if (max_effects < 0 || max_links < 1 || refits < 1 || threads < 1)
     throw std::invalid_argument(
@@ -138,7 +138,8 @@ py::object diagnose_case(const std::filesystem::path& case_file,
       const Problem problem(for_the_search(the_case), context.model_with({}, the_case.links));
       warnings = problem.warnings();
       require_yes_for_diagnosis(problem, context);
-      const Diagnosis found = diagnose(the_case, context, {max_effects, max_links, refits});
+      const Diagnosis found =
+          diagnose(the_case, context, {max_effects, max_links, refits, discover});
       finished.record = record_of(found, find_out(found), context);
     } catch (const InputError&) {
       throw;
@@ -172,11 +173,13 @@ void add_diagnoses(py::module_& module) {
   module.def(
       "diagnose", &diagnose_case, "case"_a, "recordings"_a = py::none(), py::kw_only(),
       "effects"_a = std::vector<std::filesystem::path>{}, "max_effects"_a = defaults.max_effects,
-      "max_links"_a = defaults.max_links, "refits"_a = defaults.refits, "threads"_a = 2,
-      "progress"_a = py::none(), "large_work"_a = false,
+      "max_links"_a = defaults.max_links, "refits"_a = defaults.refits,
+      "discover"_a = defaults.discover, "threads"_a = 2, "progress"_a = py::none(),
+      "large_work"_a = false,
       "Finds the effect that the model of a case file lacks, adds it, fits again. recordings: "
       "as Case takes them. effects: "
-      "effect files of your own to look for as well. progress(line) is told what is being "
+      "effect files of your own to look for as well. discover: a law of no library is sought even "
+      "where the gap closes. progress(line) is told what is being "
       "done, how much of it is left and the best so far; what it raises ends the diagnosis and is "
       "raised again. Raises InputError for a "
       "bad case and, unless large_work, where it needs more than 10 minutes or 4 GB before the "

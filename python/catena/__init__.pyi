@@ -329,6 +329,7 @@ def diagnose(
     max_effects: int = ...,
     max_links: int = ...,
     refits: int = ...,
+    discover: bool = False,
     threads: int = ...,
     progress: Callable[[str], None] | None = None,
     large_work: bool = False,

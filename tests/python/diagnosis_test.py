@@ -125,6 +125,12 @@ class Diagnoses(unittest.TestCase):
         self.assertEqual(stiffness.unit, "N m^2")
         self.assertLess(stiffness.standard_error, 0.1 * stiffness.value)
 
+    def test_a_law_is_sought_where_the_gap_closes_if_asked_for(self):
+        self.assertNotIn("missing_force", self.found.document())
+        sought = catena.diagnose(self.case, discover=True)
+        self.assertEqual(sought.verdict, "none")
+        self.assertIn("missing_force", sought.document())
+
     def test_other_threads_run_meanwhile_and_progress_is_told(self):
         self.assertGreater(self.ticks, self.seconds / 0.2)
         self.assertIn("fitting the baseline", self.lines)
