@@ -17,6 +17,7 @@
 #include "runtime/simulation.hpp"
 #include "tests/runtime/check_derivatives.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/runtime/vertical_plane.hpp"
 
 namespace {
 
@@ -29,7 +30,9 @@ using Eigen::VectorXd;
 using testing::askew;
 using testing::cable;
 using testing::check_derivatives;
+using testing::check_motion_in_plane;
 using testing::kGravity;
+using testing::planar_start;
 using testing::run;
 using testing::set;
 using testing::tight;
@@ -244,33 +247,19 @@ State tumbling(const Model& model) {
 
 TEST_CASE("in any vertical plane a body swings as in the plane") {
   const Model space = Model::load(BODY_5), plane = Model::load(SWINGING_5);
-  const double azimuth = -2.1, swing = 0.9, swing_rate = -3;
-  const VectorXd angles = VectorXd::LinSpaced(5, 0.2, 1.3), rates = VectorXd::LinSpaced(5, 1, -2);
-  State flat = from_angles(plane, angles);
-  flat.v.head(5) = rates;
-  flat.q[5] = swing, flat.v[5] = swing_rate;
-  State tilted =
-      from_directions(space, {angles, VectorXd::Constant(5, azimuth), rates, VectorXd::Zero(5)});
+  const double swing = 0.9, swing_rate = -3;
+  testing::PlanarStart start = planar_start(plane, space);
+  start.plane.q[5] = swing, start.plane.v[5] = swing_rate;
   // About `down` from side to across, then about the lateral axis; side x down = across. The length of the
   // quaternion moves nothing.
-  set_attitude(tilted,
-               Eigen::AngleAxisd(-azimuth, Vector3d::UnitY()) *
+  set_attitude(start.space,
+               Eigen::AngleAxisd(-testing::kPlaneAzimuth, Vector3d::UnitY()) *
                    Quaterniond(Eigen::AngleAxisd(-swing, Vector3d::UnitZ())),
                Vector3d(0, 0, -swing_rate), 1.4);
-  VectorXd of_plane = swinging(plane), of_space = hung(space);
+  VectorXd of_plane = swinging(plane);
   set(plane, of_plane, "swinging_load.about_centre", kInertias[2]);
   set(plane, of_plane, "swinging_load.hinge_damping", 0);
-  const std::vector<double> times{0, 0.5, 1};
-  const auto expected = run(plane, of_plane, flat, times),
-             found = run(space, of_space, tilted, times);
-  for (Index k = 0; k < 3; ++k) {
-    const double t = times[static_cast<std::size_t>(k)];
-    const auto there = positions(plane, of_plane, t, expected.trajectory.q.col(k));
-    const auto here = positions(space, of_space, t, found.trajectory.q.col(k));
-    CHECK((here.side - std::cos(azimuth) * there.side).cwiseAbs().maxCoeff() < 1e-8);
-    CHECK((here.across - std::sin(azimuth) * there.side).cwiseAbs().maxCoeff() < 1e-8);
-    CHECK((here.down - there.down).cwiseAbs().maxCoeff() < 1e-8);
-  }
+  check_motion_in_plane(plane, of_plane, space, hung(space), start);
 }
 
 TEST_CASE("a body held at its centre of mass turns as a free top") {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "runtime/adjoint.hpp"
-#include "runtime/positions.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/runtime/vertical_plane.hpp"
 
 namespace {
 
@@ -23,8 +23,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::askew;
 using testing::cable;
+using testing::check_motion_in_plane;
 using testing::hand;
 using testing::kGravity;
+using testing::planar_start;
 using testing::run;
 using testing::tight;
 
@@ -117,25 +119,7 @@ TEST_CASE(
 
 TEST_CASE("in any vertical plane a cable in water moves as in the plane") {
   const Model space = Model::load(IN_WATER_5), plane = Model::load(IN_WATER_PLANE_5);
-  const double azimuth = -2.1;
-  const VectorXd angles = VectorXd::LinSpaced(5, 0.2, 1.3), rates = VectorXd::LinSpaced(5, 1, -2);
-  State flat = from_angles(plane, angles);
-  flat.v = rates;
-  const State tilted =
-      from_directions(space, {angles, VectorXd::Constant(5, azimuth), rates, VectorXd::Zero(5)});
-  const VectorXd of_plane = in_water(plane);
-  const std::vector<double> times{0, 0.5, 1};
-  const auto expected = run(plane, of_plane, flat, times),
-             found = run(space, in_water(space), tilted, times);
-  const double tolerance = 1e-8;  // m: errors of 1e-11 a step, some thousand steps
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double t = times[static_cast<std::size_t>(k)];
-    const auto there = positions(plane, of_plane, t, expected.trajectory.q.col(k));
-    const auto here = positions(space, in_water(space), t, found.trajectory.q.col(k));
-    CHECK((here.side - std::cos(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
-    CHECK((here.across - std::sin(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
-    CHECK((here.down - there.down).cwiseAbs().maxCoeff() < tolerance);
-  }
+  check_motion_in_plane(plane, in_water(plane), space, in_water(space), planar_start(plane, space));
 }
 
 TEST_CASE("energies of a cable in water balance, over 3 s, to 1e-9 of their size") {

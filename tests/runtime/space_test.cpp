@@ -18,6 +18,7 @@
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/runtime/vertical_plane.hpp"
 
 namespace {
 
@@ -26,8 +27,10 @@ using catena::State;
 using Eigen::VectorXd;
 using testing::askew;
 using testing::cable;
+using testing::check_motion_in_plane;
 using testing::hand;
 using testing::kGravity;
+using testing::planar_start;
 using testing::run;
 using testing::tight;
 
@@ -41,29 +44,11 @@ double strength(const Model& model, const VectorXd& p) {
 
 TEST_CASE("in any vertical plane the chain in space moves as the chain of the plane") {
   const Model space = Model::load(SPATIAL_12), plane = Model::built_in(12);
-  const double azimuth = 0.7;
-  const VectorXd angles = VectorXd::LinSpaced(12, 0.2, 1.3), rates = VectorXd::LinSpaced(12, 1, -2);
-  State flat = from_angles(plane, angles);
-  flat.v = rates;
-  const State tilted =
-      from_directions(space, {angles, VectorXd::Constant(12, azimuth), rates, VectorXd::Zero(12)});
-  const std::vector<double> times{0, 0.25, 0.5, 1};
-  const VectorXd of_plane = cable(plane, 0.2, 2e-3), of_space = cable(space, 0.2, 2e-3);
-  const catena::Simulation expected = run(plane, of_plane, flat, times);
-  const catena::Simulation found = run(space, of_space, tilted, times);
-  for (Eigen::Index k = 0; k < 4; ++k) {
-    CAPTURE(k);
-    const double t = times[static_cast<std::size_t>(k)];
-    const catena::Positions there = positions(plane, of_plane, t, expected.trajectory.q.col(k));
-    const catena::Positions here = positions(space, of_space, t, found.trajectory.q.col(k));
-    const double tolerance = 1e-8;  // m: errors of 1e-11 a step, some thousand steps
-    CHECK((here.side - std::cos(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
-    CHECK((here.across - std::sin(azimuth) * there.side).cwiseAbs().maxCoeff() < tolerance);
-    CHECK((here.down - there.down).cwiseAbs().maxCoeff() < tolerance);
+  const auto [expected, found] = check_motion_in_plane(
+      plane, cable(plane, 0.2, 2e-3), space, cable(space, 0.2, 2e-3), planar_start(plane, space));
+  for (Eigen::Index k = 0; k < expected.energy.cols(); ++k)
     for (int item = 0; item < 4; ++item)  // kinetic, gravity, elastic, damping
-      CHECK(found.trajectory.energy(item, k) ==
-            doctest::Approx(expected.trajectory.energy(item, k)).epsilon(1e-7));
-  }
+      CHECK(found.energy(item, k) == doctest::Approx(expected.energy(item, k)).epsilon(1e-7));
 }
 
 TEST_CASE("energies balance in space, over 3 s, to 1e-9 of their size") {

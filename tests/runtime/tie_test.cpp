@@ -3,17 +3,15 @@
 // Motions of a cable with a tie between two of its places.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "runtime/internal_forces.hpp"
-#include "runtime/positions.hpp"
 #include "runtime/rest_states.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/check_derivatives.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/runtime/vertical_plane.hpp"
 
 namespace {
 
@@ -22,6 +20,8 @@ using catena::State;
 using Eigen::Index;
 using Eigen::VectorXd;
 using testing::askew;
+using testing::check_motion_in_plane;
+using testing::planar_start;
 using testing::run;
 using testing::set;
 
@@ -46,23 +46,7 @@ TEST_CASE("energies of a tied cable balance to 1e-9 of their size") {
 
 TEST_CASE("in any vertical plane a tied cable moves as in the plane") {
   const Model space = Model::load(TIED_5), plane = Model::load(TIED_PLANE_5);
-  const double azimuth = -2.1;
-  const VectorXd angles = VectorXd::LinSpaced(5, 0.2, 1.3), rates = VectorXd::LinSpaced(5, 1, -2);
-  State flat = from_angles(plane, angles);
-  flat.v = rates;
-  const State tilted =
-      from_directions(space, {angles, VectorXd::Constant(5, azimuth), rates, VectorXd::Zero(5)});
-  const std::vector<double> times{0, 0.5, 1};
-  const auto expected = run(plane, tied(plane), flat, times).trajectory,
-             found = run(space, tied(space), tilted, times).trajectory;
-  for (Index k = 0; k < 3; ++k) {
-    const double t = times[static_cast<std::size_t>(k)];
-    const auto there = positions(plane, tied(plane), t, expected.q.col(k));
-    const auto here = positions(space, tied(space), t, found.q.col(k));
-    CHECK((here.side - std::cos(azimuth) * there.side).cwiseAbs().maxCoeff() < 1e-8);
-    CHECK((here.across - std::sin(azimuth) * there.side).cwiseAbs().maxCoeff() < 1e-8);
-    CHECK((here.down - there.down).cwiseAbs().maxCoeff() < 1e-8);
-  }
+  check_motion_in_plane(plane, tied(plane), space, tied(space), planar_start(plane, space));
 }
 
 TEST_CASE("derivatives of a tied cable agree with differences, those by its places, too") {
