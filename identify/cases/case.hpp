@@ -246,6 +246,8 @@ struct DiagnosisSpec {
   double good_enough = kNotGiven;     ///< m or rad, RMS: a gap below it counts as closed
   std::vector<std::string> possible;  ///< effects that are looked for only where a case names them
   std::vector<std::string> impossible;  ///< effects that cannot be there
+  std::vector<std::string>
+      doubtful;  ///< parameters of the model, at their defaults, that may be off
 };
 
 /// A whole case: read by case_reader.hpp, written by case_writer.hpp, or made in a program:

@@ -202,13 +202,14 @@ void write_experiment(Writer& out, const ExperimentSpec& experiment,
 
 void write_diagnosis(Writer& out, const DiagnosisSpec& diagnosis) {
   if (std::isnan(diagnosis.good_enough) && diagnosis.possible.empty() &&
-      diagnosis.impossible.empty())
+      diagnosis.impossible.empty() && diagnosis.doubtful.empty())
     return;
   out.header("[diagnosis]");
   if (!std::isnan(diagnosis.good_enough))
     out.text("good_enough", shortest_number(diagnosis.good_enough) + " m");
   out.texts("possible", diagnosis.possible);
   out.texts("impossible", diagnosis.impossible);
+  out.texts("doubtful", diagnosis.doubtful);
 }
 
 }  // namespace

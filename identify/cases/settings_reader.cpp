@@ -95,6 +95,7 @@ DiagnosisSpec read_diagnosis(const TomlTable& table) {
   if (table.has("good_enough")) diagnosis.good_enough = read_tolerance(table, "good_enough");
   diagnosis.possible = table.texts("possible");
   diagnosis.impossible = table.texts("impossible");
+  diagnosis.doubtful = table.texts("doubtful");
   return diagnosis;
 }
 

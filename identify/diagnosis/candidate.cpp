@@ -53,6 +53,10 @@ bool depends_on_time(const Effect& effect) {
 
 }  // namespace
 
+bool belongs_to(const std::string& parameter, const std::string& id) {
+  return parameter == id || parameter.starts_with(id + ".");
+}
+
 Candidate candidate_of(Effect effect) {
   Candidate candidate;
   candidate.id = effect.id;

@@ -52,6 +52,9 @@ struct Candidate {
   std::vector<int> with_role(ParameterRole role) const;
 };
 
+/// Whether a parameter of this name is one of the effect of this id, or is itself what the id says: a known in doubt.
+bool belongs_to(const std::string& parameter, const std::string& id);
+
 /// An effect as a candidate; `unavailable` where it can be tried in no case.
 Candidate candidate_of(Effect effect);
 

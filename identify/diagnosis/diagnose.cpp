@@ -31,6 +31,8 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   DiagnosisState state(context, options);
   hold_out(the_case, context, state.found.notes);
   seal_last_part(the_case, context);
+  for (Candidate& doubtful : doubtful_parameters(the_case, context.model_with({}, the_case.links)))
+    context.add(std::move(doubtful));
   context.begin("fitting the baseline");
   state.enter(fit_baseline(for_the_search(the_case), context), {}, "");
   const std::vector<Experiment>& experiments = state.last().model.problem->experiments();

@@ -70,7 +70,7 @@ results::Candidate candidate_of(const Explanation& explanation, const DiagnosisC
     refit.autocorrelation = explanation.comparison.autocorrelation;
     const auto& unknowns = explanation.model.problem->unknowns();
     for (std::size_t j = 0; j < unknowns.size(); ++j)
-      if (unknowns[j].name.starts_with(explanation.id + "."))
+      if (belongs_to(unknowns[j].name, explanation.id))
         refit.estimate.emplace_back(unknowns[j].name,
                                     explanation.model.x[static_cast<Eigen::Index>(j)]);
   }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/in_quotes.hpp"
+#include "common/input_error.hpp"
+#include "common/nearest_name.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/problem/marker_places.hpp"
 
@@ -92,6 +95,36 @@ std::vector<Candidate> doubted_knowns(const Case& the_case,
     return each.parameters.empty() ||
            std::find(impossible.begin(), impossible.end(), each.id) != impossible.end();
   });
+  return candidates;
+}
+
+std::vector<Candidate> doubtful_parameters(const Case& the_case, const Model& model) {
+  const catena_model& table = model.table();
+  std::vector<std::string> known;
+  for (int k = 0; k < table.parameters; ++k)
+    if (std::isfinite(table.parameter[k].default_value))
+      known.emplace_back(table.parameter[k].name);
+  std::vector<Candidate> candidates;
+  for (const std::string& name : the_case.diagnosis.doubtful) {
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(the_case.file.string() + ": diagnosis.doubtful: " + in_quotes(name) + why);
+    };
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse(" is no parameter of the model that has a default" + suggestion(name, known));
+    if (sets(the_case, name))
+      refuse(" is set by the case; leave its parameter away, or set it free");
+    const catena_parameter& entry = table.parameter[model.parameter_index(name)];
+    Candidate candidate = of_case(name, name, entry.description);
+    CandidateParameter amplitude;
+    amplitude.name = name;
+    amplitude.unit = entry.unit;
+    amplitude.description = entry.description;
+    amplitude.neutral = amplitude.value = entry.default_value;
+    amplitude.lower = entry.lower;
+    amplitude.upper = entry.upper;
+    candidate.parameters.push_back(std::move(amplitude));
+    candidates.push_back(std::move(candidate));
+  }
   return candidates;
 }
 

@@ -6,6 +6,7 @@
 #include "identify/cases/case.hpp"
 #include "identify/diagnosis/candidate.hpp"
 #include "identify/problem/experiment.hpp"
+#include "runtime/model.hpp"
 
 namespace catena {
 
@@ -19,5 +20,10 @@ inline constexpr const char* kCableKnowns = "cable";
 /// least squares: other measures weigh no prior against the noise.
 std::vector<Candidate> doubted_knowns(const Case& the_case,
                                       const std::vector<Experiment>& experiments);
+
+/// The parameters of the model that the case calls doubtful (DiagnosisSpec::doubtful), each a candidate by itself whose
+/// neutral value is its default. Throws InputError for one that the model lacks or that has no default, and for one
+/// that the case sets.
+std::vector<Candidate> doubtful_parameters(const Case& the_case, const Model& model);
 
 }  // namespace catena

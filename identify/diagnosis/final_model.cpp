@@ -127,7 +127,7 @@ std::vector<FinalParameter> final_parameters(const Diagnosis& diagnosis) {
     parameter.name = unknown.name;
     parameter.unit = unknown.unit;
     for (const std::string& effect : diagnosis.effects)
-      if (unknown.name.starts_with(effect + ".")) parameter.effect = effect;
+      if (belongs_to(unknown.name, effect)) parameter.effect = effect;
     parameter.value = diagnosis.final.x[static_cast<Index>(j)];
     parameter.standard_error = errors[static_cast<Index>(j)];
     parameters.push_back(parameter);

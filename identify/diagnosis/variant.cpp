@@ -111,7 +111,7 @@ Case with_effects(const Case& the_case, const std::vector<Candidate>& candidates
 Case without_effect(const Case& the_case, const std::string& id) {
   Case result = the_case;
   std::erase_if(result.parameters,
-                [&](const ParameterSpec& spec) { return spec.sets.starts_with(id + "."); });
+                [&](const ParameterSpec& spec) { return belongs_to(spec.sets, id); });
   return result;
 }
 

@@ -128,6 +128,7 @@ max_steps = 5000
 good_enough = "0.002 m"
 possible = ["steady_wind"]
 impossible = ["scale", "camera_tilt"]
+doubtful = ["load_drag.coefficient"]
 )";
 
 }  // namespace
@@ -173,6 +174,7 @@ TEST_CASE("a tolerance is a number and a unit, and a diagnosis names effects") {
   CHECK(diagnosis("\"2 mm\"").good_enough == doctest::Approx(0.002));
   CHECK(diagnosis("\"3 mrad\"").good_enough == doctest::Approx(0.003));
   CHECK(diagnosis("\"2 mm\"").impossible == std::vector<std::string>{"scale", "camera_tilt"});
+  CHECK(diagnosis("\"2 mm\"").doubtful == std::vector<std::string>{"load_drag.coefficient"});
   for (const char* wrong : {"\"2\"", "\"2 miles\"", "\"-2 mm\"", "\"2 mm or so\"", "\"\""})
     CHECK(failure([&] { diagnosis(wrong); }).find("diagnosis.good_enough") != std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
+#include "tests/support/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -107,4 +108,66 @@ TEST_CASE("what the case sets itself and what it calls impossible is no candidat
   CHECK(amplitudes() == Names{"marker_places.marker 1"});
   the_case.diagnosis.impossible.emplace_back("marker_places");
   CHECK(amplitudes().empty());
+}
+
+namespace {
+
+/// Two links whose model has a rest angle of the pivot, at its default, which the case calls doubtful.
+Case askew(const testing::TemporaryFolder& folder) {
+  Case the_case = testing::two_links_with({"load_drag"});
+  Description clamped = plain_chain();
+  clamped.effects = {built_in_effect("pivot_rest_angle")};
+  clamped.links = {2};
+  the_case.description = folder.path() / "clamped.toml";
+  write_description(clamped, the_case.description);
+  the_case.diagnosis.doubtful = {"pivot_rest_angle.rest"};
+  return the_case;
+}
+
+ParameterSpec rest_of(double angle) {
+  ParameterSpec rest;
+  rest.name = rest.sets = "pivot_rest_angle.rest";
+  rest.value = angle;
+  return rest;
+}
+
+}  // namespace
+
+TEST_CASE("a parameter that the case calls doubtful is found to be off, and no physics beside it") {
+  const testing::TemporaryFolder folder;
+  Case the_case = askew(folder);
+  DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares,
+                           testing::provider_of_build());
+  Case truth = the_case;
+  truth.parameters.push_back(rest_of(0.6));
+  const Recording film =
+      testing::with_truth(truth, context.model_with({}, 2),
+                          testing::empty_markers({0.25, 0.5, 0.75, 1.0}, 240, 1.0 / 60), 1e-3);
+  the_case = testing::measured(the_case, folder, film);
+  const Diagnosis found = diagnose(the_case, context, {.max_links = 2});
+  CAPTURE(found.sentence);
+  CHECK(found.verdict == DiagnosisVerdict::kNamed);
+  CHECK(found.effects == std::vector<std::string>{"pivot_rest_angle.rest"});
+  REQUIRE(found.parameters.size() == 3);
+  CHECK(found.parameters.back().effect == "pivot_rest_angle.rest");
+  write_diagnosis(record_of(found, find_out(found), context), folder.path(), folder.path());
+  const Case again = read_case(folder.path() / "diagnosed.toml");
+  REQUIRE(again.parameters.size() == 3);
+  CHECK(again.parameters.back().sets == "pivot_rest_angle.rest");
+  CHECK(again.parameters.back().value == doctest::Approx(0.6).epsilon(0.1).scale(0));
+}
+
+TEST_CASE("only a parameter of the model that the case leaves at its default is doubtful") {
+  const testing::TemporaryFolder folder;
+  Case the_case = askew(folder);
+  DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares,
+                           testing::provider_of_build());
+  const Model model = context.model_with({}, 2);
+  CHECK(doubtful_parameters(the_case, model).size() == 1);
+  const auto refused = [&] { return failure([&] { doubtful_parameters(the_case, model); }); };
+  the_case.diagnosis.doubtful = {"pivot_rest_angle.rset"};
+  CHECK(refused().find("did you mean \"pivot_rest_angle.rest\"?") != std::string::npos);
+  the_case.diagnosis.doubtful = {"pivot_rest_angle.rest"};
+  the_case.parameters.push_back(rest_of(0));
+  CHECK(refused().find("\"pivot_rest_angle.rest\" is set by the case") != std::string::npos);
 }
