@@ -266,7 +266,7 @@ class LawSearch {
       for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
         const auto terms = responses.middleCols(column, candidates_[c].terms());
         LawTrials::OfCandidate& of = trials.candidates.emplace_back();
-        of.gram = terms.transpose() * terms;
+        of.gram = products_in_forms(terms, candidates_[c].forms());
         of.cross = terms.transpose() * values;
       }
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/forces/law_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linear_algebra/decompositions.hpp"
 
@@ -11,9 +13,37 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+MatrixXd gram_of(const LawTrials::OfCandidate& candidate, const std::vector<int>& form) {
+  const auto size = static_cast<Index>(form.size());
+  return MatrixXd::NullaryExpr(size, size, [&](Index i, Index j) {
+    return candidate.gram.coeff(form[static_cast<std::size_t>(i)],
+                                form[static_cast<std::size_t>(j)]);
+  });
+}
+
+}  // namespace
+
+Eigen::SparseMatrix<double> products_in_forms(const Eigen::Ref<const MatrixXd>& terms,
+                                              const std::vector<std::vector<int>>& forms) {
+  std::vector<std::pair<int, int>> together;
+  for (const std::vector<int>& form : forms)
+    for (const int i : form)
+      for (const int j : form) together.emplace_back(i, j);
+  std::sort(together.begin(), together.end());
+  together.erase(std::unique(together.begin(), together.end()), together.end());
+  std::vector<Eigen::Triplet<double>> products;
+  products.reserve(together.size());
+  for (const auto& [i, j] : together) products.emplace_back(i, j, terms.col(i).dot(terms.col(j)));
+  Eigen::SparseMatrix<double> gram(terms.cols(), terms.cols());
+  gram.setFromTriplets(products.begin(), products.end());
+  return gram;
+}
+
 std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
                                 const std::vector<int>& form, Index columns) {
-  const MatrixXd gram = candidate.gram(form, form);
+  const MatrixXd gram = gram_of(candidate, form);
   const MatrixXd cross = candidate.cross(form, Eigen::seqN(0, columns));
   const VectorXd scale = gram.diagonal().cwiseSqrt();
   if (!(scale.minCoeff() > 0)) return std::nullopt;
@@ -57,7 +87,7 @@ double explained_by_law(const LawTrials& trials, Index column, const ChosenLaw& 
   if (law.explained_in_second) return *law.explained_in_second / (before - least);
   const LawTrials::OfCandidate& of = trials.candidates[law.candidate];
   const VectorXd& b = law.coefficients;
-  const MatrixXd gram = of.gram(law.form, law.form);
+  const MatrixXd gram = gram_of(of, law.form);
   const VectorXd cross = of.cross(law.form, column);
   return (2 * b.dot(cross) - b.dot(gram * b)) / (before - least);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -14,13 +15,20 @@ namespace catena {
 /// every candidate have to do with them.
 struct LawTrials {
   struct OfCandidate {
-    Eigen::MatrixXd gram, cross;  // terms x terms, terms x columns
+    /// Products of the terms that stand together in a form, terms x terms. A push at any moment has a form a frame,
+    /// each of one term.
+    Eigen::SparseMatrix<double> gram;
+    Eigen::MatrixXd cross;  ///< terms x columns
   };
   std::vector<OfCandidate> candidates;
   Eigen::VectorXd squares;  // of each column
   Eigen::MatrixXd noise;    // in the random ones
   Eigen::Index rows = 0, seen = 0;
 };
+
+/// The products of these terms, the columns of `terms`, that `forms` need.
+Eigen::SparseMatrix<double> products_in_forms(const Eigen::Ref<const Eigen::MatrixXd>& terms,
+                                              const std::vector<std::vector<int>>& forms);
 
 /// A formula fitted to columns of trials: its coefficients, and how much it takes off the squares.
 struct LinearFit {
