@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/sensitivity_solver.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -119,13 +120,15 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
                              N_Vector, double, booleantype, void* cvode) {
   auto& self = *static_cast<SensitivitySolver*>(solver->content);
   const int n = self.n_, states = self.states_, coordinates = self.dynamics_.coordinates();
-  double t, gamma, rl1;
+  double t, told_gamma, told_rl1;
   N_Vector prediction, state, rate, history;
   N_Vector *predictions, *sensitivities, *histories;
   void* user;
-  CVodeGetNonlinearSystemData(cvode, &t, &prediction, &state, &rate, &gamma, &rl1, &history, &user);
-  CVodeGetNonlinearSystemDataSens(cvode, &t, &predictions, &sensitivities, &gamma, &rl1, &histories,
-                                  &user);
+  CVodeGetNonlinearSystemData(cvode, &t, &prediction, &state, &rate, &told_gamma, &told_rl1,
+                              &history, &user);
+  CVodeGetNonlinearSystemDataSens(cvode, &t, &predictions, &sensitivities, &told_gamma, &told_rl1,
+                                  &histories, &user);
+  const double gamma = told_gamma, rl1 = told_rl1;
 
   const double *q = elements(state), *v = q + coordinates, *z = v + coordinates;
   const catena_point at = self.dynamics_.at(t, q, v, self.step_solver_.acceleration(), z);
@@ -138,32 +141,30 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
 
   const double *s = elements(predicted), *past = elements(histories[0]);
   double* e = elements(correction);
-  double *const dq = numbers(self.dq_), *const da = numbers(self.da_);
-  double* const change = numbers(self.change_);
+  // Maps: the compiler need not fear that what is written is read again, and takes two numbers at a time.
+  using Values = Eigen::Map<Eigen::ArrayXd>;
+  using Given = Eigen::Map<const Eigen::ArrayXd>;
+  Values dq(numbers(self.dq_), n), da(numbers(self.da_), n);
+  Values change(numbers(self.change_), n), of_states(change.data() + n, states);
   const double* zero = numbers(self.zero_);
   for (int batch = 0; batch < self.batches_; ++batch) {
-    const double *sq = s, *sv = sq + n, *sz = sv + n;
-    const double *past_q = past, *past_v = past_q + n, *past_z = past_v + n;
-    for (int i = 0; i < n; ++i) {
-      dq[i] = sq[i] + (gamma * sv[i] - rl1 * past_q[i]);
-      da[i] = rl1 * past_v[i] / gamma;
-    }
-    const catena_point along{0.0, dq, sv, da, sz, zero, self.parameters(batch)};
-    self.tangents_.residual(at, along, change);
-    for (int i = 0; i < n; ++i) change[i] *= -gamma;
+    const Given sq(s, n), sv(s + n, n);
+    const Given past_q(past, n), past_v(past + n, n), past_z(past + 2 * n, states);
+    dq = sq + (gamma * sv - rl1 * past_q);
+    da = rl1 * past_v / gamma;
+    const catena_point along{
+        0.0, dq.data(), sv.data(), da.data(), s + 2 * n, zero, self.parameters(batch)};
+    self.tangents_.residual(at, along, change.data());
+    change *= -gamma;
     if (states > 0) {
-      self.tangents_.state_rate(at, along, change + n);
-      for (int i = 0; i < states; ++i) change[n + i] = gamma * change[n + i] - rl1 * past_z[i];
+      self.tangents_.state_rate(at, along, of_states.data());
+      of_states = gamma * of_states - rl1 * past_z;
     }
-    self.matrix_.solve_batch(change);
-    bool finite = true;
-    for (int i = 0; i < n; ++i) {
-      finite = finite && std::isfinite(change[i]);
-      e[n + i] = change[i];
-      e[i] = gamma * (sv[i] + change[i]) - rl1 * past_q[i];
-    }
-    if (!finite) return SUN_NLS_CONV_RECVR;
-    std::copy_n(change + n, states, e + 2 * n);
+    self.matrix_.solve_batch(change.data());
+    if ((0.0 * change).sum() != 0)
+      return SUN_NLS_CONV_RECVR;  // not a number if one of them is not finite
+    Values(e, n) = gamma * (sv + change) - rl1 * past_q;
+    Values(e + n, n + states) = Given(change.data(), n + states);
     s += self.batch_size();
     past += self.batch_size();
     e += self.batch_size();

@@ -94,11 +94,12 @@ void StepSolver::set_point(const Step& step) {
   const double *predicted_q = step.predicted, *predicted_v = predicted_q + n_;
   const double *history_q = step.history, *history_v = history_q + n_;
   const double* correction_v = step.correction + n_;
+  const double gamma = step.gamma, rl1 = step.rl1;
   for (int i = 0; i < n_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     v_[k] = predicted_v[i] + correction_v[i];
-    a_[k] = (step.rl1 * history_v[i] + correction_v[i]) / step.gamma;
-    q_[k] = predicted_q[i] + (step.gamma * v_[k] - step.rl1 * history_q[i]);
+    a_[k] = (rl1 * history_v[i] + correction_v[i]) / gamma;
+    q_[k] = predicted_q[i] + (gamma * v_[k] - rl1 * history_q[i]);
   }
   for (int i = 0; i < states_; ++i)
     z_[static_cast<std::size_t>(i)] = predicted_v[n_ + i] + correction_v[n_ + i];
