@@ -48,18 +48,55 @@ class Law:
         self.remembers = "state" in law
         kind = next(kind for kind in ("force", "torque", "potential", "dissipation") if kind in law)
         energy = law[kind][0]
-        self.along = energy.get("along")  # of what remembers, or depends on the time: `value` is the force
+        # A force of what remembers, of the time, or of a curve against a velocity: `value` along each of these.
+        self.along = [(force["along"], self._compiled(force["value"])) for force in law.get("force", [])]
+        self.over_time = self.remembers or kind == "force" and "time" in energy["value"]
+        self.definitions = [(of["name"], self._compiled(of["value"])) for of in law.get("definition", [])
+                            if of["name"] not in ("here", "offset")]
         one_place = energy["at"] in ("load", "chord") or any(of["name"] == "here" for of in law.get("definition", []))
         self.at = energy["at"] if one_place else None
         self.joints = None if one_place else {"joint": slice(None), "pivot": slice(1)}.get(energy["at"])
-        self.energy = compile(energy["value"].replace("^", "**"), "effect", "eval")
+        self.energy = self._compiled(energy["value"])
+
+    @staticmethod
+    def _compiled(text):
+        return compile(text.replace("^", "**"), "effect", "eval")
+
+    def _value(self, expression, state):
+        functions = {name: getattr(math, name) for name in ("sqrt", "log", "exp", "sin", "cos", "cosh", "tanh")}
+        names = functions | self.constants | state
+        for name, value in self.definitions:
+            names[name] = eval(value, {"__builtins__": {}}, names)  # noqa: S307
+        return eval(expression, {"__builtins__": {}}, names)  # noqa: S307
 
     def _energy(self, state):
-        functions = {name: getattr(math, name) for name in ("sqrt", "log", "exp", "sin", "cos", "tanh")}
-        return eval(self.energy, {"__builtins__": {}}, functions | self.constants | state)  # noqa: S307
+        return self._value(self.energy, state)
+
+    def _pushes(self, state):
+        """Forces along velocities."""
+        if self.at in NUMBERS:
+            return [self._value(value, state) for _, value in self.along]
+        s, c = math.sin(state["angle"]), math.cos(state["angle"])
+        state = self._with_directions(state)
+        axes = {"velocity_side": (1.0, 0.0), "velocity_down": (0.0, 1.0),
+                "velocity_normal": (c, -s), "velocity_tangential": (s, c)}
+        parts = [0.0, 0.0]
+        for along, value in self.along:
+            size = self._value(value, state)
+            parts = [part + size * axis for part, axis in zip(parts, axes[along.split()[0]])]
+        return parts
+
+    @staticmethod
+    def _with_directions(state):
+        s, c = math.sin(state["angle"]), math.cos(state["angle"])
+        return state | {"velocity_normal": c * state["velocity_side"] - s * state["velocity_down"],
+                        "velocity_tangential": s * state["velocity_side"] + c * state["velocity_down"],
+                        "rate": 0.0}  # its place has no offset
 
     def force(self, state):
         """Its parts: side and down, N, of a place; the moment, N m, of a joint; what parts two places, N."""
+        if self.along:
+            return self._pushes(state)
         if self.at in NUMBERS:
             names = NUMBERS[self.at][not self.potential :][:1]
         else:
@@ -68,10 +105,7 @@ class Law:
         def energy(name, change):
             moved = state | {name: state[name] + change}
             if self.at not in NUMBERS:
-                s, c = math.sin(moved["angle"]), math.cos(moved["angle"])
-                moved["velocity_normal"] = c * moved["velocity_side"] - s * moved["velocity_down"]
-                moved["velocity_tangential"] = s * moved["velocity_side"] + c * moved["velocity_down"]
-                moved["rate"] = 0.0  # its place has no offset
+                moved = self._with_directions(moved)
             return self._energy(moved)
 
         return [(energy(name, -STEP) - energy(name, STEP)) / (2 * STEP) - self.mass * state.get(f"acceleration_{name}", 0.0)
@@ -90,7 +124,7 @@ class Law:
         """Its parts over time, where it remembers or depends on the time: of `true`, by frames."""
         time, forces = true["time_s"], [0.0] * len(true["time_s"])
         if self.remembers:
-            axis = "joint_angle" if self.at == "joint" else where + ("down" if "down" in self.along else "side")
+            axis = "joint_angle" if self.at == "joint" else where + ("down" if "down" in self.along[0][0] else "side")
             followed = true[axis]
             stretch, lag = 0.0, self.constants["lag"]
             for k in range(1, len(time)):
@@ -102,7 +136,7 @@ class Law:
         nothing = [0.0] * len(time)
         if self.at == "joint":
             return [forces]
-        return [nothing, forces] if "down" in self.along else [forces, nothing]
+        return [nothing, forces] if "down" in self.along[0][0] else [forces, nothing]
 
 
 def steady_tensions(angles, rates, cable):
@@ -159,7 +193,7 @@ def curve_error(found, forces):
     if size == 0:
         return None
     frames = range(len(true["time_s"]))
-    if law.along:
+    if law.over_time:
         says = zip(*law.histories(true, where))
     else:
         says = (law.force({name: true[where + name][k] for name in states}) for k in frames)

@@ -32,6 +32,9 @@ using Eigen::VectorXd;
 /// The sign of a rate (rad/s), smooth below 0.008 rad/s, which is below all rates of interest.
 double rounded_sign(double rate) { return std::tanh(rate / 0.008); }
 
+/// What of x is beyond -gap to gap.
+double past(double x, double gap) { return std::max(0.0, x - gap) - std::max(0.0, -x - gap); }
+
 class Chain {
  public:
   Chain(const Cable& cable, const Hidden& hidden)
@@ -113,6 +116,9 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
   const Hidden& h = hidden_;
   Vector force = -h.place_drag * norm(velocity) * velocity +
                  h.insect * (Vector{0, cable_.gravity} - acceleration);
+  const double speed = norm(velocity);
+  if (speed > h.vane_speed) force = force - (h.vane * (speed - h.vane_speed) / speed) * velocity;
+  force.side -= h.valve * std::max(0.0, velocity.side);
   force.side -= h.wall_spring * (at.side - h.wall_side);
   force.side -= h.stop * std::max(0.0, at.side - h.stop_side);
   const Vector to_hook = Vector{h.string_side, h.string_down} - at;
@@ -132,15 +138,17 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
 
 /// Hidden force that draws mid-cable and the middle of the last link together.
 double Chain::tie_force(double distance, double rate) const {
-  return hidden_.tie * std::max(0.0, distance - hidden_.tie_slack) + hidden_.tie_damping * rate;
+  const Hidden& h = hidden_;
+  return h.tie * std::max(0.0, distance - h.tie_slack) + h.tie_damping * rate +
+         h.tie_valve * std::max(0.0, rate);
 }
 
 /// Hidden moment against the angle of the joint at mid-cable.
 double Chain::middle_moment(double angle, double rate) const {
   const Hidden& h = hidden_;
   const double share = rate / h.brake_rate;
-  return h.brake * rate / (1 + share * share) +
-         h.joint_stop * (std::max(0.0, angle - h.joint_gap) - std::max(0.0, -angle - h.joint_gap));
+  return h.brake * rate / (1 + share * share) + h.loose * past(rate, h.loose_rate) +
+         h.joint_stop * past(angle, h.joint_gap);
 }
 
 /// Moment against the angle of joint i, whose links hold each other with `tension` (N). `memory`: of this joint.

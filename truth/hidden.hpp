@@ -61,12 +61,16 @@ struct Hidden {
   double tie = 0,
          tie_slack = 1;  // N/m, m; from mid-cable to the middle of the last link, taut when longer
   double tie_damping = 0;                  // N s/m, between these two
+  double tie_valve = 0;                    // N s/m, the same on their way apart
   double brake = 0, brake_rate = 2;        // N m s/rad, rad/s; eddy brake in mid-joint
   double joint_stop = 0, joint_gap = 0.1;  // N m/rad, rad; play of mid-joint
-  double maxwell = 0, maxwell_lag = 0.3;   // N m/rad, s; spring before a dashpot in mid-joint
-  double tension_friction = 0;             // m; every joint's friction over its tension
-  double leak = 0;                         // kg/s that the load loses
-  double insect = 0;                       // kg at mid-cable
+  double loose = 0, loose_rate = 1;  // N m s/rad, rad/s; a damper of mid-joint beyond that rate
+  double vane = 0, vane_speed = 1;   // N s/m, m/s; resists mid-cable beyond that speed
+  double valve = 0;                  // N s/m; resists mid-cable on its way to larger sides
+  double maxwell = 0, maxwell_lag = 0.3;  // N m/rad, s; spring before a dashpot in mid-joint
+  double tension_friction = 0;            // m; every joint's friction over its tension
+  double leak = 0;                        // kg/s that the load loses
+  double insect = 0;                      // kg at mid-cable
   double carried =
       0;  // share of the load's weight carried by a hand in the first second: a slack start
 };

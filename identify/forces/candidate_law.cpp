@@ -34,6 +34,10 @@ constexpr double kSharpWidth = 0.05;
 /// so far beyond that, over the length of the cable.
 constexpr int kDirections = 8;
 constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
+/// Knots of a curve against a velocity, over its root mean square, below such a part of the largest velocity, which is
+/// the last knot. Most of the time is spent below two root mean squares; a snap of the cable goes far beyond. A corner
+/// between two knots is off by 6 % of the root mean square times its change of slope, at most.
+constexpr double kVelocityKnots[] = {0.5, 1, 1.5, 2}, kLastInnerKnot = 0.85;
 /// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit
 /// may find.
 constexpr double kTriedLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
@@ -109,22 +113,38 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
         ++count;
       }
   }
-  const bool angle = variable == LawVariable::kJointAngle || variable == LawVariable::kCurvature;
-  grammar_ = variable == LawVariable::kAcceleration ? inertia_grammar()
-             : has_lag()                            ? relaxing_grammar()
-             : has_time()                           ? time_grammar(least, most)
-             : over_tension(variable)               ? friction_grammar()
-             : variable == LawVariable::kChordRate  ? dashpot_grammar()
-             : against()                            ? velocity_grammar()
-             : angle                                ? angle_grammar()
-             : is_distance()                        ? distance_grammar()
-                                                    : position_grammar();
+  choose_grammar(least, most);
   if (has_time()) return;  // in s
-  if (!against() && !angle && !is_distance()) middle_ = 0.5 * (least + most);
+  if (!against() && !is_angle() && !is_distance()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
   const double mean = against() ? 0 : sum / count;  // a sign changes at 0
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
-  for (LawTerm& term : grammar_.terms) term.width = relative_width(term.kind) * spread / half_;
+  add_velocity_curves(spread);
+  for (LawTerm& term : grammar_.terms)
+    if (!is_piece(term.kind)) term.width = relative_width(term.kind) * spread / half_;
+}
+
+void CandidateLaw::choose_grammar(double least, double most) {
+  grammar_ = variable_ == LawVariable::kAcceleration ? inertia_grammar()
+             : has_lag()                             ? relaxing_grammar()
+             : has_time()                            ? time_grammar(least, most)
+             : over_tension(variable_)               ? friction_grammar()
+             : variable_ == LawVariable::kChordRate  ? dashpot_grammar()
+             : against()                             ? velocity_grammar()
+             : is_angle()                            ? angle_grammar()
+             : is_distance()                         ? distance_grammar()
+                                                     : position_grammar();
+}
+
+void CandidateLaw::add_velocity_curves(double spread) {
+  // Of the size of a vector at a right angle to the cable effects have squares alone.
+  const bool size = chain_.in_space && variable_ == LawVariable::kNormalVelocity;
+  if (kind() != Formula::Kind::kDissipation || size) return;
+  std::vector<double> knots;
+  for (const double knot : kVelocityKnots)
+    if (knot * spread < kLastInnerKnot * half_) knots.push_back(knot * spread / half_);
+  knots.push_back(1);
+  add_velocity_curve(grammar_, knots, variable_ != LawVariable::kSpeed);
 }
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
@@ -245,6 +265,15 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
   return other;
 }
 
+bool CandidateLaw::has_pieces(const std::vector<int>& form) const {
+  return is_piece(grammar_.terms[static_cast<std::size_t>(form.front())].kind);
+}
+
+bool CandidateLaw::is_curve(const std::vector<int>& form) const {
+  return has_pieces(form) ||
+         grammar_.terms[static_cast<std::size_t>(form.back())].kind == TermKind::kBend;
+}
+
 bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
                                 const std::vector<int>& other_form) const {
   const auto kinds_of = [](const CandidateLaw& law, const std::vector<int>& of) {
@@ -252,7 +281,9 @@ bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw
     kinds.reserve(of.size());
     for (const int term : of)
       kinds.push_back(law.grammar_.terms[static_cast<std::size_t>(term)].kind);
-    return kinds;
+    if (!law.has_pieces(of)) return kinds;
+    const bool odd = kinds.front() == TermKind::kPiece;
+    return std::vector{odd ? TermKind::kPiece : TermKind::kForwardPiece};
   };
   return kinds_of(*this, form) == kinds_of(other, other_form);
 }
@@ -266,7 +297,8 @@ bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const Candid
 
 CandidateLaw CandidateLaw::sharp() const {
   CandidateLaw other = *this;
-  for (LawTerm& term : other.grammar_.terms) term.width *= kSharpWidth;
+  for (LawTerm& term : other.grammar_.terms)
+    if (!is_piece(term.kind)) term.width *= kSharpWidth;
   return other;
 }
 
@@ -287,7 +319,7 @@ CandidateLaw::Formula::Kind CandidateLaw::kind() const {
   using Kind = Formula::Kind;
   return variable_ == LawVariable::kAcceleration ? Kind::kMass
          : has_lag()                             ? Kind::kRelaxing
-         : has_time()                            ? Kind::kTime
+         : has_time()                            ? Kind::kForce
          : over_tension(variable_)               ? Kind::kTorque
          : against()                             ? Kind::kDissipation
                                                  : Kind::kPotential;
@@ -334,25 +366,20 @@ void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
   const std::string symbols =
       about_middle ? fmt::format("{} - middle", names.symbols) : names.symbols;
   std::string terms;
-  char knot = 'a';  // names that end with a number are those of one joint or link
   Index number = coefficients.size() + places() + of_point() + has_lag();  // the next shape's
   for (std::size_t j = 0; j < form.size(); ++j) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(form[j])];
     const LawTermText& text = text_of(term.kind);
-    const bool bend = term.kind == TermKind::kBend;
-    formula.curve = formula.curve || bend;
-    const std::string n(bend ? 1 : 0, knot);
+    const std::string n = letter_of(term.knot);
     terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "", n);
     formula.energy +=
-        (formula.energy.empty() ? "" : " + ") +
-        filled(over_tension(variable_) ? text.slope : text.energy, "", symbols, names.squared, n);
+        (formula.energy.empty() ? "" : " + ") + filled(over_tension(variable_) ? text.slope
+                                                       : is_piece(term.kind)   ? piece_text(term)
+                                                                               : text.energy,
+                                                       "", symbols, names.squared, n);
     const auto i = static_cast<Index>(j);
     formula.constants.push_back(amplitude(filled(text.amplitude, "", "", "", n), text.power,
                                           coefficients[i], deviations[i]));
-    if (bend) {
-      formula.fixed.push_back({"knot_" + n, names.variable_unit, term.shape * half_});
-      ++knot;
-    }
     if (!text.shape) continue;
     const double shape = term.shape * half_;
     const bool edge = shape_name(form[j]) == kEdge;
@@ -365,18 +392,38 @@ void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
     formula.constants.push_back({"moment", "s", term.moment, deviations[number++], false,
                                  term.moment - reach, term.moment + reach});
   }
-  formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
-                             form.size() == 1 ? terms : fmt::format("({})", terms));
+  if (has_pieces(form)) terms = pieces_in_words(form);
+  formula.text =
+      fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
+                  form.size() == 1 && !has_pieces(form) ? terms : fmt::format("({})", terms));
+}
+
+std::string CandidateLaw::pieces_in_words(const std::vector<int>& form) const {
+  const LawNames names = names_of(site_, variable_, chain_.in_space);
+  std::string words;
+  for (const int place : form) {
+    const LawTerm& term = grammar_.terms[static_cast<std::size_t>(place)];
+    words += fmt::format("{}{} at {}{:.3g} {}", words.empty() ? "" : ", ",
+                         filled(text_of(term.kind).words, "", "", "", letter_of(term.knot)),
+                         term.kind == TermKind::kBackwardPiece ? "-" : "", term.shape * half_,
+                         names.variable_unit);
+  }
+  return fmt::format("straight pieces of {} through 0 and {}", names.variable, words);
 }
 
 void CandidateLaw::add_fixed(Formula& formula, const std::vector<int>& form) const {
-  const auto add = [&](const char* name, double value) {
-    if (formula.energy.find(name) != std::string::npos)
+  std::string expressions = formula.energy;
+  for (const auto& [name, value] : formula.definitions) expressions += value;
+  const auto add = [&](const std::string& name, double value) {
+    if (expressions.find(name) != std::string::npos)
       formula.fixed.push_back({name, formula.variable_unit, value});
   };
   double width = 0;
   for (const int term : form)
     width = std::max(width, grammar_.terms[static_cast<std::size_t>(term)].width);
+  for (const LawTerm& term : grammar_.terms)
+    if (term.kind == TermKind::kBend || term.kind == TermKind::kPiece)
+      add("knot_" + letter_of(term.knot), term.shape * half_);
   add("step", width * half_);
   add("middle", middle_);
   add("edge_width", width * half_);
@@ -393,6 +440,7 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   Formula formula;
   formula.variable_unit = names.variable_unit;
   formula.kind = kind();
+  formula.curve = is_curve(form);
   const auto kind_of = [&](std::size_t j) {
     return grammar_.terms[static_cast<std::size_t>(form[j])].kind;
   };
@@ -413,7 +461,20 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
   if (has_lag())
     formula.constants.push_back({"lag", "s", numbers_.lag, deviations[numbers], false,
                                  numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
-  if (has_lag() || has_time()) formula.along = names.symbols;
+  if (has_lag() || has_time()) formula.along = {names.symbols};
+  if (has_pieces(form)) {
+    formula.kind = Formula::Kind::kForce;
+    formula.along = components_of(site_, variable_, chain_.in_space);
+    formula.definitions.emplace_back("motion",
+                                     variable_ == LawVariable::kSpeed
+                                         ? fmt::format("sqrt({} + floor^2)", names.squared)
+                                         : names.symbols);
+    for (const int term : form)
+      for (auto& part : piece_parts(grammar_.terms[static_cast<std::size_t>(term)]))
+        if (std::find(formula.definitions.begin(), formula.definitions.end(), part) ==
+            formula.definitions.end())
+          formula.definitions.push_back(std::move(part));
+  }
   if (formula.kind == Formula::Kind::kMass)
     formula.energy =
         fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition, false));

@@ -67,7 +67,11 @@ class CandidateLaw {
   /// The law with other numbers; nothing where no law has them.
   std::optional<CandidateLaw> with(const std::vector<int>& form,
                                    const Eigen::VectorXd& numbers) const;
-  /// Whether both formulas have terms of the same kinds.
+  /// Whether it is a curve against a velocity, of which pieces may be missing.
+  bool has_pieces(const std::vector<int>& form) const;
+  /// Whether it is a curve of straight pieces: no formula.
+  bool is_curve(const std::vector<int>& form) const;
+  /// Whether both formulas have terms of the same kinds; of curves against a velocity whether both are odd or none.
   bool has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
                     const std::vector<int>& other_form) const;
   /// Whether fits of both could find the same law: they differ by nothing but numbers.
@@ -90,22 +94,25 @@ class CandidateLaw {
   struct Formula {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
-    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot, a force in time or a
-    /// torque under tension (law_effect.cpp).
+    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot, a force or a torque under
+    /// tension (law_effect.cpp).
     enum class Kind {
       kPotential,
       kDissipation,
       kMass,
       kRelaxing,
-      kTime,
+      kForce,
       kTorque
     } kind = Kind::kPotential;
     bool curve = false;  ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
-    /// mass; of the time the force; under tension -force over that. A place is `offset` past the middle of a link.
+    /// mass; of the time the force; of a curve against a velocity -force; under tension -force
+    /// over that. A place is `offset` past the middle of a link.
     std::string energy;
-    std::string
-        along;  ///< the velocity or rate along which a spring before a dashpot or a force in time acts
+    Definitions
+        definitions;  ///< of a curve: `motion`, the velocity, and what else the energy names
+    /// The velocity or rate along which a spring before a dashpot or a force acts; of a speed its components.
+    std::vector<std::string> along;
     std::string variable_unit;
     std::vector<Constant> fixed;  ///< further constants in it, known
   };
@@ -116,6 +123,13 @@ class CandidateLaw {
  private:
   bool has_point() const { return variable_ == LawVariable::kDistance; }
   bool is_distance() const { return has_point() || variable_ == LawVariable::kChord; }
+  bool is_angle() const {
+    return variable_ == LawVariable::kJointAngle || variable_ == LawVariable::kCurvature;
+  }
+  /// Of the visited range.
+  void choose_grammar(double least, double most);
+  /// `spread`: the root mean square.
+  void add_velocity_curves(double spread);
   /// Numbers of the fixed point, if it has one.
   Eigen::Index of_point() const { return has_point() ? numbers_.fixed_point.size() : 0; }
   bool has_lag() const { return relaxing_of(variable_).has_value(); }
@@ -127,6 +141,8 @@ class CandidateLaw {
                              const Eigen::MatrixXd& covariance) const;
   void add_terms(Formula& formula, const std::vector<int>& form,
                  const Eigen::VectorXd& coefficients, const Eigen::VectorXd& deviations) const;
+  /// A curve against a velocity: through which values.
+  std::string pieces_in_words(const std::vector<int>& form) const;
   /// Known constants that the energy names.
   void add_fixed(Formula& formula, const std::vector<int>& form) const;
   std::string shape_name(int term) const;

@@ -43,8 +43,9 @@ constexpr Index kJointsThatStick = 12;
 
 /// Columns of terms whose responses are made at a time: what is in memory at once.
 constexpr Index kColumnsAtOnce = 400;
-/// Formulas that are fitted with their force following the state: of the chosen pair, and of all others.
-constexpr std::size_t kFittedOfChosen = 6, kFittedOfOthers = 8;
+/// Formulas that are fitted with their force following the state: of the chosen pair, and of all others; and curves of
+/// any pair, which take no formula's place.
+constexpr std::size_t kFittedOfChosen = 6, kFittedOfOthers = 8, kFittedCurves = 3;
 
 /// What forces look like that follow no law: of the same spectrum as those of a path, with random
 /// phases. At every node, turns x random forces.
@@ -130,15 +131,14 @@ class LawSearch {
     ForceLaw law;
     law.candidates = static_cast<int>(candidates_.size());
     const LawTrials first = trials(FrameHalf::kFirst), second = trials(FrameHalf::kSecond);
-    std::vector<ChosenLaw> chosen = choose_law(candidates_, first);
+    std::vector<ChosenLaw> chosen = choose_law(candidates_, first, LawForms::kFormulas);
     if (split_ == Split::kFrames) choose_what_sticks(first, second, chosen);
+    const std::vector<double> confirmed = confirm(first, second, chosen);
     if (chosen[0].form.empty()) return law;
     take_names(candidates_[chosen[0].candidate], law);
-    law.confirmed = explained_by_law(second, 0, chosen[0], left_by_force(FrameHalf::kSecond));
-    Index as_well = 0;
-    for (Index t = 1; t <= kRandomSeries; ++t)
-      as_well += explained_by_law(second, t, chosen[static_cast<std::size_t>(t)],
-                                  static_cast<double>(second.seen)) >= law.confirmed;
+    law.confirmed = confirmed[0];
+    const auto as_well = std::count_if(confirmed.begin() + 1, confirmed.end(),
+                                       [&](double of) { return of >= law.confirmed; });
     law.chance = (1.0 + static_cast<double>(as_well)) / (1.0 + kRandomSeries);
     law.chance *= searches_;
     law.by_points = split_ == Split::kPoints;
@@ -153,6 +153,27 @@ class LawSearch {
     law.force = candidate.force_name();
     law.variable = candidate.variable_name();
     law.site = candidate.site();
+  }
+
+  /// What the chosen laws explain of the second part. Where a formula does not explain enough of it a curve is chosen, if
+  /// that does better: for the recorded force and for the random ones.
+  std::vector<double> confirm(const LawTrials& first, const LawTrials& second,
+                              std::vector<ChosenLaw>& chosen) const {
+    const std::vector<ChosenLaw> curves = choose_law(candidates_, first, LawForms::kCurves);
+    std::vector<double> confirmed;
+    for (std::size_t t = 0; t < chosen.size(); ++t) {
+      const double least =
+          t == 0 ? left_by_force(FrameHalf::kSecond) : static_cast<double>(second.seen);
+      const auto column = static_cast<Index>(t);
+      double& explained =
+          confirmed.emplace_back(explained_by_law(second, column, chosen[t], least));
+      if (explained >= kLawThresholds.confirmed || curves[t].form.empty()) continue;
+      const double by_curve = explained_by_law(second, column, curves[t], least);
+      if (!chosen[t].form.empty() && by_curve <= explained) continue;
+      explained = by_curve;
+      chosen[t] = curves[t];
+    }
+    return confirmed;
   }
 
   /// Whether a push was certainly after the first frame and before the last one. At the first one it is a start that
@@ -288,14 +309,15 @@ class LawSearch {
           first.candidates[c].gram + second.candidates[c].gram,
           first.candidates[c].cross.leftCols(1) + second.candidates[c].cross.leftCols(1)};
       for (const std::vector<int>& form : candidates_[c].forms()) {
-        const std::optional<LinearFit> fit = fit_of(both, form, 1);
-        if (fit && candidates_[c].admits(fit->coefficients.col(0)))
-          all.push_back({c, form, count * candidates_[c].constants(form) - fit->explained[0]});
+        const auto fit = fit_of_column(candidates_[c], both, form, 0, count);
+        if (fit)
+          all.push_back(
+              {c, fit->form, count * candidates_[c].constants(fit->form) - fit->explained});
       }
     }
     std::sort(all.begin(), all.end(),
               [](const Close& a, const Close& b) { return a.criterion < b.criterion; });
-    std::size_t of_chosen = 0, others = 0;
+    std::size_t of_chosen = 0, others = 0, curves = 0;
     for (const Close& close : all) {
       const CandidateLaw& law = candidates_[close.candidate];
       // The fit finds the numbers: one beginning is enough.
@@ -303,8 +325,10 @@ class LawSearch {
             return law.differs_by_numbers(close.form, candidates_[better.candidate], better.form);
           }))
         continue;
-      if (close.candidate == chosen ? of_chosen++ < kFittedOfChosen : others++ < kFittedOfOthers)
-        some.push_back(close);
+      const bool fitted = law.is_curve(close.form)    ? curves++ < kFittedCurves
+                          : close.candidate == chosen ? of_chosen++ < kFittedOfChosen
+                                                      : others++ < kFittedOfOthers;
+      if (fitted) some.push_back(close);
     }
     return some;
   }
@@ -458,6 +482,20 @@ class LawSearch {
     return best;
   }
 
+  /// The same, where pieces of a curve that would make energy are left out, one by one.
+  FittedForm fit_without_drive(const FittedForm& begin) const {
+    FittedForm fitted = fit(begin.law, begin.form, begin.coefficients);
+    while (fitted.law.has_pieces(fitted.form) && fitted.form.size() > 1 &&
+           std::isfinite(fitted.squares)) {
+      Index most = 0;
+      if (!(fitted.coefficients.maxCoeff(&most) > 0)) break;
+      std::vector<int> form = fitted.form;
+      form.erase(form.begin() + most);
+      fitted = fit(fitted.law, form);
+    }
+    return fitted;
+  }
+
   /// Formulas that were fitted to the same linear equations.
   struct ComparedForms {
     std::vector<FittedForm> fits;
@@ -474,7 +512,7 @@ class LawSearch {
     ComparedForms all;
     double least = HUGE_VAL, lowest = HUGE_VAL;
     for (const FittedForm& begin : begins) {
-      FittedForm fitted = fit(begin.law, begin.form, begin.coefficients);
+      FittedForm fitted = fit_without_drive(begin);
       if (!std::isfinite(fitted.squares) || !fitted.law.admits(fitted.coefficients)) continue;
       if (fitted.squares < least) {
         least = fitted.squares;
@@ -486,7 +524,8 @@ class LawSearch {
     for (const FittedForm& fitted : all.fits) lowest = std::min(lowest, all.criterion(fitted));
     const auto rank = [&](const FittedForm& fitted) {
       const bool decided_against = all.criterion(fitted) > lowest + kLawThresholds.undecided;
-      return std::tuple(decided_against, fitted.constants(), all.criterion(fitted));
+      return std::tuple(decided_against, fitted.law.is_curve(fitted.form), fitted.constants(),
+                        all.criterion(fitted));
     };
     for (std::size_t i = 1; i < all.fits.size(); ++i)
       if (rank(all.fits[i]) < rank(all.fits[all.best])) all.best = i;

@@ -42,9 +42,9 @@ Eigen::SparseMatrix<double> products_in_forms(const Eigen::Ref<const MatrixXd>& 
 }
 
 std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
-                                const std::vector<int>& form, Index columns) {
+                                const std::vector<int>& form, Index first, Index columns) {
   const MatrixXd gram = gram_of(candidate, form);
-  const MatrixXd cross = candidate.cross(form, Eigen::seqN(0, columns));
+  const MatrixXd cross = candidate.cross(form, Eigen::seqN(first, columns));
   const VectorXd scale = gram.diagonal().cwiseSqrt();
   if (!(scale.minCoeff() > 0)) return std::nullopt;
   const MatrixXd correlation =
@@ -61,21 +61,65 @@ std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
   return fit;
 }
 
+std::optional<FittedColumn> fit_of_column(const CandidateLaw& law,
+                                          const LawTrials::OfCandidate& candidate,
+                                          std::vector<int> form, Index column, double cost) {
+  const bool pieces = law.has_pieces(form);
+  if (pieces) {
+    constexpr double kVisited = 1e-8;  // where the motion hardly goes nothing is known
+    const double least = kVisited * gram_of(candidate, form).diagonal().maxCoeff();
+    std::erase_if(form, [&](int term) { return !(candidate.gram.coeff(term, term) > least); });
+  }
+  while (!form.empty()) {
+    const std::optional<LinearFit> fit = fit_of(candidate, form, column, 1);
+    if (!fit) return std::nullopt;
+    FittedColumn fitted{form, fit->coefficients.col(0), fit->explained[0]};
+    // What each one explains that the others do not; less than nothing where it makes energy.
+    VectorXd alone = VectorXd::Constant(1, HUGE_VAL);
+    if (pieces) {
+      const MatrixXd covariance = inverse(gram_of(candidate, form));
+      alone = fitted.coefficients.cwiseAbs2().cwiseQuotient(covariance.diagonal());
+      alone = (fitted.coefficients.array() < 0).select(alone, -alone);
+    }
+    Index least = 0;
+    if (alone.minCoeff(&least) >= cost) {
+      if (!law.admits(fitted.coefficients)) return std::nullopt;
+      return fitted;
+    }
+    form.erase(form.begin() + least);
+  }
+  return std::nullopt;
+}
+
 std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
-                                  const LawTrials& trials) {
+                                  const LawTrials& trials, LawForms of) {
   const Index columns = trials.squares.size();
   std::vector<ChosenLaw> best(static_cast<std::size_t>(columns));
   const double count = std::log(static_cast<double>(trials.rows));
   for (std::size_t c = 0; c < candidates.size(); ++c)
     for (const std::vector<int>& form : candidates[c].forms()) {
-      const std::optional<LinearFit> fit = fit_of(trials.candidates[c], form, columns);
-      if (!fit) continue;
-      const double penalty = count * candidates[c].constants(form);
+      const CandidateLaw& law = candidates[c];
+      if (law.is_curve(form) != (of == LawForms::kCurves)) continue;
+      const bool pieces = law.has_pieces(form);
+      const std::optional<LinearFit> fit = fit_of(trials.candidates[c], form, 0, columns);
+      if (!fit && !pieces) continue;
+      const auto score = [&](double explained, Index t, const std::vector<int>& used) {
+        return (explained - count * law.constants(used)) / trials.squares[t];
+      };
       for (Index t = 0; t < columns; ++t) {
-        const double score = (fit->explained[t] - penalty) / trials.squares[t];
         ChosenLaw& chosen = best[static_cast<std::size_t>(t)];
-        if (score > chosen.score && candidates[c].admits(fit->coefficients.col(t)))
-          chosen = {c, form, score, VectorXd(fit->coefficients.col(t))};
+        if (!pieces) {
+          const double here = score(fit->explained[t], t, form);
+          if (here > chosen.score && law.admits(fit->coefficients.col(t)))
+            chosen = {c, form, here, VectorXd(fit->coefficients.col(t))};
+          continue;
+        }
+        // All of the pieces explain most.
+        if (fit && score(fit->explained[t], t, {form.front()}) <= chosen.score) continue;
+        const auto fitted = fit_of_column(law, trials.candidates[c], form, t, count);
+        if (!fitted) continue;
+        const double here = score(fitted->explained, t, fitted->form);
+        if (here > chosen.score) chosen = {c, fitted->form, here, fitted->coefficients};
       }
     }
   return best;

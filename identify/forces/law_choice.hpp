@@ -30,13 +30,25 @@ struct LawTrials {
 Eigen::SparseMatrix<double> products_in_forms(const Eigen::Ref<const Eigen::MatrixXd>& terms,
                                               const std::vector<std::vector<int>>& forms);
 
-/// A formula fitted to columns of trials: its coefficients, and how much it takes off the squares.
+/// A formula fitted to some columns of trials: its coefficients, and how much it takes off the squares.
 struct LinearFit {
   Eigen::MatrixXd coefficients;  // terms x columns
   Eigen::VectorXd explained;
 };
 std::optional<LinearFit> fit_of(const LawTrials::OfCandidate& candidate,
-                                const std::vector<int>& form, Eigen::Index columns);
+                                const std::vector<int>& form, Eigen::Index first,
+                                Eigen::Index columns);
+
+/// A law fitted to one column: its form, without the pieces of a curve that make energy or are of no use.
+struct FittedColumn {
+  std::vector<int> form;
+  Eigen::VectorXd coefficients;
+  double explained = 0;
+};
+/// Nothing where it is no law. `cost`: what each constant has to take off the squares.
+std::optional<FittedColumn> fit_of_column(const CandidateLaw& law,
+                                          const LawTrials::OfCandidate& candidate,
+                                          std::vector<int> form, Eigen::Index column, double cost);
 
 /// The candidate and its form that explain most of a column, and what they say.
 struct ChosenLaw {
@@ -48,9 +60,10 @@ struct ChosenLaw {
   std::optional<double> explained_in_second = std::nullopt;
 };
 
-/// The best candidate for each column of the trials.
+/// The best candidate for each column of the trials, of formulas or of curves.
+enum class LawForms { kFormulas, kCurves };
 std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
-                                  const LawTrials& trials);
+                                  const LawTrials& trials, LawForms of);
 
 /// Of what can be explained of a column, down to the squares `least`: the share that a law does.
 double explained_by_law(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law,

@@ -93,8 +93,10 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
   if (where.gate) fixed.push_back({"width", "m", kStepWidth});
   if (where.gate && !point) fixed.push_back({kLawPlace, "m", site.arc_length});
   if (to_end) fixed.push_back({kLawOtherPlace, "m", length});
-  if (load && (formula.energy + formula.along).find("offset") != std::string::npos)
-    fixed.push_back({"offset", "m", 0});
+  std::string expressions = formula.energy;
+  for (const auto& [name, value] : formula.definitions) expressions += value;
+  for (const std::string& along : formula.along) expressions += along;
+  if (load && expressions.find("offset") != std::string::npos) fixed.push_back({"offset", "m", 0});
   for (const CandidateLaw::Constant& constant : fixed)
     text += fmt::format("\n[constants.{}]\nvalue = {}\nunit = \"{}\"\n", constant.name,
                         shortest_number(constant.value), constant.unit);
@@ -114,19 +116,23 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}\"\n", table, where.at,
                         where.per_length ? "per = \"length\"\n" : "", gate, value);
   };
-  if (!formula.along.empty()) {
-    if (formula.kind == Kind::kRelaxing)
-      text += fmt::format(
-          "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
-          "rate = \"{3} - {0}_stretch/lag\"\n",
-          id, formula.variable_unit, where.at, formula.along);
-    const std::string value = formula.kind == Kind::kTime
-                                  ? formula.energy
-                                  : fmt::format("(-{}spring*{}_stretch)", where.factor, id);
-    text += fmt::format("\n[[force]]\nat = \"{}\"\nalong = \"{}\"\nvalue = \"{}{}\"\n", where.at,
-                        formula.along, gate, value);
-    return text;
+  std::string force = formula.energy;
+  if (formula.kind == Kind::kRelaxing) {
+    text += fmt::format(
+        "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
+        "rate = \"{3} - {0}_stretch/lag\"\n",
+        id, formula.variable_unit, where.at, formula.along.front());
+    force = fmt::format("(-{}spring*{}_stretch)", where.factor, id);
+  } else if (!formula.definitions.empty()) {
+    for (const auto& [name, value] : formula.definitions) define(name.c_str(), value);
+    define("resistance", fmt::format("{}({})", where.factor, formula.energy));
+    force = "(-resistance)";
   }
+  for (const std::string& along : formula.along)
+    text += fmt::format("\n[[force]]\nat = \"{}\"\n{}along = \"{}\"\nvalue = \"{}{}{}\"\n",
+                        where.at, where.per_length ? "per = \"length\"\n" : "", along, gate, force,
+                        formula.along.size() > 1 ? fmt::format("*({})/motion", along) : "");
+  if (!formula.along.empty()) return text;
   if (formula.kind == Kind::kTorque) {
     declare("torque",
             fmt::format("(-sqrt({}^2 + tension_floor^2)*({}))", kSteadyTension, formula.energy));

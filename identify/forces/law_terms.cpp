@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "identify/forces/law_terms.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numbers>
 
 namespace catena {
 
@@ -10,6 +13,8 @@ namespace {
 
 /// Of a sine an edge is 2 % of the largest value.
 constexpr double kSignWidth = 0.05, kEdgeWidth = 0.03;
+/// Of a corner of a piece, over the largest velocity: cosh of its inverse is a number, and of seven times that.
+constexpr double kPieceWidth = 0.01;
 
 /// max(y, 0), smooth: the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
 double positive_part(double y, double width) {
@@ -19,21 +24,67 @@ double positive_part(double y, double width) {
 
 #define CATENA_STOP(Y) "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/8"
 
+/// log(cosh(y)), also where cosh(y) is too large a number.
+double log_cosh(double y) {
+  const double size = std::abs(y);
+  return size + std::log1p(std::exp(-2 * size)) - std::numbers::ln2;
+}
+
+/// u up to the knot, which it keeps beyond, with a smooth corner: odd, or of positive u alone. As CATENA_UP_TO and
+/// CATENA_ONE_WAY_UP_TO. Concave in the knot, so that no piece makes energy.
+double up_to(double knot, double u, double width, bool one_way) {
+  if (!(knot > 0)) return 0;
+  const double before = log_cosh((u - knot) / width);
+  if (!one_way) return 0.5 * width * (log_cosh((u + knot) / width) - before);
+  return 0.5 * (u * std::tanh(u / width) + knot - width * (before + std::numbers::ln2));
+}
+
+#define CATENA_UP_TO \
+  "edge_width*(log(cosh(({z} + {n})/edge_width)) - log(cosh(({z} - {n})/edge_width)))/2"
+#define CATENA_ONE_WAY_UP_TO \
+  "({z}*tanh({z}/edge_width) + {n} - edge_width*(log(cosh(({z} - {n})/edge_width)) + {x}))/2"
+
+/// What a curve is written with: the velocity up to a knot.
+std::string part_name(TermKind kind, int knot) {
+  const char* const way = kind == TermKind::kPiece          ? ""
+                          : kind == TermKind::kForwardPiece ? "forward_"
+                                                            : "backward_";
+  return std::string(way) + "up_to_" + letter_of(knot);
+}
+
+/// Slopes of a piece before its knot and behind it.
+struct PieceSlopes {
+  double up, down;
+  explicit PieceSlopes(const LawTerm& term)
+      : up(1 / (term.shape - term.below)), down(1 / (term.above - term.shape)) {}
+};
+
+double piece(const LawTerm& term, double u) {
+  const bool one_way = term.kind != TermKind::kPiece;
+  const PieceSlopes slopes(term);
+  const auto part = [&](double knot) { return up_to(knot, u, term.width, one_way); };
+  double value = (slopes.up + slopes.down) * part(term.shape) - slopes.up * part(term.below);
+  if (slopes.down > 0) value -= slopes.down * part(term.above);
+  return value;
+}
+
+void add_form(LawGrammar& grammar, const std::vector<LawTerm>& form) {
+  std::vector<int>& places = grammar.forms.emplace_back();
+  for (const LawTerm& term : form) {
+    int place = 0;
+    while (place < static_cast<int>(grammar.terms.size()) &&
+           (grammar.terms[static_cast<std::size_t>(place)].kind != term.kind ||
+            grammar.terms[static_cast<std::size_t>(place)].shape != term.shape ||
+            grammar.terms[static_cast<std::size_t>(place)].moment != term.moment))
+      ++place;
+    if (place == static_cast<int>(grammar.terms.size())) grammar.terms.push_back(term);
+    places.push_back(place);
+  }
+}
+
 LawGrammar grammar(const std::vector<std::vector<LawTerm>>& forms) {
   LawGrammar grammar;
-  for (const std::vector<LawTerm>& form : forms) {
-    std::vector<int>& places = grammar.forms.emplace_back();
-    for (const LawTerm& term : form) {
-      int place = 0;
-      while (place < static_cast<int>(grammar.terms.size()) &&
-             (grammar.terms[static_cast<std::size_t>(place)].kind != term.kind ||
-              grammar.terms[static_cast<std::size_t>(place)].shape != term.shape ||
-              grammar.terms[static_cast<std::size_t>(place)].moment != term.moment))
-        ++place;
-      if (place == static_cast<int>(grammar.terms.size())) grammar.terms.push_back(term);
-      places.push_back(place);
-    }
-  }
+  for (const std::vector<LawTerm>& form : forms) add_form(grammar, form);
   return grammar;
 }
 
@@ -43,15 +94,21 @@ void add_shapes(Forms& forms, TermKind kind, std::initializer_list<double> shape
   for (const double shape : shapes) forms.push_back({{kind, shape}});
 }
 
-/// A curve of straight pieces: for what no formula fits.
-void add_curve(Forms& forms) {
-  std::vector<LawTerm> curve = {{TermKind::kConstant}, {TermKind::kLinear}};
-  for (const double knot : {-0.6, -0.2, 0.2, 0.6}) curve.push_back({TermKind::kBend, knot});
-  forms.push_back(std::move(curve));
-}
-
 const LawTerm kOne{TermKind::kConstant}, kX{TermKind::kLinear}, kX2{TermKind::kQuadratic},
     kX3{TermKind::kCubic};
+
+/// With a curve of straight pieces: for what no formula fits.
+LawGrammar with_curve(const Forms& forms) {
+  LawGrammar all = grammar(forms);
+  std::vector<LawTerm> curve = {kOne, kX};
+  int next = 0;
+  for (const double knot : {-0.6, -0.2, 0.2, 0.6}) {
+    LawTerm& bend = curve.emplace_back(LawTerm{TermKind::kBend, knot});
+    bend.knot = next++;
+  }
+  add_form(all, curve);
+  return all;
+}
 
 }  // namespace
 
@@ -94,6 +151,11 @@ double value_of(const LawTerm& term, double u) {
       return std::abs(u) * u;
     case TermKind::kFalling:
       return u / (1 + u * u / (term.shape * term.shape));
+    case TermKind::kPiece:
+    case TermKind::kForwardPiece:
+      return piece(term, u);
+    case TermKind::kBackwardPiece:
+      return -piece(term, -u);
     case TermKind::kPulse:
       return std::exp(-0.5 * std::pow((u - term.moment) / term.shape, 2));
     case TermKind::kOnset:
@@ -114,6 +176,39 @@ double relative_width(TermKind kind) {
     default:
       return 0;
   }
+}
+
+bool is_piece(TermKind kind) {
+  return kind == TermKind::kPiece || kind == TermKind::kForwardPiece ||
+         kind == TermKind::kBackwardPiece;
+}
+
+std::string letter_of(int knot) { return std::string(1, static_cast<char>('a' + knot)); }
+
+Definitions piece_parts(const LawTerm& term) {
+  constexpr const char* kLogTwo = "0.6931471805599453";
+  const bool odd = term.kind == TermKind::kPiece, backward = term.kind == TermKind::kBackwardPiece;
+  Definitions parts;
+  for (int knot = std::max(0, term.knot - 1); knot <= term.knot + std::isfinite(term.above); ++knot)
+    parts.emplace_back(part_name(term.kind, knot),
+                       filled(odd ? CATENA_UP_TO : CATENA_ONE_WAY_UP_TO, kLogTwo,
+                              backward ? "(-motion)" : "motion", "", "knot_" + letter_of(knot)));
+  return parts;
+}
+
+std::string piece_text(const LawTerm& term) {
+  const auto knot = [](int of) { return "knot_" + letter_of(of); };
+  const auto part = [&](int of) { return part_name(term.kind, of); };
+  const std::string here = knot(term.knot);
+  std::string sum = term.knot == 0 ? fmt::format("{}/{}", part(0), here)
+                                   : fmt::format("({} - {})/({} - {})", part(term.knot),
+                                                 part(term.knot - 1), here, knot(term.knot - 1));
+  if (std::isfinite(term.above)) {
+    const int next = term.knot + 1;
+    sum += fmt::format(" + ({} - {})/({} - {})", part(term.knot), part(next), knot(next), here);
+  }
+  return fmt::format("{}{}*({})", term.kind == TermKind::kBackwardPiece ? "-" : "",
+                     text_of(term.kind).amplitude, sum);
 }
 
 const LawTermText& text_of(TermKind kind) {
@@ -159,6 +254,10 @@ const LawTermText& text_of(TermKind kind) {
       {TermKind::kFalling,
        {"linear", "saturation", 1, "linear x {x}/(1 + ({x}/saturation)^2)",
         "linear*saturation^2*log(1 + ({q})/saturation^2)/2"}},
+      // What these do has no energy that is written: piece_text.
+      {TermKind::kPiece, {"resistance_{n}", nullptr, 0, "resistance_{n}", ""}},
+      {TermKind::kForwardPiece, {"forward_{n}", nullptr, 0, "forward_{n}", ""}},
+      {TermKind::kBackwardPiece, {"backward_{n}", nullptr, 0, "-backward_{n}", ""}},
       // What these do is no energy of the variable: law_effect.cpp.
       {TermKind::kInertia, {"point_mass", nullptr, 1, "point_mass x ({x})", ""}},
       {TermKind::kPulse,
@@ -174,6 +273,8 @@ const LawTermText& text_of(TermKind kind) {
   return kTexts[0].text;
 }
 
+#undef CATENA_UP_TO
+#undef CATENA_ONE_WAY_UP_TO
 #undef CATENA_STOP
 
 std::string filled(const std::string& text, const std::string& x, const std::string& z,
@@ -198,8 +299,7 @@ const LawGrammar& position_grammar() {
     add_shapes(forms, TermKind::kLowerStop, {0.5, 0.25, 0, -0.25, -0.5});
     add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
     add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
-    add_curve(forms);
-    return grammar(forms);
+    return with_curve(forms);
   }();
   return kGrammar;
 }
@@ -223,8 +323,7 @@ const LawGrammar& angle_grammar() {
     add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
     add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
     add_shapes(forms, TermKind::kLowerStop, {0.25, 0, -0.25, -0.5});
-    add_curve(forms);
-    return grammar(forms);
+    return with_curve(forms);
   }();
   return kGrammar;
 }
@@ -269,6 +368,26 @@ const LawGrammar& inertia_grammar() {
 const LawGrammar& relaxing_grammar() {
   static const LawGrammar kGrammar = grammar({{{TermKind::kRelaxing}}});
   return kGrammar;
+}
+
+void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign) {
+  const auto pieces = [&](TermKind kind) {
+    std::vector<LawTerm> curve;
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+      LawTerm& term = curve.emplace_back(LawTerm{kind, knots[k]});
+      term.knot = static_cast<int>(k);
+      term.width = kPieceWidth;
+      if (k > 0) term.below = knots[k - 1];
+      if (k + 1 < knots.size()) term.above = knots[k + 1];
+    }
+    return curve;
+  };
+  add_form(grammar, pieces(TermKind::kPiece));
+  if (!has_sign) return;
+  std::vector<LawTerm> both = pieces(TermKind::kForwardPiece);
+  const std::vector<LawTerm> backward = pieces(TermKind::kBackwardPiece);
+  both.insert(both.end(), backward.begin(), backward.end());
+  add_form(grammar, both);
 }
 
 LawGrammar time_grammar(double begin, double end) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace catena {
@@ -29,6 +31,9 @@ enum class TermKind {
   kCube,
   kSaturating,  ///< viscous far below the shape, constant far above
   kFalling,     ///< viscous far below the shape, falling above: an eddy brake, Stribeck's friction
+  kPiece,  ///< of a curve of straight pieces from 0: 1 at the shape, a knot, 0 at the knots beside it; odd
+  kForwardPiece,   ///< the same of positive velocities alone
+  kBackwardPiece,  ///< of negative ones
   // against an acceleration, against a stretch that relaxes
   kInertia,
   kRelaxing,
@@ -45,7 +50,13 @@ struct LawTerm {
   double shape = 0;   ///< in units of the half width, s of the time; 0: it has none
   double moment = 0;  ///< s, of terms that have one
   double width = 0;   ///< of a step or an edge, in units of the half width
+  /// Of a piece: the knots beside it, where it is 0. Without one above it stays 1.
+  double below = 0, above = HUGE_VAL;
+  int knot = 0;  ///< of a piece or a bend: which knot it is
 };
+
+/// Whether it is a piece of a curve against a velocity. Any of them may be missing in a curve.
+bool is_piece(TermKind kind);
 
 /// At u half widths from the middle.
 double value_of(const LawTerm& term, double u);
@@ -54,6 +65,15 @@ double value_of(const LawTerm& term, double u);
 /// deviation; 0 for terms that are smooth. A step is not linear in a state. The largest value may be that of one snap
 /// of the cable. Effects have them, sharper, as constants `step` and `edge_width`.
 double relative_width(TermKind kind);
+
+/// Names of expressions in the language of effects, and what they stand for.
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+/// A piece in the language of effects, with names of its amplitude and of its knots, knot_a, knot_b; the velocity is
+/// `motion`. `piece_parts`: what it needs.
+std::string piece_text(const LawTerm& term);
+Definitions piece_parts(const LawTerm& term);
+/// Names that end with a number are those of one joint or link.
+std::string letter_of(int knot);
 
 /// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the
 /// power of the variable's unit, words and energy, in which {x} is the variable in words, {z} in the language
@@ -86,6 +106,9 @@ const LawGrammar& friction_grammar();  ///< of these friction alone
 const LawGrammar& dashpot_grammar();   ///< for the rate of a distance
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
+/// Adds a curve against a velocity: pieces from 0 between these knots, the same both ways or, where the variable has a sign,
+/// different ones. No piece makes energy where it is against the velocity.
+void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign);
 /// Between these times, s.
 LawGrammar time_grammar(double begin, double end);
 

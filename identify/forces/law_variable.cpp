@@ -183,6 +183,16 @@ std::optional<LawVariable> timed_of(LawVariable variable) {
   }
 }
 
+std::vector<std::string> components_of(const LawSite& site, LawVariable variable, bool in_space) {
+  if (variable != LawVariable::kSpeed) return {names_of(site, variable, in_space).symbols};
+  std::vector<std::string> components;
+  for (const LawVariable of :
+       {LawVariable::kSideVelocity, LawVariable::kDownVelocity, LawVariable::kAcrossVelocity})
+    if (in_space || of != LawVariable::kAcrossVelocity)
+      components.push_back(names_of(site, of, in_space).symbols);
+  return components;
+}
+
 LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
   const NamesOfVariable& row = row_of(variable);
   const bool moment = site.kind == SiteKind::kJoint || site.kind == SiteKind::kJoints;
@@ -229,10 +239,7 @@ LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
     names.squared = squares(apart);
     names.symbols = fmt::format("sqrt({})", names.squared);
   } else if (variable == LawVariable::kSpeed) {
-    std::vector<std::string> components = {velocity(LawVariable::kSideVelocity),
-                                           velocity(LawVariable::kDownVelocity)};
-    if (in_space) components.push_back(velocity(LawVariable::kAcrossVelocity));
-    names.squared = squares(components);
+    names.squared = squares(components_of(site, variable, in_space));
   } else if (in_space && variable == LawVariable::kNormalVelocity) {
     // The turn of the link is at a right angle to it.
     names.squared = "velocity_normal^2";

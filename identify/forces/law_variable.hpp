@@ -78,6 +78,9 @@ std::optional<LawVariable> relaxing_of(LawVariable variable);
 /// Whether the force is over the tension there: friction that the tension presses.
 bool over_tension(LawVariable variable);
 
+/// A velocity of a site in the language of effects; of the speed its components.
+std::vector<std::string> components_of(const LawSite& site, LawVariable variable, bool in_space);
+
 /// The position or angle along which a force acts that depends on the time; nothing for others.
 std::optional<LawVariable> timed_of(LawVariable variable);
 

@@ -16,6 +16,7 @@
 
 #include "description/effect.hpp"
 #include "identify/forces/candidate_law.hpp"
+#include "identify/forces/law_choice.hpp"
 #include "runtime/model.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -145,7 +146,7 @@ VectorXd force_of(const MadeLaw& made, const VectorXd& at, const LawChain& chain
   using Kind = CandidateLaw::Formula::Kind;
   const Kind kind = made.found.formula.kind;
   VectorXd beside = accelerations_of(links);
-  if (kind != Kind::kMass) beside.setConstant(kind == Kind::kTime ? kTime : kStretch);
+  if (kind != Kind::kMass) beside.setConstant(kind == Kind::kForce ? kTime : kStretch);
   state << at, beside;
   const CandidateLaw law = links == 2 ? made.law : made.law.on(chain);
   VectorXd torques = law.force(state, made.form) * made.coefficients;
@@ -277,4 +278,51 @@ TEST_CASE("a law against a velocity that drives it is refused, term by term") {
   CHECK_FALSE(drag.admits(Eigen::Vector2d(-0.3, 0)));  // a term that the other one imitates
   CHECK(CandidateLaw(place, LawVariable::kSidePosition, chain, visited, {})
             .admits(Eigen::Vector2d(0.3, 0.1)));
+}
+
+TEST_CASE(
+    "no piece of a curve against a velocity makes energy, and beside its knots there is none") {
+  LawGrammar grammar;
+  add_velocity_curve(grammar, {0.15, 0.3, 1}, true);
+  REQUIRE(grammar.forms.size() == 2);
+  for (const LawTerm& term : grammar.terms) {
+    CAPTURE(static_cast<int>(term.kind));
+    CAPTURE(term.shape);
+    double least_power = 0;
+    for (double u = -1.5; u < 1.5; u += 1e-3)
+      least_power = std::min(least_power, value_of(term, u) * u);
+    CHECK(least_power > -1e-12);
+    const double sign = term.kind == TermKind::kBackwardPiece ? -1 : 1;
+    CHECK(sign * value_of(term, sign * term.shape) == doctest::Approx(1).epsilon(0.05));
+    if (term.below > 0) CHECK(std::abs(value_of(term, sign * term.below)) < 0.05);
+    if (std::isfinite(term.above)) CHECK(std::abs(value_of(term, sign * term.above)) < 0.05);
+    if (term.kind != TermKind::kPiece) CHECK(std::abs(value_of(term, -sign * 0.15)) < 1e-6);
+  }
+}
+
+TEST_CASE("a curve is without the pieces that would make energy, and without those of no use") {
+  const LawChain chain = chain_of(2, false);
+  LawMotion motion{MatrixXd(4, 9), {}};
+  for (Index k = 0; k < 9; ++k) {
+    const double rate = -2 + 0.5 * static_cast<double>(k);
+    motion.state.col(k) = state_of(2, 0.1, 0.05, rate, 0.7 * rate);
+    motion.time.push_back(static_cast<double>(k));
+  }
+  const CandidateLaw law({SiteKind::kJoint, 0.5 * kLength, 1}, LawVariable::kJointRate, chain,
+                         {motion}, {});
+  const auto odd = std::find_if(law.forms().begin(), law.forms().end(),
+                                [&](const auto& form) { return law.has_pieces(form); });
+  REQUIRE(odd != law.forms().end());
+  REQUIRE(odd->size() > 2);
+  // As if every term did something of its own.
+  const MatrixXd gram = 100 * MatrixXd::Identity(law.terms(), law.terms());
+  LawTrials::OfCandidate of{gram.sparseView(), MatrixXd::Zero(law.terms(), 1)};
+  of.cross(odd->at(0), 0) = 50;   // it would drive the rate
+  of.cross(odd->at(1), 0) = -50;  // explains 25
+  of.cross(odd->at(2), 0) = -5;   // explains 0.25
+  const auto fitted = fit_of_column(law, of, *odd, 0, 3);
+  REQUIRE(fitted.has_value());
+  CHECK(fitted->form == std::vector<int>{odd->at(1)});
+  CHECK(fitted->coefficients[0] == doctest::Approx(-0.5));
+  CHECK(fitted->explained == doctest::Approx(25));
 }

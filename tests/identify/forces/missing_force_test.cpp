@@ -407,6 +407,91 @@ TEST_CASE("a spring beside an end stop: no formula fits, the law is a curve") {
                    "no formula fits: it is a curve of straight pieces between knots") == 1);
 }
 
+namespace {
+
+/// What a curve does against a velocity or rate, N or N m.
+double curve_at(const CandidateLaw::Formula& formula, double x) {
+  std::map<std::string, double> of;
+  for (const CandidateLaw::Constant& constant : formula.constants)
+    of[constant.name] = constant.value;
+  for (const CandidateLaw::Constant& constant : formula.fixed) of[constant.name] = constant.value;
+  const auto value = [&](const std::string& name) { return of.contains(name) ? of.at(name) : 0.0; };
+  const double size = std::abs(x);
+  double last_knot = 0, last = 0;
+  for (char n = 'a'; of.contains(std::string("knot_") + n); ++n) {
+    const double knot = of.at(std::string("knot_") + n);
+    const double here = value(std::string("resistance_") + n) +
+                        value(std::string(x > 0 ? "forward_" : "backward_") + n);
+    if (size <= knot)
+      return std::copysign(last + (here - last) * (size - last_knot) / (knot - last_knot), x);
+    last_knot = knot, last = here;
+  }
+  return std::copysign(last, x);
+}
+
+/// Root mean square of the curve less the true one where the motion goes, over that of the true one.
+template <class True>
+double curve_error(const CandidateLaw::Formula& formula, const std::vector<double>& visited,
+                   const True& true_law) {
+  double error = 0, whole = 0;
+  for (const double x : visited) {
+    error += std::pow(curve_at(formula, x) - true_law(x), 2);
+    whole += std::pow(true_law(x), 2);
+  }
+  return std::sqrt(error / whole);
+}
+
+testing::Film curve_film() {
+  testing::Film film = short_film();
+  film.camera.duration = 5;
+  film.camera.markers = 12;
+  return film;
+}
+
+/// The law of a film, which is a curve against this variable, and what was visited.
+struct FoundCurve {
+  CandidateLaw::Formula formula;
+  std::vector<truth::OutsideForces> truth;
+};
+FoundCurve curve_found(const testing::Film& film, const truth::Hidden& hidden,
+                       const std::string& variable) {
+  const testing::Filmed filmed = testing::film(film, hidden);
+  const MissingForce found = force_in(filmed);
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == variable);
+  REQUIRE(found.law->formula.curve);
+  CAPTURE(found.law->formula.text);
+  return {found.law->formula,
+          truth::outside_forces(film.cable(), hidden, film.start(), filmed.recording.time)};
+}
+
+}  // namespace
+
+TEST_CASE("a damper with play in a joint: a curve against the rate, which leaves the play out") {
+  truth::Hidden hidden;
+  hidden.loose = 0.1;  // N m s/rad
+  hidden.loose_rate = 0.7;
+  testing::Film film = curve_film();
+  const FoundCurve found = curve_found(film, hidden, "joint rate");
+  std::vector<double> rates;
+  for (const truth::OutsideForces& at : found.truth) rates.push_back(at.joint_rate);
+  CHECK(curve_error(found.formula, rates, [](double w) {
+          return 0.1 * (std::max(0.0, w - 0.7) - std::max(0.0, -w - 0.7));
+        }) < 0.1);
+}
+
+TEST_CASE("a valve at a place resists one way: a curve that is not odd") {
+  truth::Hidden hidden;
+  hidden.valve = 0.1;  // N s/m
+  const FoundCurve found = curve_found(curve_film(), hidden, "side velocity");
+  std::vector<double> velocities;
+  for (const truth::OutsideForces& at : found.truth) velocities.push_back(at.middle.velocity.side);
+  CHECK(curve_error(found.formula, velocities, [](double v) { return 0.1 * std::max(0.0, v); }) <
+        0.1);
+  CHECK(curve_at(found.formula, -2) == 0);
+}
+
 TEST_CASE("a force that follows the velocity and drives it is no law") {
   testing::Film film = short_film();
   film.camera.duration = 4;
