@@ -534,7 +534,8 @@ class LawSearch {
 
   /// The best formula, and those that the data do not tell from it. The motion found follows the noise, which costs a
   /// formula with an edge more than one with many constants. So laws with a potential are compared again about the
-  /// motion of the best. There a friction would gain by a second term that mends its smooth sign.
+  /// motion of the best, and curves with formulas. There a friction would gain by a second term that mends its smooth
+  /// sign.
   void read_formula(const std::vector<Close>& close, ForceLaw& law) {
     std::vector<FittedForm> begins;
     begins.reserve(close.size());
@@ -548,8 +549,9 @@ class LawSearch {
     if (!law.found) return;
     FittedForm found = all->fits[all->best];
     follow(found);
+    const bool formula = !found.law.is_curve(found.form);
     const std::optional<ComparedForms> again =
-        found.law.against() ? std::nullopt : compared(all->fits);
+        found.law.against() && formula ? std::nullopt : compared(all->fits);
     if (again) {
       const bool other = again->best != all->best || again->fits.size() != all->fits.size();
       all = again;
