@@ -149,11 +149,11 @@ int SensitivitySolver::solve(SUNNonlinearSolver solver, N_Vector predicted, N_Ve
   const double* zero = numbers(self.zero_);
   for (int batch = 0; batch < self.batches_; ++batch) {
     const Given sq(s, n), sv(s + n, n);
-    const Given past_q(past, n), past_v(past + n, n), past_z(past + 2 * n, states);
+    const Given past_q(past, n), past_v(past + n, n), past_z(past_v.data() + n, states);
     dq = sq + (gamma * sv - rl1 * past_q);
     da = rl1 * past_v / gamma;
     const catena_point along{
-        0.0, dq.data(), sv.data(), da.data(), s + 2 * n, zero, self.parameters(batch)};
+        0.0, dq.data(), sv.data(), da.data(), sv.data() + n, zero, self.parameters(batch)};
     self.tangents_.residual(at, along, change.data());
     change *= -gamma;
     if (states > 0) {

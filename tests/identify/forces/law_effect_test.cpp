@@ -289,8 +289,8 @@ TEST_CASE(
     CAPTURE(static_cast<int>(term.kind));
     CAPTURE(term.shape);
     double least_power = 0;
-    for (double u = -1.5; u < 1.5; u += 1e-3)
-      least_power = std::min(least_power, value_of(term, u) * u);
+    for (int k = -1500; k <= 1500; ++k)
+      least_power = std::min(least_power, value_of(term, 1e-3 * k) * 1e-3 * k);
     CHECK(least_power > -1e-12);
     const double sign = term.kind == TermKind::kBackwardPiece ? -1 : 1;
     CHECK(sign * value_of(term, sign * term.shape) == doctest::Approx(1).epsilon(0.05));
