@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "linear_algebra/decompositions.hpp"
-
 namespace catena {
 namespace {
 
@@ -14,10 +12,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStillFar = 0.5;       // the error fell by more than this share of itself
-constexpr double kWidth = 0.3;          // of the mean distance: kinks smoothed for a curvature
-constexpr std::size_t kKinks = 70;      // of each unknown, at least, if they are smoothed alone
-constexpr double kNoCurvature = 1e-14;  // of the largest, unknowns scaled alike: rounding
+constexpr double kStillFar = 0.5;   // the error fell by more than this share of itself
+constexpr double kWidth = 0.3;      // of the mean distance: kinks smoothed for a curvature
+constexpr std::size_t kKinks = 70;  // of each unknown, at least, if they are smoothed alone
 
 }  // namespace
 
@@ -79,11 +76,12 @@ void DistanceCost::step_to(const VectorXd& y) {
   const double width = smooth > 0 ? smooth : kWidth * simulated_.error();
   const LinearisedDistances straight(all.value, all.jacobian, points_, flat);
   using Curvature = LinearisedDistances::Curvature;
-  gradient_ = straight.gradient(here, 0);
-  curvature_ = straight.curvature(here, width, far ? Curvature::kReweighted : Curvature::kOwn);
-  MatrixXd bend = bend_since(y, curvature_);
-  bend.diagonal() += gradient_.cwiseAbs().cwiseQuotient(box_.reach);
-  curvature_ += bend;
+  model_.gradient = straight.gradient(here, 0);
+  model_.curvature =
+      straight.curvature(here, width, far ? Curvature::kReweighted : Curvature::kOwn);
+  MatrixXd bend = bend_since(y, model_.curvature);
+  bend.diagonal() += model_.gradient.cwiseAbs().cwiseQuotient(box_.reach);
+  model_.curvature += bend;
   y_ = y;
   jacobian_ = all.jacobian;
   gain_ = std::numeric_limits<double>::infinity();
@@ -93,25 +91,18 @@ void DistanceCost::step_to(const VectorXd& y) {
   double gain = 0;
   const double now = straight.value(here, 0);
   if (smooth > 0) {
-    step = bounded_step(gradient_, curvature_, lower, upper);
-    gain = -gradient_.dot(step) - step.dot(curvature_ * step) / 2;
+    step = bounded_step(model_.gradient, model_.curvature, lower, upper);
+    gain = model_.gain(step);
   } else {
     const LinearisedDistances distances(all.value, jacobian_, points_, bend);
     step = distances.minimum(width, lower, upper);
     gain = now - distances.value(step, 0);
   }
   gain_ = gain / now;
-  if (gain_ <= tolerance_) {
-    gradient_.setZero();  // there already
-    return;
-  }
-  if (smooth > 0) return;
-  const double slope = -gradient_.dot(step), scale = 2 * gain / slope;
-  const VectorXd bent = curvature_ * step;
-  curvature_ +=
-      gradient_ * gradient_.transpose() / slope - bent * bent.transpose() / step.dot(bent);
-  curvature_ *= scale;
-  gradient_ *= scale;
+  if (gain_ <= tolerance_)
+    model_.gradient.setZero();  // there already
+  else if (smooth == 0)
+    model_.put_minimum(step, gain);
 }
 
 bool DistanceCost::Evaluate(double const* const*, double* residuals, double** jacobians) const {
@@ -120,24 +111,15 @@ bool DistanceCost::Evaluate(double const* const*, double* residuals, double** ja
   double squares = 0;
   for (const WeightedDistance& point : points_)
     squares += 2 * point.weight * (values.segment(point.first, point.count).norm() + offset_);
-  const Index unknowns = gradient_.size();
+  const Index unknowns = model_.gradient.size();
   Eigen::Map<VectorXd> r(residuals, unknowns + 1);
   r.setZero();
   if (jacobians && jacobians[0]) {
-    // With A = S V L V' S (S a scale) and R = sqrt(L) V' S: R'R = A, and R'r = g by r = R'^-1 g.
-    const VectorXd scale = curvature_.diagonal().cwiseSqrt().unaryExpr(
-        [](double size) { return size > 0 ? size : 1.0; });
-    const VectorXd inverse = scale.cwiseInverse();
-    const EigenPairs scaled =
-        symmetric_eigenpairs(inverse.asDiagonal() * curvature_ * inverse.asDiagonal());
-    const double least = kNoCurvature * scaled.values.maxCoeff();
-    const VectorXd root = scaled.values.unaryExpr(
-        [&](double value) { return value > least ? std::sqrt(value) : 0.0; });
-    const VectorXd turned = scaled.vectors.transpose() * inverse.asDiagonal() * gradient_;
-    for (Index j = 0; j < unknowns; ++j) r[j] = root[j] > 0 ? turned[j] / root[j] : 0;
+    const LinearRows of_model = model_.rows();
+    r.head(unknowns) = of_model.value;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> rows(
         jacobians[0], unknowns + 1, unknowns);
-    rows.topRows(unknowns) = root.asDiagonal() * scaled.vectors.transpose() * scale.asDiagonal();
+    rows.topRows(unknowns) = of_model.jacobian;
     rows.row(unknowns).setZero();
   }
   r[unknowns] = std::sqrt(std::max(0.0, squares - r.squaredNorm()));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identify/least_squares/linearised_distances.hpp"
+#include "identify/least_squares/quadratic_model.hpp"
 #include "identify/least_squares/simulated_residuals.hpp"
 
 namespace catena {
@@ -17,11 +18,7 @@ namespace catena {
 /// model has the sum's gradient g and, H, its curvature smoothed over as many points as make it
 /// smooth. Where they are few, the minimum of the sum of distances of the linearised residuals is
 /// found, kinks and all (see LinearisedDistances), and Ceres is given the quadratic model whose
-/// minimum is there and as deep: with s the step there and G what is gained by it,
-///
-///     gradient  c g,   curvature  c (H - H s s'H / s'Hs - g g' / g's),   c = -2 G / g's.
-///
-/// Where less is gained than the tolerance, the gradient is 0: Ceres is done. Far from the minimum,
+/// minimum is there and as deep (QuadraticModel). Where less is gained than the tolerance, the gradient is 0: Ceres is done. Far from the minimum,
 /// where the error still falls by much, H is that of plain reweighting, which does not overshoot.
 ///
 /// All this leaves out that r itself is curved. Where the last step s changed J, v = (change of J)'
@@ -66,10 +63,9 @@ class DistanceCost : public ceres::CostFunction {
   std::vector<WeightedDistance> points_;
   double offset_, tolerance_, gain_ = 0;
   Box box_;
-  Eigen::VectorXd y_;          // of the last point
-  Eigen::MatrixXd jacobian_;   // of the residuals, there
-  Eigen::VectorXd gradient_;   // J'r
-  Eigen::MatrixXd curvature_;  // J'J
+  Eigen::VectorXd y_;         // of the last point
+  Eigen::MatrixXd jacobian_;  // of the residuals, there
+  QuadraticModel model_;      // there
 };
 
 }  // namespace catena

@@ -14,6 +14,7 @@
 #include "identify/fit/loss.hpp"
 #include "identify/least_squares/condensed_rows.hpp"
 #include "identify/least_squares/distance_cost.hpp"
+#include "identify/least_squares/relative_steps.hpp"
 #include "identify/least_squares/simulated_residuals.hpp"
 
 namespace catena {
@@ -29,7 +30,9 @@ constexpr double kOffset = 20;
 /// All squares of a problem as one block: the cost by the case's loss, and one row more than unknowns,
 /// with which every step has the cost that the residuals and constraints have, linearised and each
 /// with the weight that its loss gives it here. Of Triggs' correction, losses that flatten need no
-/// more than this weight.
+/// more than this weight. Where the best step goes beyond bounds, the rows are those of a model whose minimum is the best
+/// step within them (QuadraticModel): Ceres would take the step beyond and move what is beyond back to its bound, with all
+/// other unknowns where they are right for a value that it cannot have.
 class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
  public:
   /// `noise`: of each residual. `simulated` must be ok.
@@ -40,9 +43,9 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
     mutable_parameter_block_sizes()->push_back(unknowns);
   }
 
-  /// To be called where Ceres is about to ask for derivatives. Returns the share of the cost that the
-  /// best step of Gauss and Newton promises.
-  double linearise() {
+  /// To be called where Ceres is about to ask for derivatives. `within`: the steps it may take. Returns the share of the
+  /// cost that the best step of Gauss and Newton promises.
+  double linearise(const RelativeSteps::Box& within) {
     const Residuals& residuals = simulated_.residuals();
     const SoftConstraints& constraints = simulated_.constraints();
     VectorXd weights = noise_.cwiseInverse();
@@ -50,7 +53,20 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
       for (Index i = 0; i < noise_.size(); ++i)
         weights[i] *= std::sqrt(loss_of(error_, std::pow(residuals.value[i] / noise_[i], 2)).slope);
     rows_ = condensed(residuals, weights, constraints);
-    return promised() / cost();
+    QuadraticModel model{rows_.jacobian.transpose() * rows_.value,
+                         rows_.jacobian.transpose() * rows_.jacobian};
+    VectorXd step = best_step(model);
+    const bool beyond =
+        (step.array() < within.lower.array()).any() || (step.array() > within.upper.array()).any();
+    if (beyond) step = bounded_step(model.gradient, model.curvature, within.lower, within.upper);
+    const double gain = model.gain(step);
+    if (beyond && gain > 0) {
+      model.put_minimum(step, gain);
+      const LinearRows bounded = model.rows();
+      rows_.value << bounded.value, 0;
+      rows_.jacobian << bounded.jacobian, Eigen::RowVectorXd::Zero(step.size());
+    }
+    return 2 * gain / cost();
   }
 
   /// Rows only; the cost is the loss's.
@@ -80,13 +96,13 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
     return sum;
   }
 
-  double promised() const {
-    const MatrixXd curvature = rows_.jacobian.transpose() * rows_.jacobian;
-    const VectorXd scale = curvature.diagonal().unaryExpr(
+  /// Without bounds.
+  static VectorXd best_step(const QuadraticModel& model) {
+    const VectorXd scale = model.curvature.diagonal().unaryExpr(
         [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
-    const VectorXd scaled = scale.cwiseProduct(rows_.jacobian.transpose() * rows_.value);
-    const MatrixXd alike = scale.asDiagonal() * curvature * scale.asDiagonal();
-    return scaled.dot(alike.completeOrthogonalDecomposition().solve(scaled));
+    const MatrixXd alike = scale.asDiagonal() * model.curvature * scale.asDiagonal();
+    return -scale.cwiseProduct(
+        alike.completeOrthogonalDecomposition().solve(scale.cwiseProduct(model.gradient)));
   }
 
   const SimulatedResiduals& simulated_;
@@ -177,6 +193,14 @@ DistanceCost::Box box_of(const Problem& problem) {
   return box;
 }
 
+/// Of every unknown, whether it is fitted by its logarithm.
+std::vector<bool> logarithms(const Problem& problem) {
+  std::vector<bool> logarithms;
+  for (const Unknown& unknown : problem.unknowns())
+    logarithms.push_back(unknown.scale == Scale::kLogarithmic);
+  return logarithms;
+}
+
 bool of_squares(const Problem& problem) {
   const Measure measure = problem.the_case().error.measure;
   return measure == Measure::kLeastSquares || measure == Measure::kLikelihood;
@@ -192,10 +216,12 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   // All that Ceres is given stays ours: it would not give back what it could not take.
   std::optional<SquaresCost> sum;
   std::optional<DistanceCost> distances;
+  RelativeSteps steps(logarithms(problem));
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &simulated;
   problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem solver(problem_options);
   solver.AddParameterBlock(y.data(), unknowns);
   const Residuals& first = simulated.residuals();
@@ -216,8 +242,9 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
   if (squares) {
     sum.emplace(simulated, noise_of(problem, first), error);
     solver.AddResidualBlock(&*sum, &*sum, y.data());
+    solver.SetManifold(y.data(), &steps);
     simulated.tell([&] {
-      arrive(sum->linearise());
+      arrive(sum->linearise(steps.box(y, box.lower, box.upper)));
       return true;
     });
   } else {

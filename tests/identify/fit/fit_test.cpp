@@ -283,6 +283,26 @@ TEST_CASE("bounds hold") {
   }
 }
 
+TEST_CASE("few steps lead to a bound, and to where the other unknowns are right for it") {
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005);
+  const auto evaluations = [&](std::size_t parameter, double lower, double start) {
+    Case the_case = problem.the_case();
+    the_case.initial.free = true;
+    the_case.experiments[0].initial = the_case.initial;
+    the_case.parameters[parameter].lower = lower;
+    the_case.parameters[parameter].value = start;
+    the_case.parameters[parameter].upper = 5 * start;
+    const Problem bounded(the_case, problem.model(), {problem.experiments()[0].recording});
+    const FitResult result = fit(bounded, {}, fit_least_squares);
+    const auto j = static_cast<Eigen::Index>(parameter);
+    CHECK(result.x[j] == doctest::Approx(lower).epsilon(1e-6));
+    return result.evaluations;
+  };
+  // 8 where the linearised problem has no bounds; 12, and 10, with steps of logarithms
+  CHECK(evaluations(0, 0.2, 0.8) <= 7);
+  CHECK(evaluations(1, 0.02, 0.2) <= 6);
+}
+
 TEST_CASE("a robust loss is not led astray by outliers") {
   Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, 1e-3, 3);
   Recording recording = problem.experiments()[0].recording;
