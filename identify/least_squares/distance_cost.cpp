@@ -37,7 +37,7 @@ double DistanceCost::all_offsets() const {
   return sum;
 }
 
-MatrixXd DistanceCost::bend_since(const VectorXd& y) const {
+MatrixXd DistanceCost::bend_since(const VectorXd& y, const MatrixXd& curvature) const {
   const Index unknowns = y.size();
   const MatrixXd& jacobian = simulated_.residuals().jacobian;
   const MatrixXd none = MatrixXd::Zero(unknowns, unknowns);
@@ -45,8 +45,12 @@ MatrixXd DistanceCost::bend_since(const VectorXd& y) const {
   const MatrixXd since = jacobian - jacobian_;
   VectorXd change = LinearisedDistances(simulated_.residuals().value, since, points_, none)
                         .gradient(VectorXd::Zero(unknowns), 0);
-  forget_unknowns_at_rest(change, jacobian, jacobian_);
-  return model_.bend(y - y_, change);
+  // An unknown that came to rest at a bound, or left it, changed its column, not the motion.
+  for (Index j = 0; j < unknowns; ++j)
+    if (jacobian.col(j).isZero(0) || jacobian_.col(j).isZero(0)) change[j] = 0;
+  const VectorXd step = y - y_, all = curvature * step + change;
+  const double bent = change.dot(step), found = all.dot(step);
+  return bent > 0 ? MatrixXd(bent / (found * found) * all * all.transpose()) : none;
 }
 
 /// Over which the kinks of so many points are smoothed that their curvature is that of all. Or 0
@@ -64,7 +68,7 @@ double DistanceCost::smooth_width() const {
 }
 
 void DistanceCost::step_to(const VectorXd& y) {
-  const bool far = simulated_.fell_far();
+  const bool far = simulated_.error() < (1 - kStillFar) * simulated_.error_before();
   const Residuals& all = simulated_.residuals();
   const VectorXd here = VectorXd::Zero(y.size()), lower = box_.lower - y, upper = box_.upper - y;
   const MatrixXd flat = MatrixXd::Zero(y.size(), y.size());
@@ -75,7 +79,7 @@ void DistanceCost::step_to(const VectorXd& y) {
   model_.gradient = straight.gradient(here, 0);
   model_.curvature =
       straight.curvature(here, width, far ? Curvature::kReweighted : Curvature::kOwn);
-  MatrixXd bend = bend_since(y);
+  MatrixXd bend = bend_since(y, model_.curvature);
   bend.diagonal() += model_.gradient.cwiseAbs().cwiseQuotient(box_.reach);
   model_.curvature += bend;
   y_ = y;

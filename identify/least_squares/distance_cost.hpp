@@ -21,8 +21,9 @@ namespace catena {
 /// minimum is there and as deep (QuadraticModel). Where less is gained than the tolerance, the gradient is 0: Ceres is done. Far from the minimum,
 /// where the error still falls by much, H is that of plain reweighting, which does not overshoot.
 ///
-/// All this leaves out that r itself is curved. Where the last step changed J, (change of J)' w u tells how
-/// the gradient changed by that (u = r / d), and H is bent so (QuadraticModel).
+/// All this leaves out that r itself is curved. Where the last step s changed J, v = (change of J)'
+/// w u tells how the gradient changed by that (u = r / d). Where v's > 0, H has v's z z' / (z's)^2
+/// added, z = H s + v: the curvature along s is then s'Hs + v's, as it was found.
 ///
 /// Where an unknown y_j hardly shows, its curvature is next to nothing and the step as long as one
 /// likes. So each has |g_j| / reach_j added to it: no step is longer than reach_j on its account,
@@ -56,7 +57,7 @@ class DistanceCost : public ceres::CostFunction {
 
  private:
   double smooth_width() const;
-  Eigen::MatrixXd bend_since(const Eigen::VectorXd& y) const;
+  Eigen::MatrixXd bend_since(const Eigen::VectorXd& y, const Eigen::MatrixXd& curvature) const;
 
   const SimulatedResiduals& simulated_;
   std::vector<WeightedDistance> points_;

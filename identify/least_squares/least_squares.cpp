@@ -30,12 +30,8 @@ constexpr double kOffset = 20;
 /// All squares of a problem as one block: the cost by the case's loss, and one row more than unknowns,
 /// with which every step has the cost that the residuals and constraints have, linearised and each
 /// with the weight that its loss gives it here. Of Triggs' correction, losses that flatten need no
-/// more than this weight.
-///
-/// Two more things make rows those of another quadratic model. Where the last step went too far, for large residuals
-/// are curved, so is the model along it (QuadraticModel::bend): steps of Gauss and Newton would go to and
-/// fro. And where the best step goes beyond bounds, the model has its minimum at the best step within
-/// them: Ceres would take the step beyond and move what is beyond back to its bound, with all
+/// more than this weight. Where the best step goes beyond bounds, the rows are those of a model whose minimum is the best
+/// step within them (QuadraticModel): Ceres would take the step beyond and move what is beyond back to its bound, with all
 /// other unknowns where they are right for a value that it cannot have.
 class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
  public:
@@ -47,10 +43,9 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
     mutable_parameter_block_sizes()->push_back(unknowns);
   }
 
-  /// To be called at a point y where Ceres is about to ask for derivatives. `within`: the steps it may take. Returns the share
-  /// of the cost that the best step of Gauss and Newton promises.
-  double linearise(const VectorXd& y, const RelativeSteps& steps,
-                   const RelativeSteps::Box& within) {
+  /// To be called where Ceres is about to ask for derivatives. `within`: the steps it may take. Returns the share of the
+  /// cost that the best step of Gauss and Newton promises.
+  double linearise(const RelativeSteps::Box& within) {
     const Residuals& residuals = simulated_.residuals();
     const SoftConstraints& constraints = simulated_.constraints();
     VectorXd weights = noise_.cwiseInverse();
@@ -60,20 +55,18 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
     rows_ = condensed(residuals, weights, constraints);
     QuadraticModel model{rows_.jacobian.transpose() * rows_.value,
                          rows_.jacobian.transpose() * rows_.jacobian};
-    const double promised = 2 * model.gain(best_step(model, within)) / cost();
-    const MatrixXd bend = bend_since(y, steps, weights, model);
-    model.curvature += bend;
-    const VectorXd step = best_step(model, within);
+    VectorXd step = best_step(model);
+    const bool beyond =
+        (step.array() < within.lower.array()).any() || (step.array() > within.upper.array()).any();
+    if (beyond) step = bounded_step(model.gradient, model.curvature, within.lower, within.upper);
     const double gain = model.gain(step);
-    const bool at_bounds = (step.array() == within.lower.array()).any() ||
-                           (step.array() == within.upper.array()).any();
-    if (at_bounds && gain > 0) model.put_minimum(step, gain);
-    if (at_bounds || !bend.isZero(0)) {
-      const LinearRows changed = model.rows();
-      rows_.value << changed.value, 0;
-      rows_.jacobian << changed.jacobian, Eigen::RowVectorXd::Zero(step.size());
+    if (beyond && gain > 0) {
+      model.put_minimum(step, gain);
+      const LinearRows bounded = model.rows();
+      rows_.value << bounded.value, 0;
+      rows_.jacobian << bounded.jacobian, Eigen::RowVectorXd::Zero(step.size());
     }
-    return promised;
+    return 2 * gain / cost();
   }
 
   /// Rows only; the cost is the loss's.
@@ -103,46 +96,19 @@ class SquaresCost : public ceres::CostFunction, public ceres::LossFunction {
     return sum;
   }
 
-  /// The curvature that the model lacks along the step from the last point to y, if that went too far. Where windows are
-  /// joined there is none: their steps have to leave valleys in which the whole motion would stay.
-  MatrixXd bend_since(const VectorXd& y, const RelativeSteps& steps, const VectorXd& weights,
-                      const QuadraticModel& model) {
-    const Residuals& residuals = simulated_.residuals();
-    const SoftConstraints& constraints = simulated_.constraints();
-    const bool joined = constraints.value.size() > constraints.priors;
-    MatrixXd bend = MatrixXd::Zero(y.size(), y.size());
-    if (y_.size() && !simulated_.fell_far() && !joined) {
-      const RelativeSteps::Way way = steps.way(y_, y);
-      const VectorXd weighted = weights.cwiseAbs2().cwiseProduct(residuals.value);
-      const VectorXd before = (jacobian_.transpose() * weighted).cwiseProduct(way.growth);
-      VectorXd change = residuals.jacobian.transpose() * weighted - before;
-      forget_unknowns_at_rest(change, residuals.jacobian, jacobian_);
-      const bool too_far = model.gradient.dot(way.step) > 0;
-      if (too_far) bend = model.bend(way.step, change);
-    }
-    y_ = y;
-    jacobian_ = residuals.jacobian;
-    return bend;
-  }
-
-  static VectorXd best_step(const QuadraticModel& model, const RelativeSteps::Box& within) {
+  /// Without bounds.
+  static VectorXd best_step(const QuadraticModel& model) {
     const VectorXd scale = model.curvature.diagonal().unaryExpr(
         [](double size) { return size > 0 ? 1 / std::sqrt(size) : 0.0; });
     const MatrixXd alike = scale.asDiagonal() * model.curvature * scale.asDiagonal();
-    const VectorXd step = -scale.cwiseProduct(
+    return -scale.cwiseProduct(
         alike.completeOrthogonalDecomposition().solve(scale.cwiseProduct(model.gradient)));
-    const bool beyond =
-        (step.array() < within.lower.array()).any() || (step.array() > within.upper.array()).any();
-    return beyond ? bounded_step(model.gradient, model.curvature, within.lower, within.upper)
-                  : step;
   }
 
   const SimulatedResiduals& simulated_;
   VectorXd noise_;
   const ErrorSpec& error_;
   LinearRows rows_;
-  VectorXd y_;         // of the last point
-  MatrixXd jacobian_;  // of the residuals, there
 };
 
 // A first step that promises this share of the cost, of which less than the second share is ever
@@ -278,7 +244,7 @@ FitStatus solve(const Problem& problem, FitJournal& journal, int reserved,
     solver.AddResidualBlock(&*sum, &*sum, y.data());
     solver.SetManifold(y.data(), &steps);
     simulated.tell([&] {
-      arrive(sum->linearise(y, steps, steps.box(y, box.lower, box.upper)));
+      arrive(sum->linearise(steps.box(y, box.lower, box.upper)));
       return true;
     });
   } else {

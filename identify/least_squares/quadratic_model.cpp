@@ -8,7 +8,6 @@
 namespace catena {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -21,18 +20,6 @@ double QuadraticModel::gain(const VectorXd& step) const {
   return -gradient.dot(step) - step.dot(curvature * step) / 2;
 }
 
-MatrixXd QuadraticModel::bend(const VectorXd& step, const VectorXd& change) const {
-  const VectorXd all = curvature * step + change;
-  const double bent = change.dot(step), found = all.dot(step);
-  if (bent <= 0) return MatrixXd::Zero(step.size(), step.size());
-  return bent / (found * found) * all * all.transpose();
-}
-
-void forget_unknowns_at_rest(VectorXd& change, const MatrixXd& here, const MatrixXd& before) {
-  for (Index j = 0; j < change.size(); ++j)
-    if (here.col(j).isZero(0) || before.col(j).isZero(0)) change[j] = 0;
-}
-
 void QuadraticModel::put_minimum(const VectorXd& step, double gain) {
   const double slope = -gradient.dot(step), scale = 2 * gain / slope;
   const VectorXd bent = curvature * step;
@@ -43,14 +30,14 @@ void QuadraticModel::put_minimum(const VectorXd& step, double gain) {
 
 LinearRows QuadraticModel::rows() const {
   // With A = S V L V' S (S a scale) and R = sqrt(L) V' S: R'R = A, and R'r = g by r = R'^-1 g.
-  const VectorXd scale =
-      curvature.diagonal().cwiseSqrt().unaryExpr([](double size) { return size > 0 ? size : 1.0; });
+  const VectorXd scale = curvature.diagonal().cwiseSqrt().unaryExpr(
+      [](double size) { return size > 0 ? size : 1.0; });
   const VectorXd inverse = scale.cwiseInverse();
   const EigenPairs scaled =
       symmetric_eigenpairs(inverse.asDiagonal() * curvature * inverse.asDiagonal());
   const double least = kNoCurvature * scaled.values.maxCoeff();
-  const VectorXd root =
-      scaled.values.unaryExpr([&](double value) { return value > least ? std::sqrt(value) : 0.0; });
+  const VectorXd root = scaled.values.unaryExpr(
+      [&](double value) { return value > least ? std::sqrt(value) : 0.0; });
   LinearRows rows;
   rows.value = scaled.vectors.transpose() * inverse.asDiagonal() * gradient;
   for (Index j = 0; j < root.size(); ++j) rows.value[j] = root[j] > 0 ? rows.value[j] / root[j] : 0;

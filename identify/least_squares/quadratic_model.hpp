@@ -13,14 +13,6 @@ struct QuadraticModel {
   /// -(g's + s'As / 2)
   double gain(const Eigen::VectorXd& step) const;
 
-  /// The curvature that A lacks along a step s that led here: with v what the gradient changed by beyond As,
-  /// and v's > 0,
-  ///
-  ///     v's z z' / (z's)^2,   z = As + v.
-  ///
-  /// With it the curvature along s is s'As + v's, as it was found. Elsewhere none.
-  Eigen::MatrixXd bend(const Eigen::VectorXd& step, const Eigen::VectorXd& change) const;
-
   /// Puts the minimum, wherever it was, to a step along which the cost falls, g's < 0, and makes it so
   /// much deeper than here:
   ///
@@ -31,10 +23,5 @@ struct QuadraticModel {
   /// there is none.
   LinearRows rows() const;
 };
-
-/// An unknown that came to rest at a bound, or left it, changed its column, not the motion: its entries of a `change` of
-/// the gradient become 0. Jacobians of the residuals, here and before.
-void forget_unknowns_at_rest(Eigen::VectorXd& change, const Eigen::MatrixXd& here,
-                             const Eigen::MatrixXd& before);
 
 }  // namespace catena

@@ -38,16 +38,6 @@ RelativeSteps::Box RelativeSteps::box(const VectorXd& y, const VectorXd& lower,
   return box;
 }
 
-RelativeSteps::Way RelativeSteps::way(const VectorXd& from, const VectorXd& y) const {
-  Way way{y - from, VectorXd::Ones(y.size())};
-  for (Index j = 0; j < y.size(); ++j) {
-    if (!logarithms_[static_cast<std::size_t>(j)]) continue;
-    way.growth[j] = std::exp(way.step[j]);
-    way.step[j] = -std::expm1(-way.step[j]);
-  }
-  return way;
-}
-
 bool RelativeSteps::Plus(const double* y, const double* step, double* sum) const {
   for (std::size_t j = 0; j < logarithms_.size(); ++j)
     sum[j] = y[j] + (logarithms_[j] ? logarithm_changes(step[j]) : step[j]);

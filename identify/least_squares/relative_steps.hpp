@@ -23,14 +23,6 @@ class RelativeSteps : public ceres::Manifold {
   Box box(const Eigen::VectorXd& y, const Eigen::VectorXd& lower,
           const Eigen::VectorXd& upper) const;
 
-  /// The way from another point to y.
-  struct Way {
-    Eigen::VectorXd step;  ///< in shares of what is at y
-    Eigen::VectorXd
-        growth;  ///< times a derivative by a step there, the same by one at y; 1 where nothing bends
-  };
-  Way way(const Eigen::VectorXd& from, const Eigen::VectorXd& y) const;
-
   /// The interface of Ceres.
   int AmbientSize() const override { return static_cast<int>(logarithms_.size()); }
   int TangentSize() const override { return AmbientSize(); }

@@ -37,8 +37,6 @@ class SimulatedResiduals : public ceres::EvaluationCallback {
   /// In the case's measure, here and at the point before whose derivatives were asked for.
   double error() const { return misfit_.error; }
   double error_before() const { return error_before_; }
-  /// Whether the error is less than half of that: the step from there was made for other residuals.
-  bool fell_far() const { return misfit_.error < error_before_ / 2; }
   /// Norm of the error's gradient by y over the error.
   double steepness() const { return steepness_; }
 

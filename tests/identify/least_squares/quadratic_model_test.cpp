@@ -40,18 +40,6 @@ TEST_CASE("a quadratic model has the minimum that it is given, as deep as it is 
   }
 }
 
-TEST_CASE("a quadratic model is bent by what its gradient was found to change by") {
-  QuadraticModel model = some_model(5);
-  const VectorXd step = VectorXd::LinSpaced(5, -1, 2);
-  VectorXd change = 0.3 * step;
-  change[1] += 2;
-  REQUIRE(change.dot(step) > 0);
-  const double before = step.dot(model.curvature * step);
-  CHECK(model.bend(step, -change).isZero(0));
-  model.curvature += model.bend(step, change);
-  CHECK(step.dot(model.curvature * step) == doctest::Approx(before + change.dot(step)));
-}
-
 TEST_CASE("rows of a quadratic model are least squares with its gradient and curvature") {
   QuadraticModel model = some_model(3);
   model.curvature.row(2).setZero();

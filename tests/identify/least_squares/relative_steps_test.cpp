@@ -45,22 +45,12 @@ TEST_CASE("steps and what they lead to are each other's inverse, smoothly") {
   }
 }
 
-TEST_CASE("a way ends where it is said to, in shares of what is there") {
-  const RelativeSteps steps({true, false});
-  const Vector2d from(std::log(2.0), 1), y(std::log(8.0), 4);
-  const RelativeSteps::Way way = steps.way(from, y);
-  CHECK(way.step[0] == doctest::Approx(0.75));  // 6 of 8
-  CHECK(way.growth[0] == doctest::Approx(4));
-  CHECK(way.step[1] == doctest::Approx(3));
-  CHECK(way.growth[1] == 1);
-}
-
 TEST_CASE("the steps that are allowed end at bounds, and at a quarter") {
   const RelativeSteps steps({true, true, false});
   const VectorXd y = Eigen::Vector3d(std::log(2.0), std::log(2.0), 1);
   const double none = std::numeric_limits<double>::infinity();
-  const RelativeSteps::Box box =
-      steps.box(y, Eigen::Vector3d(0, -none, -1), Eigen::Vector3d(std::log(6.0), none, 1));
+  const RelativeSteps::Box box = steps.box(y, Eigen::Vector3d(0, -none, -1),
+                                           Eigen::Vector3d(std::log(6.0), none, 1));
   CHECK(box.lower[0] == doctest::Approx(-0.5));
   CHECK(box.upper[0] == doctest::Approx(2));
   CHECK(box.lower[1] == doctest::Approx(-0.75));
