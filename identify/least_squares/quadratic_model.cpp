@@ -30,14 +30,14 @@ void QuadraticModel::put_minimum(const VectorXd& step, double gain) {
 
 LinearRows QuadraticModel::rows() const {
   // With A = S V L V' S (S a scale) and R = sqrt(L) V' S: R'R = A, and R'r = g by r = R'^-1 g.
-  const VectorXd scale = curvature.diagonal().cwiseSqrt().unaryExpr(
-      [](double size) { return size > 0 ? size : 1.0; });
+  const VectorXd scale =
+      curvature.diagonal().cwiseSqrt().unaryExpr([](double size) { return size > 0 ? size : 1.0; });
   const VectorXd inverse = scale.cwiseInverse();
   const EigenPairs scaled =
       symmetric_eigenpairs(inverse.asDiagonal() * curvature * inverse.asDiagonal());
   const double least = kNoCurvature * scaled.values.maxCoeff();
-  const VectorXd root = scaled.values.unaryExpr(
-      [&](double value) { return value > least ? std::sqrt(value) : 0.0; });
+  const VectorXd root =
+      scaled.values.unaryExpr([&](double value) { return value > least ? std::sqrt(value) : 0.0; });
   LinearRows rows;
   rows.value = scaled.vectors.transpose() * inverse.asDiagonal() * gradient;
   for (Index j = 0; j < root.size(); ++j) rows.value[j] = root[j] > 0 ? rows.value[j] / root[j] : 0;

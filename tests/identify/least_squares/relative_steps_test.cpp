@@ -49,8 +49,8 @@ TEST_CASE("the steps that are allowed end at bounds, and at a quarter") {
   const RelativeSteps steps({true, true, false});
   const VectorXd y = Eigen::Vector3d(std::log(2.0), std::log(2.0), 1);
   const double none = std::numeric_limits<double>::infinity();
-  const RelativeSteps::Box box = steps.box(y, Eigen::Vector3d(0, -none, -1),
-                                           Eigen::Vector3d(std::log(6.0), none, 1));
+  const RelativeSteps::Box box =
+      steps.box(y, Eigen::Vector3d(0, -none, -1), Eigen::Vector3d(std::log(6.0), none, 1));
   CHECK(box.lower[0] == doctest::Approx(-0.5));
   CHECK(box.upper[0] == doctest::Approx(2));
   CHECK(box.lower[1] == doctest::Approx(-0.75));
