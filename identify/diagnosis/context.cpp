@@ -143,6 +143,7 @@ void DiagnosisContext::begin_task(const std::string& doing) {
 void DiagnosisContext::end_task() {
   const std::lock_guard lock(progress_mutex_);
   ++progress_.done;
+  tell();
 }
 
 void DiagnosisContext::tell_best(const std::string& words) {
