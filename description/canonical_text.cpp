@@ -125,6 +125,10 @@ class CanonicalText {
       line(word(s.kind), std::string(word(s.at)) + (s.per_length ? " per length" : ""));
       line("value", s.value);
     }
+    for (const EventValue& e : effect.events) {
+      line("event", e.name + " [" + with_single_spaces(e.unit) + "] " + word(e.at));
+      line("value", e.value);
+    }
     line("support.side", effect.support.side);
     line("support.down", effect.support.down);
     line("support.across", effect.support.across);

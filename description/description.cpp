@@ -110,6 +110,7 @@ std::string plane_alone(const Effect& effect) {
                                    &force.tangential, &force.along, &force.value})
       expressions.push_back(part);
   for (const Definition& definition : effect.definitions) expressions.push_back(&definition.value);
+  for (const EventValue& event : effect.events) expressions.push_back(&event.value);
   for (const Expression* part : {&sensor.side, &sensor.down, &sensor.across})
     expressions.push_back(part);
   for (const Expression* expression : expressions)

@@ -36,6 +36,11 @@ enum class Place {
   kAnywhere,    ///< definitions only: from time, parameters, constants and signals alone
 };
 
+/// Whether the chain has such a place for every link or joint, and not one alone.
+inline bool is_of_each_link(Place place) {
+  return place == Place::kJoint || place == Place::kLink || place == Place::kLinkCentre;
+}
+
 struct EffectParameter {
   std::string name;
   std::string unit;
@@ -223,6 +228,14 @@ struct SignalChannel {
   std::string description;
 };
 
+/// A value at a place whose change of sign is an event: a link that touches the floor.
+struct EventValue {
+  std::string name;
+  std::string unit;
+  Place at = Place::kLinkCentre;
+  Expression value;
+};
+
 /// What the sensor reports of a point: side, down, across (m) and angle (rad) as functions of the
 /// true ones; and `clock`, the model time (s) of what was recorded at `time`. What is not given is
 /// reported without change. Across has a meaning in space only, the angle in the plane only.
@@ -259,6 +272,7 @@ struct Effect {
   std::vector<Coordinate> coordinates;
   std::vector<ExtraState> states;
   std::vector<SignalChannel> signals;
+  std::vector<EventValue> events;
   Sensor sensor;
 
   /// Whether the load has coordinates of its own by this effect.

@@ -22,10 +22,11 @@ class Checks {
     bool changes_kinematics = false;
     each_kinematic([&](const Expression&) { changes_kinematics = true; });
     if (effect_.forces.empty() && effect_.scalars.empty() && !effect_.support.given() &&
-        !effect_.held_end.holds() && !changes_kinematics && !effect_.sensor.given()) {
+        !effect_.held_end.holds() && !changes_kinematics && !effect_.sensor.given() &&
+        effect_.events.empty()) {
       fail(
           "the effect does nothing; give it a force, torque, potential, dissipation, kinetic, "
-          "support, held_end, held_joint, kinematics or sensor");
+          "support, held_end, held_joint, kinematics, sensor or event");
     }
     if (effect_.flow.given() && effect_.forces.empty()) {
       fail(
@@ -140,16 +141,20 @@ class Checks {
     const auto on_chord = [](const auto& term) { return term.at == Place::kChord; };
     const auto force = std::find_if(effect_.forces.begin(), effect_.forces.end(), on_chord);
     const auto scalar = std::find_if(effect_.scalars.begin(), effect_.scalars.end(), on_chord);
-    const bool acts = force != effect_.forces.end() || scalar != effect_.scalars.end();
+    const auto event = std::find_if(effect_.events.begin(), effect_.events.end(), on_chord);
+    const bool acts = force != effect_.forces.end() || scalar != effect_.scalars.end() ||
+                      event != effect_.events.end();
     if (acts && !effect_.chord.given())
       fail_at(
-          force != effect_.forces.end() ? force->value : scalar->value,
+          force != effect_.forces.end()     ? force->value
+          : scalar != effect_.scalars.end() ? scalar->value
+                                            : event->value,
           "at = \"chord\" needs a table [chord], which says from where to where, as from = 0.2, "
           "to = 0.8");
     if (!acts && effect_.chord.given())
       fail_at(effect_.chord.from,
-              "nothing acts along this chord; give a potential, a dissipation or a force with at = "
-              "\"chord\"");
+              "nothing acts along this chord; give a potential, a dissipation, a force or an event "
+              "with at = \"chord\"");
   }
 
   void check_all_used() const {
@@ -191,6 +196,7 @@ std::set<std::string> names_in(const Effect& effect) {
   }
   for (const ScalarTerm& term : effect.scalars) use(term.value);
   for (const ExtraState& state : effect.states) use(state.rate);
+  for (const EventValue& event : effect.events) use(event.value);
   for (const Expression* expression :
        {&effect.flow.side, &effect.flow.down, &effect.flow.across, &effect.sensor.side,
         &effect.sensor.down, &effect.sensor.across, &effect.sensor.angle, &effect.sensor.clock}) {

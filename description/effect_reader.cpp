@@ -110,6 +110,7 @@ class EffectReader {
     read_flow();
     read_forces();
     read_scalars();
+    read_events();
     read_whole_chain_terms();
   }
 
@@ -490,6 +491,19 @@ class EffectReader {
     read("potential", ScalarKind::kPotential);
     read("dissipation", ScalarKind::kDissipation);
     read("kinetic", ScalarKind::kKinetic);
+  }
+
+  void read_events() {
+    for (const TomlTable& table : file_.tables("event")) {
+      EventValue event;
+      event.name = table.text("name");
+      add_name(table, "name", event.name);
+      event.unit = unit(table);
+      event.at = place(table, {Place::kJoint, Place::kPivot, Place::kLink, Place::kLinkCentre,
+                               Place::kLoad, Place::kChord});
+      event.value = required(table, "value");
+      effect_.events.push_back(event);
+    }
   }
 
   void read_whole_chain_terms() {

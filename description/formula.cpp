@@ -377,6 +377,10 @@ std::vector<Formula> formulas(const Effect& effect) {
   for (const ExtraState& state : effect.states) {
     all.add(std::string("State") + place_words(state.at), state.name, state.rate, 1);
   }
+  for (const EventValue& event : effect.events) {
+    all.add(std::string("Event, where it changes its sign") + place_words(event.at), event.name,
+            event.value);
+  }
   all.add("Motion of the support to the side", subscripted("r", "s"), effect.support.side);
   all.add("Motion of the support downwards", subscripted("r", "d"), effect.support.down);
   all.add("Motion of the support across", subscripted("r", "a"), effect.support.across);

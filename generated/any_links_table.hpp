@@ -19,7 +19,7 @@ struct ParameterFamily {
   bool description_numbered;  ///< the number of the link ends the description
 };
 
-/// A coordinate, state or signal: one, or name_1 ... name_n.
+/// A coordinate, state, signal or event: one, or name_1 ... name_n.
 struct QuantityFamily {
   catena_quantity quantity;
   bool of_each_link;
@@ -43,6 +43,7 @@ class AnyLinksModel {
     table_.coordinate = listed(Chain::kCoordinates, coordinates_);
     table_.state = listed(Chain::kStates, states_);
     table_.signal = listed(Chain::kSignals, signals_);
+    table_.event = listed(Chain::kEvents, events_);
   }
   AnyLinksModel(const AnyLinksModel&) = delete;
   AnyLinksModel& operator=(const AnyLinksModel&) = delete;
@@ -71,7 +72,7 @@ class AnyLinksModel {
   Chain chain_;
   catena_model table_;
   std::vector<catena_parameter> parameters_;
-  std::vector<catena_quantity> coordinates_, states_, signals_;
+  std::vector<catena_quantity> coordinates_, states_, signals_, events_;
 };
 
 }  // namespace catena

@@ -188,6 +188,11 @@ typedef struct catena_model {
      values and rates enter no equation. apart[3 k]: from where each is held to its link's far end, m;
      rate[3 k]: its time derivative. */
   void (*gap)(const void* context, const catena_point* at, double* apart, double* rate);
+  /* value[events]: each changes its sign at events of its kind, such as a link that touches the floor.
+     at->a is not read. Null if events is 0. */
+  void (*event_values)(const void* context, const catena_point* at, double* value);
+  int32_t events; /* length of the output of event_values */
+  const catena_quantity* event;
 } catena_model;
 
 /* What a shared library holding one model exports. */

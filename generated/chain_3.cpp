@@ -268,6 +268,9 @@ const ::catena_model& table() {
       nullptr,
       c_reactions,
       nullptr,
+      nullptr,
+      0,  // events
+      nullptr,
   };
   return model;
 }

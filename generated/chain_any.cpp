@@ -238,6 +238,9 @@ catena_model table(const Chain& chain) {
       nullptr,
       c_reactions,
       nullptr,
+      nullptr,
+      chain.events(),  // events
+      nullptr,
   };
 }
 

@@ -61,6 +61,7 @@ struct Chain {
   }};
   static constexpr std::array<QuantityFamily, 0> kStates{};
   static constexpr std::array<QuantityFamily, 0> kSignals{};
+  static constexpr std::array<QuantityFamily, 0> kEvents{};
 
   /// The number of links, as one the compiler may count on.
   int links() const {
@@ -75,6 +76,9 @@ struct Chain {
     return 0;
   }
   int signals() const {
+    return 0;
+  }
+  int events() const {
     return 0;
   }
   int parameters() const {

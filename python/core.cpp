@@ -16,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
 
 #include "common/input_error.hpp"
 #include "identify/fit/estimates.hpp"
@@ -103,6 +104,7 @@ Simulation run(const Model& model, const Eigen::VectorXd& parameters, const Stat
   const double begin = times.empty() ? 0 : times.front(), end = times.empty() ? 0 : times.back();
   Forecast forecast(large_work, end - begin, 1);
   options.keep_going = [&](double time) { return check() && forecast.goes_on(time - begin); };
+  options.events = true;
   Simulation simulation;
   {
     py::gil_scoped_release unlock;
@@ -347,12 +349,20 @@ Trajectory trajectory_from(const py::tuple& state) {
 
 py::tuple state_of(const Trajectory& t) { return py::make_tuple(t.time, t.q, t.v, t.z, t.energy); }
 
+using PlainEvents = std::vector<std::tuple<double, std::string, bool>>;
+
+PlainEvents events_of(const Simulation& s) {
+  PlainEvents events;
+  for (const Event& event : s.events) events.emplace_back(event.time, event.name, event.rising);
+  return events;
+}
+
 py::tuple state_of(const Simulation& s) {
   const Statistics& n = s.statistics;
   return py::make_tuple(static_cast<int>(s.status), s.message, state_of(s.trajectory),
                         s.energy_imbalance, n.steps, n.residual_evaluations, n.jacobian_evaluations,
                         n.newton_iterations, n.error_test_failures, n.newton_failures,
-                        n.cpu_seconds);
+                        n.cpu_seconds, events_of(s));
 }
 
 Simulation simulation_from(const py::tuple& state) {
@@ -369,6 +379,8 @@ Simulation simulation_from(const py::tuple& state) {
   n.error_test_failures = state[8].cast<long>();
   n.newton_failures = state[9].cast<long>();
   n.cpu_seconds = state[10].cast<double>();
+  for (const auto& [time, name, rising] : state[11].cast<PlainEvents>())
+    s.events.push_back({time, name, rising});
   return s;
 }
 
@@ -469,6 +481,8 @@ void add_simulation_classes(py::module_& module) {
       .def_readonly("statistics", &Simulation::statistics)
       .def_readonly("energy_imbalance", &Simulation::energy_imbalance,
                     "Largest |stored + dissipated - supplied - initial| over the times, J.")
+      .def_property_readonly("events", &events_of,
+                             "Times (s), names, and whether the value rises through zero or falls.")
       .def(py::pickle([](const Simulation& s) { return state_of(s); }, &simulation_from));
   py::class_<SensitiveSimulation, Simulation>(
       module, "SensitiveSimulation", "A simulation with its derivatives along the directions.")

@@ -196,6 +196,13 @@ int Integrator::sensitivity_rates(int, double t, N_Vector y, N_Vector ydot, int,
   return pivot != 0;
 }
 
+int Integrator::event_values(double t, N_Vector y, double* value, void* user) {
+  auto& self = *static_cast<Integrator*>(user);
+  const double *q = elements(y), *v = q + self.n_, *z = v + self.n_;
+  self.dynamics_.model().event_values(self.dynamics_.at(t, q, v, self.dynamics_.zero(), z), value);
+  return 0;
+}
+
 int Integrator::error_weights(N_Vector y, N_Vector weight, void* user) {
   const auto& self = *static_cast<Integrator*>(user);
   const SimulationOptions& options = self.options_;
@@ -261,9 +268,13 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
     const double longest = std::max(std::abs(times.front()), std::abs(times.back()));
     CVodeSetMinStep(cvodes_.get(), 64.0 * std::numeric_limits<double>::epsilon() * longest);
   }
+  if (options_.events && model.events() > 0 && !keeps_check_points_)
+    require(CVodeRootInit(cvodes_.get(), model.events(), &Integrator::event_values),
+            "CVodeRootInit");
   double reached = times[0], half_way = reached;
+  long since_beginning = 0;  // steps, from the last event on
   for (long step = 0; next < times.size(); ++step) {
-    double t = times[0];
+    double t = reached;
     if (step == kStepsToTell / 2) half_way = reached;
     const bool hopeless = step == kStepsToTell && (reached - half_way) * 2 / kStepsToTell *
                                                           kHopeless *
@@ -281,10 +292,12 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
           "damping, make the joints less stiff, or raise max_steps";
       break;
     }
-    const double sight = step == 0 ? std::min(times.back(), t + kFirstSight) : times.back();
+    const double sight =
+        since_beginning == 0 ? std::min(times.back(), t + kFirstSight) : times.back();
     // The length of the first step is computed in vectors of the length of y.
-    if (step == 1 && !directions_.empty() && options_.sensitivities_in_error_test)
-      require(CVodeSetSensErrCon(cvodes_.get(), SUNTRUE), "CVodeSetSensErrCon");
+    if (since_beginning < 2 && !directions_.empty() && options_.sensitivities_in_error_test)
+      require(CVodeSetSensErrCon(cvodes_.get(), since_beginning == 1), "CVodeSetSensErrCon");
+    ++since_beginning;
     const int flag = this->step(step, sight, t);
     if (flag == CV_MEM_FAIL) throw std::bad_alloc();
     if (flag < 0) {
@@ -293,6 +306,10 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
     }
     reached = t;
     for (; next < times.size() && times[next] <= t; ++next) record(times[next], next, result);
+    if (flag == CV_ROOT_RETURN) {
+      begin_anew(t, result);
+      since_beginning = 0;
+    }
     if (options_.keep_going && next < times.size() && !options_.keep_going(t)) {
       result.status = Status::kInterrupted;
       result.message = "interrupted at t = " + number_text(t) + " s";
@@ -307,6 +324,7 @@ void Integrator::run(const std::vector<double>& times, SensitiveSimulation& resu
       resize(model, next, sensitivity);
     }
   }
+  count_steps(result);
   count(result);
   result.statistics.cpu_seconds = cpu_seconds() - begin;
 }
@@ -428,13 +446,40 @@ std::string Integrator::name_of(int element) const {
   return table.state[element - 2 * n_].name;
 }
 
+// From an event on: the steps before it tell nothing of what follows.
+void Integrator::begin_anew(double t, SensitiveSimulation& result) {
+  std::vector<int> changes(static_cast<std::size_t>(dynamics_.model().events()));
+  require(CVodeGetRootInfo(cvodes_.get(), changes.data()), "CVodeGetRootInfo");
+  const catena_quantity* event = dynamics_.table().event;
+  for (const int change : changes) {
+    if (change != 0) result.events.push_back({t, event->name, change > 0});
+    ++event;
+  }
+  count_steps(result);
+  if (!integrated_.empty())
+    require(CVodeGetQuadDky(cvodes_.get(), t, 0, quadrature_.get()), "CVodeGetQuadDky");
+  if (!directions_.empty())
+    require(CVodeGetSensDky1(cvodes_.get(), t, 0, 0, sensitivities_.get()), "CVodeGetSensDky1");
+  require(CVodeReInit(cvodes_.get(), t, y_.get()), "CVodeReInit");
+  if (!integrated_.empty())
+    require(CVodeQuadReInit(cvodes_.get(), quadrature_.get()), "CVodeQuadReInit");
+  N_Vector sensitivities[] = {sensitivities_.get()};
+  if (!directions_.empty())
+    require(CVodeSensReInit(cvodes_.get(), CV_STAGGERED1, sensitivities), "CVodeSensReInit");
+}
+
+// Adds what CVODES has counted since it began last.
+void Integrator::count_steps(SensitiveSimulation& result) const {
+  long steps = 0, failures = 0, of_sensitivities = 0;
+  CVodeGetNumSteps(cvodes_.get(), &steps);
+  CVodeGetNumErrTestFails(cvodes_.get(), &failures);
+  if (sensitivity_solver_) CVodeGetSensNumErrTestFails(cvodes_.get(), &of_sensitivities);
+  result.statistics.steps += steps;
+  result.statistics.error_test_failures += failures + of_sensitivities;
+}
+
 void Integrator::count(SensitiveSimulation& result) const {
   Statistics& statistics = result.statistics;
-  CVodeGetNumSteps(cvodes_.get(), &statistics.steps);
-  CVodeGetNumErrTestFails(cvodes_.get(), &statistics.error_test_failures);
-  long of_sensitivities = 0;
-  if (sensitivity_solver_) CVodeGetSensNumErrTestFails(cvodes_.get(), &of_sensitivities);
-  statistics.error_test_failures += of_sensitivities;
   statistics.residual_evaluations = step_solver_->residual_evaluations();
   statistics.newton_iterations = step_solver_->iterations();
   statistics.newton_failures = step_solver_->failures();

@@ -57,6 +57,7 @@ class Integrator {
   static int powers(double t, N_Vector y, N_Vector power, void* self);
   static int sensitivity_rates(int count, double t, N_Vector y, N_Vector ydot, int which,
                                N_Vector s, N_Vector sdot, void* self, N_Vector, N_Vector);
+  static int event_values(double t, N_Vector y, double* value, void* self);
   static int error_weights(N_Vector y, N_Vector weight, void* self);
 
   /// Checks a call with which CVODES makes vectors. Where memory was short, CVodeFree would free some of
@@ -70,6 +71,8 @@ class Integrator {
   void record(double t, std::size_t column, SensitiveSimulation& result);
   void record_energy(double t, std::size_t column, SensitiveSimulation& result);
   void explain(int flag, double reached, SensitiveSimulation& result);
+  void begin_anew(double t, SensitiveSimulation& result);
+  void count_steps(SensitiveSimulation& result) const;
   void count(SensitiveSimulation& result) const;
   std::string name_of(int element) const;
 

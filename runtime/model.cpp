@@ -46,9 +46,10 @@ std::string fault_of(const catena_model* table) {
     return "its table has " + std::to_string(table->size) + " bytes, this program needs " +
            std::to_string(sizeof(catena_model)) + "; derive and compile it again";
   if (table->links < 1 || table->coordinates < table->links || table->states < 0 ||
-      table->signals < 0 || table->parameters < 0 || table->terms < 0 || table->energies < 0)
-    return "its counts of links, coordinates, states, signals, parameters, terms or energies are "
-           "impossible";
+      table->signals < 0 || table->parameters < 0 || table->terms < 0 || table->energies < 0 ||
+      table->events < 0)
+    return "its counts of links, coordinates, states, signals, parameters, terms, energies or "
+           "events are impossible";
   // A table for fits has no terms, no energies and not what only results need.
   const bool for_fits = table->terms == 0 && table->energies == 0;
   const bool complete =
@@ -61,7 +62,8 @@ std::string fault_of(const catena_model* table) {
       (table->states == 0 || (table->state_rate && table->state_rate_tangent)) &&
       (table->structured == 0 || (table->newton_factor && table->newton_solve)) &&
       (table->observes == 0 ||
-       (table->observe && table->observe_tangent && table->clock && table->clock_tangent));
+       (table->observe && table->observe_tangent && table->clock && table->clock_tangent)) &&
+      (table->events == 0 || (table->event && table->event_values));
   if (!complete) return "functions are missing from its table";
   if (table->batch < 1 || 8 % table->batch != 0)
     return "it evaluates batches of " + std::to_string(table->batch) + " points, not 1, 2, 4 or 8";

@@ -127,6 +127,11 @@ class Model {
   void gap(const catena_point& at, double* apart, double* rate) const {
     table_->gap(table_->context, &at, apart, rate);
   }
+  /// Values that change their sign at events.
+  int events() const { return table_->events; }
+  void event_values(const catena_point& at, double* value) const {
+    table_->event_values(table_->context, &at, value);
+  }
   void velocities_across(const catena_point& at, double* across_rate) const {
     table_->velocities_across(table_->context, &at, across_rate);
   }

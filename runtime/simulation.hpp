@@ -30,6 +30,9 @@ struct SimulationOptions {
   /// state. Steps are then shorter.
   bool sensitivities_in_error_test = false;
   bool energy = true;  ///< compute Trajectory::energy and Simulation::energy_imbalance
+  /// Steps end at the events of the model, which Simulation::events then lists, and begin anew there. Not in
+  /// simulate_with_gradient.
+  bool events = false;
   /// Called after each step with the time reached (s); false stops with kInterrupted.
   std::function<bool(double t)> keep_going;
 };
@@ -45,6 +48,13 @@ struct Statistics {
   double cpu_seconds = 0.0;
 };
 
+/// One of the model's event values has changed its sign.
+struct Event {
+  double time = 0;      ///< s
+  std::string name;     ///< as in the model's table: "sea_floor.touch_down_3"
+  bool rising = false;  ///< from negative to positive
+};
+
 struct Simulation {
   Status status = Status::kNotRun;
   /// Empty on success; else what failed, in which state and when: "the error test fails however
@@ -52,6 +62,7 @@ struct Simulation {
   std::string message;
   Trajectory trajectory;  ///< the output times; those before the failure if there was one
   Statistics statistics;
+  std::vector<Event> events;  ///< by time; those up to the failure if there was one
   /// Largest |stored + dissipated - supplied - initial| over the output times, J. NaN if
   /// options.energy is false.
   double energy_imbalance = 0.0;

@@ -70,6 +70,7 @@ class Measurement {
     energy();
     internal_forces();
     reactions();
+    if (table_.events > 0) events();
     if (table_.observes) sensor();
   }
 
@@ -388,6 +389,19 @@ class Measurement {
       note("gap", difference(apart[k], here_->of(gaps[k])), size + std::abs(apart[k]));
       note("gap", difference(rate[k], here_->of(chain_.rate(gaps[k]))), speed + std::abs(rate[k]));
     }
+  }
+
+  void events() {
+    const catena_point here = point_.at();
+    Values values(as_index(table_.events));
+    table_.event_values(table_.context, &here, values.data());
+    auto emitted = values.begin();
+    for (const Chain::Event& event : chain_.events())
+      for (const ex& expression : event.values) {
+        const numeric exact = here_->of(expression);
+        note("event_values", difference(*emitted++, exact),
+             size_with_slope(std::abs(exact.to_double()), slope(expression)));
+      }
   }
 
   void energy() {

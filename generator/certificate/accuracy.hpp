@@ -19,6 +19,7 @@
 //   internal_forces, reactions         the largest force, moment and curvature; forces with what they
 //                                      are sums of
 //   gap                                as positions and velocities
+//   event_values                       its own size and slope
 //   their tangents                     the same, plus the size of the derivative
 //   power balance                      d(stored)/dt + dissipated - supplied = v.r, over the powers
 // Derivatives are compared with central differences of the 50-digit values, step 1e-18.

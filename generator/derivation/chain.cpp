@@ -77,6 +77,7 @@ Chain::Chain(const Description& description, int links, const std::string& only_
   pull_back();
   add_power_of_ends();
   add_sensors();
+  add_events();
 }
 
 std::string ending(Axis axis) {

@@ -188,6 +188,14 @@ class Chain {
   };
   const Sensor& sensor() const { return sensor_; }
 
+  /// What changes its sign at an event: one value, or one for each link or joint.
+  struct Event {
+    Place at;
+    std::vector<GiNaC::ex> values;
+  };
+  /// In the order of the table: those of one place first.
+  const std::vector<Event>& events() const { return events_; }
+
  private:
   using ex = GiNaC::ex;
   using Link = int;
@@ -226,6 +234,13 @@ class Chain {
   void add_joint_terms(Link k);
   void add_effect_terms(const Effect& effect);
   void add_sensors();
+  void add_events();
+  /// Calls act(i) for every link or joint i of a place; of a place that is one, for 1 or 0.
+  void at_each(Place place, const auto& act) const {
+    const Link first = place == Place::kLoad || place == Place::kChord ? 0 : 1;
+    const Link last = is_of_each_link(place) ? links_ : first;
+    for (Link i = first; i <= last; ++i) act(i);
+  }
   void add_power_of_ends();
   void pull_back();
 
@@ -354,6 +369,7 @@ class Chain {
   std::vector<EnergyItem> energies_;
   EnergyFunctions energy_functions_;
   Sensor sensor_;
+  std::vector<Event> events_;
   int border_ = 0;
   /// The far end of a link that is held.
   struct Held {

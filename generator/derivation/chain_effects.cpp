@@ -136,14 +136,6 @@ ex Chain::kinematic(Expression Kinematics::*quantity, const char* unit, Place pl
 }
 
 void Chain::add_effect_terms(const Effect& effect) {
-  const auto each = [&](Place place, const auto& act) {
-    if (place == Place::kLoad || place == Place::kChord) {
-      act(0);
-    } else {
-      const Link last = place == Place::kPivot ? 1 : links_;
-      for (Link i = 1; i <= last; ++i) act(i);
-    }
-  };
   for (const ExtraState& state : effect.states) {
     const std::string unit = state.unit + "/s";
     if (state.at == Place::kLoad) {
@@ -155,7 +147,7 @@ void Chain::add_effect_terms(const Effect& effect) {
     }
     const std::vector<std::string> components = state_components();
     std::vector<std::vector<ex>> rates(1);  // [joint][component]
-    each(state.at, [&](Link i) {
+    at_each(state.at, [&](Link i) {
       if (in_plane()) {
         rates.push_back({evaluate(effect, state.rate, kMotion, state.at, i, unit.c_str())});
       } else {
@@ -165,7 +157,7 @@ void Chain::add_effect_terms(const Effect& effect) {
     // In the order of the table: all joints of a component.
     for (std::size_t k = 0; k < components.size(); ++k) {
       const std::string name = state.name + components[k];
-      each(state.at, [&](Link i) {
+      at_each(state.at, [&](Link i) {
         states_.push_back(effect_symbols_.at(effect.id + "." + name)[i]);
         state_rates_.push_back(definitions_.named(rates[static_cast<std::size_t>(i)][k],
                                                   effect.id + "_" + name + "_rate", i));
@@ -180,9 +172,9 @@ void Chain::add_effect_terms(const Effect& effect) {
   if (!wanted(effect.id)) return;
 
   for (const ForceTerm& force : effect.forces)
-    each(force.at, [&](Link i) { add_force_term(effect, force, i); });
+    at_each(force.at, [&](Link i) { add_force_term(effect, force, i); });
   for (const ScalarTerm& term : effect.scalars)
-    each(term.at, [&](Link i) { add_scalar_term(effect, term, i); });
+    at_each(term.at, [&](Link i) { add_scalar_term(effect, term, i); });
 }
 
 void Chain::add_force_along(const Effect& effect, const ForceTerm& force, Link i) {
@@ -321,6 +313,21 @@ void Chain::add_sensors() {
     sensor_.reported.push_back(
         definitions_.named(seen[k], "observed_" + sensor_.seen[k], kNoIndex));
   sensor_.clock = definitions_.named(sensor_.clock, "model_time", kNoIndex);
+}
+
+void Chain::add_events() {
+  const auto add = [&](const Effect& effect, const EventValue& event) {
+    std::vector<ex>& values = events_.emplace_back(Event{event.at, {}}).values;
+    at_each(event.at, [&](Link i) {
+      values.push_back(definitions_.named(
+          evaluate(effect, event.value, kMotion, event.at, i, event.unit.c_str()),
+          effect.id + "_" + event.name, index_at(event.at, i)));
+    });
+  };
+  for (const bool of_each_link : {false, true})
+    for (const Effect& effect : description_.effects)
+      for (const EventValue& event : effect.events)
+        if (is_of_each_link(event.at) == of_each_link) add(effect, event);
 }
 
 }  // namespace catena

@@ -196,11 +196,13 @@ std::string any_links_header_text(const Description& description, const ModelFun
       << families_text("QuantityFamily", "kCoordinates", table.coordinates, quantity)
       << families_text("QuantityFamily", "kStates", table.states, quantity)
       << families_text("QuantityFamily", "kSignals", table.signals, quantity)
+      << families_text("QuantityFamily", "kEvents", table.events, quantity)
       << "\n  /// The number of links, as one the compiler may count on.\n"
          "  int links() const {\n    if (number < kFewestLinks) __builtin_unreachable();\n"
          "    return number;\n  }\n"
       << size("coordinates", count(table.coordinates)) << size("states", count(table.states))
-      << size("signals", count(table.signals)) << size("parameters", count(table.parameters))
+      << size("signals", count(table.signals)) << size("events", count(table.events))
+      << size("parameters", count(table.parameters))
       << functions_text(model, NumberOfLinks::kAny)
       << "};\n\n#pragma GCC diagnostic pop\n\n"
          "/// The table of a chain, in double precision. Its id and what it lists are to be filled "
@@ -226,6 +228,8 @@ std::string any_links_source_text(const Description& description, const ModelFun
   table.newton_work = "NewtonMatrix<double>::numbers(links)";
   table.batch = "has_batch ? batch_size() : 1";
   table.arrays.assign(4, "nullptr");
+  table.events = "chain.events()";
+  table.event_array = "nullptr";
   table.function = [](const std::string& member) {
     return member == "accelerations" ? "has_batch ? c_accelerations : c_acceleration"
                                      : "c_" + member;

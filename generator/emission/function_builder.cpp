@@ -65,6 +65,8 @@ ModelFunctions FunctionBuilder::build() {
   if (has_all()) internal_forces();
   if (has_all()) reactions();
   if (chain_.constraints() > 0) gap();
+  s.events = has_all() ? static_cast<int>(table.events.size()) : 0;
+  if (s.events > 0) events();
   if (chain_.sensor().given) sensor();
   if (has_all()) adjoint();
   result_.space = description_.space;

@@ -39,6 +39,7 @@ class FunctionBuilder {
   void internal_forces();
   void reactions();
   void gap();
+  void events();
   void sensor();
 
   // what they share

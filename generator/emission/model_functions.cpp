@@ -50,7 +50,8 @@ std::vector<TableEntry> ModelFunctions::table_entries() const {
           {"positions_across_tangent", in_space},
           {"velocities_across", in_space},
           {"reactions", all},
-          {"gap", summary.constraints > 0}};
+          {"gap", summary.constraints > 0},
+          {"event_values", summary.events > 0}};
 }
 
 ModelFunctions model_functions(const Description& description, int links, Layout layout,

@@ -20,7 +20,7 @@ struct FunctionSummary {
 /// What was derived and found, for people and for the certificate.
 struct ModelSummary {
   std::string name;  ///< "chain_12"
-  int links = 0, coordinates = 0, states = 0, signals = 0, parameters = 0;
+  int links = 0, coordinates = 0, states = 0, signals = 0, parameters = 0, events = 0;
   bool structured = false;       ///< Newton matrix: tridiagonal plus semiseparable
   bool mass_structured = false;  ///< mass matrix: semiseparable
   bool mass_symmetric = false;   ///< proved from its rows and columns

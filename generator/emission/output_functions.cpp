@@ -101,6 +101,23 @@ void FunctionBuilder::gap() {
       {at(), result("apart"), result("rate")}, body(outputs, at_));
 }
 
+void FunctionBuilder::events() {
+  std::vector<Output> outputs;
+  int place = 0;
+  for (const Chain::Event& event : chain_.events()) {
+    const bool of_each_link = is_of_each_link(event.at);
+    int link = 1;
+    for (const ex& value : event.values)
+      outputs.push_back({{"", "value", {}},
+                         of_each_link ? link++ : kNoIndex,
+                         ArrayPlace{place, of_each_link, of_each_link ? -1 : 0},
+                         value});
+    place += static_cast<int>(event.values.size());
+  }
+  add("event_values", "What changes its sign at events, in the order of the table.",
+      {at(), result("value")}, body(outputs, at_));
+}
+
 void FunctionBuilder::sensor() {
   result_.observes = true;
   const Chain::Sensor& sensor = chain_.sensor();

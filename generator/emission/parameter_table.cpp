@@ -105,6 +105,11 @@ TableFamilies table_families(const Description& description) {
     for (const Coordinate& coordinate : effect.coordinates)
       if (coordinate.at == Place::kLoad)
         table.coordinates.push_back({{effect.id + "." + coordinate.name, coordinate.unit}});
+  for (const bool of_each_link : {false, true})
+    for (const Effect& effect : description.effects)
+      for (const EventValue& event : effect.events)
+        if (is_of_each_link(event.at) == of_each_link)
+          table.events.push_back({{effect.id + "." + event.name, event.unit}, of_each_link});
   return table;
 }
 
@@ -126,6 +131,7 @@ ModelTable model_table(const Description& description, int links) {
   add(table.coordinates, families.coordinates);
   add(table.states, families.states);
   add(table.signals, families.signals);
+  add(table.events, families.events);
   return table;
 }
 

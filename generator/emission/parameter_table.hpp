@@ -33,6 +33,7 @@ struct TableFamily {
 struct TableFamilies {
   std::vector<TableFamily<ParameterRow>> parameters;
   std::vector<TableFamily<QuantityRow>> coordinates, states, signals;
+  std::vector<TableFamily<QuantityRow>> events;  ///< those of one place first
 };
 
 /// Of this description.
@@ -41,7 +42,7 @@ TableFamilies table_families(const Description& description);
 /// The same for `links` links, row by row.
 struct ModelTable {
   std::vector<ParameterRow> parameters;
-  std::vector<QuantityRow> coordinates, states, signals;
+  std::vector<QuantityRow> coordinates, states, signals, events;
 };
 
 /// Of this description.

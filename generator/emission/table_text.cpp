@@ -94,6 +94,8 @@ std::string table_arrays(const Description& description, const ModelFunctions& f
   table_rows(out, "catena_parameter", "kParameterTable", table.parameters,
              [&](const ParameterRow& row) { out << parameter_text(row); });
   out << energy_array(functions);
+  if (functions.summary.events > 0)
+    table_rows(out, "catena_quantity", "kEventTable", table.events, quantity);
   return out.str();
 }
 
@@ -128,6 +130,8 @@ std::string table_members(const Description& description, const ModelFunctions& 
   member("kEnergyTable");
   for (const TableEntry& entry : functions.table_entries())
     member(entry.given ? text.function(entry.name) : text.null);
+  member(text.events.empty() ? std::to_string(s.events) : text.events, "events");
+  member(s.events > 0 ? text.event_array : text.null);
   return out.str();
 }
 

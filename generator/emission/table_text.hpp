@@ -21,7 +21,7 @@ std::string parameter_text(const ParameterRow& row);
 std::string term_array(const ModelFunctions& functions);
 std::string energy_array(const ModelFunctions& functions);
 
-/// Arrays of coordinates, states, signals, terms, parameters and energies.
+/// Arrays of coordinates, states, signals, terms, parameters, energies and, where there are some, events.
 std::string table_arrays(const Description& description, const ModelFunctions& functions);
 
 /// What differs between the tables of a model in C++, in C and for any number of links, as
@@ -32,6 +32,8 @@ struct TableText {
   std::string context = "nullptr";
   std::string links = "kLinks", coordinates = "kCoordinates", states = "kStates",
               signals = "kSignals", parameters = "kParameters";
+  std::string events;  ///< their number; empty: the model's own
+  std::string event_array = "kEventTable";
   std::string newton_work = "sizeof(NewtonMatrix<double>) / sizeof(double)";
   std::string batch;
   std::vector<std::string> arrays = {"kCoordinateTable", "kStateTable", "kSignalTable",

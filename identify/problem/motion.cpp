@@ -28,6 +28,7 @@ Motion motion_at(const std::vector<double>& times, const Problem& problem, const
   SimulationOptions options = simulation_options(problem.the_case().simulation);
   // A model for fits has neither energies nor internal forces.
   options.energy = options.energy && model.energies() > 0;
+  options.events = true;
   if (keep_going) options.keep_going = keep_going;
   Motion motion;
   motion.simulation =

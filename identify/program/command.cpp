@@ -23,7 +23,13 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 void on_interruption(int) { g_interrupted = true; }
 
-constexpr std::array<const char*, 4> kMotionFiles = {"positions", "angles", "forces", "energy"};
+constexpr std::array<const char*, 5> kMotionFiles = {"positions", "angles", "forces", "energy",
+                                                     "events"};
+
+/// Of these, how many a model has: the last is that of its events.
+std::size_t motion_files(const Model& model) {
+  return kMotionFiles.size() - (model.events() == 0 ? 1 : 0);
+}
 /// More than any machine has, and a thread costs memory.
 constexpr int kMostThreads = 1024;
 /// The name of a file has at most 255 bytes, of which write_whole_file needs some for a time.
@@ -135,7 +141,8 @@ std::vector<std::string> motion_file_names(const Problem& problem) {
   }
   std::vector<std::string> names;
   for (const auto& [suffix, spec] : of_suffix)
-    for (const char* kind : kMotionFiles) names.push_back(kind + suffix);
+    for (std::size_t i = 0; i < motion_files(problem.model()); ++i)
+      names.push_back(kMotionFiles[i] + suffix);
   return names;
 }
 
@@ -143,8 +150,9 @@ void add_motion_files(const Problem& problem, int experiment, const Motion& moti
                       OutputFiles& files) {
   const std::string suffix = suffix_of(problem, experiment);
   const std::string texts[] = {positions_csv(motion), angles_csv(problem.model(), motion),
-                               forces_csv(motion), energy_csv(problem.model(), motion)};
-  for (std::size_t i = 0; i < kMotionFiles.size(); ++i)
+                               forces_csv(motion), energy_csv(problem.model(), motion),
+                               events_csv(motion)};
+  for (std::size_t i = 0; i < motion_files(problem.model()); ++i)
     files.emplace_back(kMotionFiles[i] + suffix, texts[i]);
 }
 

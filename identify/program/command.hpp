@@ -64,7 +64,7 @@ using OutputFiles = std::vector<std::pair<std::string, std::string>>;
 /// Puts them there, whole or not at all. Throws InputError where it cannot be written.
 void write_output(OutputFolder& output, const OutputFiles& files);
 
-/// positions.csv, angles.csv, forces.csv and energy.csv of the motions; where there are several
+/// positions.csv, angles.csv, forces.csv and energy.csv of the motions, and events.csv where the model has some; where there are several
 /// experiments, positions_run_1.csv and so on, by the name of the experiment.
 std::vector<std::string> motion_file_names(const Problem& problem);
 /// The texts of these files for one experiment.

@@ -152,7 +152,7 @@ void add_simulate_command(CLI::App& program, int& exit_status) {
   command->footer(
       "Example:\n  catena simulate cable.toml --output swing\n"
       "writes swing/result.json, positions.csv, angles.csv, forces.csv and energy.csv;\n"
-      "with data in the case also residuals.csv.");
+      "with data in the case also residuals.csv, with events of the model events.csv.");
   add_common_options(*command, options, "_simulation");
   command->callback([&exit_status] { exit_status = simulate_case(options); });
 }

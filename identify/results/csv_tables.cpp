@@ -139,6 +139,19 @@ std::string energy_csv(const Model& model, const Motion& motion) {
   return csv.take();
 }
 
+std::string events_csv(const Motion& motion) {
+  Csv csv;
+  for (const char* name : {"time_s", "event", "change"}) csv.name(name);
+  csv.end_line();
+  for (const Event& event : motion.simulation.events) {
+    csv.number(event.time);
+    csv.field(event.name);
+    csv.field(event.rising ? "rises" : "falls");
+    csv.end_line();
+  }
+  return csv.take();
+}
+
 std::string residuals_csv(const Problem& problem, const Evaluation& evaluation) {
   static const char* const kComponents[] = {"side_m", "down_m", "angle_rad", "across_m"};
   Csv csv;

@@ -21,6 +21,8 @@ std::string angles_csv(const Model& model, const Motion& motion);
 std::string forces_csv(const Motion& motion);
 /// time_s and every energy item in J.
 std::string energy_csv(const Model& model, const Motion& motion);
+/// time_s, the event's name, and whether its value rises through zero or falls.
+std::string events_csv(const Motion& motion);
 
 /// experiment, part, point, component, time_s, measured, simulated, residual (m or rad) of all
 /// frames.

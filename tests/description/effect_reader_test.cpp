@@ -24,6 +24,11 @@ std::string energy(const char* kind, const char* value, const char* at = "load")
   return std::string("[[") + kind + "]]\nat = \"" + at + "\"\nvalue = \"" + value + "\"\n";
 }
 
+std::string event(const std::string& at, const std::string& value) {
+  return "[[event]]\nname = \"met\"\nat = \"" + at + "\"\nunit = \"m\"\nvalue = \"" + value +
+         "\"\n";
+}
+
 Effect read(const std::string& body) {
   return read_effect(TomlTable::parse(kHead + body, "drag.toml", "effect"));
 }
@@ -270,6 +275,13 @@ TEST_CASE("errors in an effect name their line") {
        "drag.toml:7: chord.from: in \"0.1\": nothing acts along this chord"},
       {energy("potential", "distance", "chord"),
        "drag.toml:8: potential.value: in \"distance\": at = \"chord\" needs a table [chord]"},
+      {event("chord", "distance"),
+       "drag.toml:10: event.value: in \"distance\": at = \"chord\" needs a table [chord]"},
+      {event("anywhere", "time"), "drag.toml:8: event.at: \"anywhere\" is not known here"},
+      {event("load", "depth") + event("load", "depth"),
+       "drag.toml:12: event.name: \"met\" is given twice in this effect"},
+      {"[[event]]\nname = \"met\"\nat = \"load\"\nvalue = \"depth\"\n",
+       "drag.toml:6: event: \"unit\" is missing"},
       {"[chord]\nfrom = \"0.1\"\nto = \"time\"\n" + energy("potential", "distance", "chord"),
        "drag.toml:8: chord.to: in \"time\": \"time\" cannot stand here: the places would change"},
       {"[chord]\nfrom = \"0.1\"\nto = \"0.4\"\n" + energy("potential", "distance_rate^2", "chord"),

@@ -166,6 +166,34 @@ class Fits(unittest.TestCase):
         np.testing.assert_array_equal(copy.trajectory.q, run.trajectory.q)
         self.assertEqual((copy.status, copy.statistics.steps), (run.status, run.statistics.steps))
 
+    def test_events(self):
+        effect = '''format = 1
+kind = "effect"
+id = "watch"
+title = "Watch"
+description = "Tells when the load is plumb"
+[[event]]
+name = "plumb"
+unit = "m"
+at = "load"
+value = "side"
+'''
+        model = 'format = 1\nkind = "model"\nid = "watched"\neffects = ["watch.toml"]\n'
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "watch.toml").write_text(effect)
+            (folder / "watched.toml").write_text(model)
+            file = folder / "case.toml"
+            file.write_text(CASE.read_text().replace("[model]", '[model]\ndescription = "watched.toml"'))
+            run = catena.Case(file, {self.case.experiments[0].name: columns()}).simulate()
+        self.assertTrue(run.events)
+        times = [time for time, _, _ in run.events]
+        self.assertEqual(times, sorted(times))
+        self.assertEqual({name for _, name, _ in run.events}, {"watch.plumb"})
+        rises = [rises for _, _, rises in run.events]
+        self.assertEqual(rises, [rises[0] == (k % 2 == 0) for k in range(len(rises))])
+        self.assertEqual(pickle.loads(pickle.dumps(run)).events, run.events)
+
     def test_estimated_noise(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "case.toml"

@@ -11,6 +11,7 @@
 #include "runtime/internal_forces.hpp"
 #include "runtime/positions.hpp"
 #include "runtime/rest_states.hpp"
+#include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
 
@@ -69,6 +70,44 @@ double horizontal_force(double distance) {
   return kWeight * low;
 }
 
+/// A cable that falls on a floor.
+VectorXd falling(const Model& model) {
+  VectorXd p = testing::cable(model, 0.05, 1e-3);
+  set(model, p, "sea_floor.bed", 0.95);
+  set(model, p, "sea_floor.firmness", 2000);
+  set(model, p, "sea_floor.load_firmness", 2000);
+  set(model, p, "sea_floor.resistance", 20);
+  set(model, p, "sea_floor.friction", 0.4);
+  return p;
+}
+
+/// The floor multiplies errors by some 20.
+catena::SimulationOptions tighter() {
+  catena::SimulationOptions options = testing::tight();
+  options.relative_tolerance /= 10;
+  options.absolute_tolerance_position /= 10;
+  options.absolute_tolerance_velocity /= 10;
+  return options;
+}
+
+/// From 0 to 1.5 s.
+std::vector<double> times_of_fall(int steps) {
+  std::vector<double> times;
+  for (int k = 0; k <= steps; ++k) times.push_back(1.5 * k / steps);
+  return times;
+}
+
+/// The event values of a cable at one time of a motion.
+VectorXd event_values(const Model& model, const VectorXd& p, const catena::Trajectory& path,
+                      Eigen::Index column) {
+  const VectorXd q = path.q.col(column), v = path.v.col(column);
+  VectorXd values(model.events());
+  model.event_values({path.time[static_cast<std::size_t>(column)], q.data(), v.data(), nullptr,
+                      nullptr, nullptr, p.data()},
+                     values.data());
+  return values;
+}
+
 }  // namespace
 
 TEST_CASE("a chain that lies partly on the floor pulls at its ends as the catenary with a floor") {
@@ -114,19 +153,9 @@ TEST_CASE("a chain on the floor is found in a current, too") {
 
 TEST_CASE("energies balance where a cable falls on the floor, sinks in and slides") {
   const Model model = Model::load(OVER_FLOOR_5);
-  VectorXd p = testing::cable(model, 0.05, 1e-3);
-  set(model, p, "sea_floor.bed", 0.95);
-  set(model, p, "sea_floor.firmness", 2000);
-  set(model, p, "sea_floor.load_firmness", 2000);
-  set(model, p, "sea_floor.resistance", 20);
-  set(model, p, "sea_floor.friction", 0.4);
-  std::vector<double> times;
-  for (int k = 0; k <= 150; ++k) times.push_back(1e-2 * k);
-  catena::SimulationOptions tighter = testing::tight();  // the floor multiplies errors by some 20
-  tighter.relative_tolerance /= 10;
-  tighter.absolute_tolerance_position /= 10;
-  tighter.absolute_tolerance_velocity /= 10;
-  const catena::Simulation motion = simulate(model, p, testing::askew(model), times, tighter);
+  const VectorXd p = falling(model);
+  const catena::Simulation motion =
+      simulate(model, p, testing::askew(model), times_of_fall(150), tighter());
   REQUIRE_MESSAGE(motion.status == catena::Status::kSuccess, motion.message);
   const catena::Trajectory& path = motion.trajectory;
   CHECK(motion.energy_imbalance < 1e-9 * path.energy.cwiseAbs().maxCoeff());
@@ -141,4 +170,72 @@ TEST_CASE("energies balance where a cable falls on the floor, sinks in and slide
         model.table().energy_item[item].kind == CATENA_DISSIPATED)
       rubbed = path.energy(item, path.energy.cols() - 1);
   CHECK(rubbed > 0.05);  // J
+}
+
+TEST_CASE("every crossing of the floor is an event at its time, and there are no others") {
+  const Model model = Model::load(OVER_FLOOR_5);
+  REQUIRE(model.events() == model.links() + 1);
+  CHECK(model.table().event[0].name == std::string("sea_floor.load_touch_down"));
+  CHECK(model.table().event[5].name == std::string("sea_floor.touch_down_5"));
+  const VectorXd p = falling(model);
+  catena::SimulationOptions options = tighter();
+  const catena::Simulation watched =
+      simulate(model, p, testing::askew(model), times_of_fall(15'000), options);
+  REQUIRE_MESSAGE(watched.status == catena::Status::kSuccess, watched.message);
+  CHECK(watched.events.empty());  // not asked for
+  options.events = true;
+  const catena::Simulation motion =
+      simulate(model, p, testing::askew(model), times_of_fall(1), options);
+  REQUIRE_MESSAGE(motion.status == catena::Status::kSuccess, motion.message);
+
+  const catena::Trajectory& path = watched.trajectory;
+  auto event = motion.events.begin();
+  VectorXd before = event_values(model, p, path, 0);
+  for (Eigen::Index k = 1; k < path.q.cols(); ++k) {
+    const VectorXd after = event_values(model, p, path, k);
+    for (int which = 0; which < model.events(); ++which) {
+      if ((before[which] < 0) == (after[which] < 0)) continue;
+      REQUIRE(event != motion.events.end());
+      CHECK(event->name == model.table().event[which].name);
+      CHECK(event->rising == (after[which] > 0));
+      const auto column = static_cast<std::size_t>(k);
+      CHECK(event->time > path.time[column - 1]);
+      CHECK(event->time <= path.time[column]);
+      const catena::Simulation there =
+          simulate(model, p, testing::askew(model), {0, event->time}, tighter());
+      CHECK(std::abs(event_values(model, p, there.trajectory, 1)[which]) < 1e-7);  // m
+      ++event;
+    }
+    before = after;
+  }
+  CHECK(event == motion.events.end());
+  CHECK(motion.events.size() >= 6);  // all links and the load
+}
+
+TEST_CASE("steps that begin anew at events give the same motion, energies and derivatives") {
+  const Model model = Model::load(OVER_FLOOR_5);
+  const VectorXd p = falling(model);
+  const auto run = [&](bool events) {
+    catena::SimulationOptions options = tighter();
+    options.events = events;
+    options.sensitivities_in_error_test = true;
+    return simulate_with_sensitivities(
+        model, p, testing::askew(model),
+        {catena::SensitivityDirection::parameter(model, model.parameter_index("gravity")),
+         catena::SensitivityDirection::parameter(model,
+                                                 model.parameter_index("sea_floor.friction"))},
+        times_of_fall(150), options);
+  };
+  const catena::SensitiveSimulation with = run(true), without = run(false);
+  REQUIRE_MESSAGE(with.status == catena::Status::kSuccess, with.message);
+  CHECK(with.events.size() >= 6);
+  CHECK(with.statistics.steps > without.statistics.steps / 2);  // all of them are counted
+  const auto off = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+  };
+  CHECK(off(with.trajectory.q, without.trajectory.q) < 1e-6);
+  CHECK(off(with.trajectory.energy, without.trajectory.energy) < 1e-6);
+  CHECK(with.energy_imbalance < 1e-9 * with.trajectory.energy.cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK(off(with.sensitivity[k].q, without.sensitivity[k].q) < 1e-4);
 }

@@ -10,11 +10,11 @@
 
 #include "any_links_table.hpp"
 #include "catena_model.h"
-#include "chain_joint_hysteresis_support_series_scale_12.hpp"
-#include "chain_joint_hysteresis_support_series_scale_any.hpp"
+#include "chain_joint_hysteresis_support_series_scale_sea_floor_12.hpp"
+#include "chain_joint_hysteresis_support_series_scale_sea_floor_any.hpp"
 
-namespace any = catena::chain_joint_hysteresis_support_series_scale_any;
-namespace twelve = catena::chain_joint_hysteresis_support_series_scale_12;
+namespace any = catena::chain_joint_hysteresis_support_series_scale_sea_floor_any;
+namespace twelve = catena::chain_joint_hysteresis_support_series_scale_sea_floor_12;
 
 namespace {
 
@@ -64,6 +64,7 @@ Values results(const catena_model& model) {
   call(static_cast<std::size_t>(model.energies), [&](double* e) { model.energy(c, &at, e); });
   call(2 * n + 4, [&](double* x) { model.positions(c, &at, x, x + n + 2); });
   call(3 * n, [&](double* x) { model.internal_forces(c, &at, x, x + n, x + 2 * n); });
+  call(static_cast<std::size_t>(model.events), [&](double* e) { model.event_values(c, &at, e); });
   const double in[3] = {0.3, 0.7, 0.4};
   call(3, [&](double* out) { model.observe(c, 0.3, at.p, in, out); });
   Values work(static_cast<std::size_t>(model.newton_work));
@@ -85,6 +86,8 @@ TEST_CASE("a model with effects for any number of links is the one derived for 1
   REQUIRE(model.states == fixed.states);
   REQUIRE(model.signals == fixed.signals);
   REQUIRE(model.parameters == fixed.parameters);
+  REQUIRE(model.events == 13);  // of every link and of the load
+  REQUIRE(model.events == fixed.events);
   CHECK(std::string(model.id) == fixed.id);
   CHECK(std::string(model.description_hash) == fixed.description_hash);
   for (int k = 0; k < fixed.parameters; ++k) {
@@ -95,5 +98,7 @@ TEST_CASE("a model with effects for any number of links is the one derived for 1
     CHECK(std::string(model.state[k].name) == fixed.state[k].name);
   for (int k = 0; k < fixed.signals; ++k)
     CHECK(std::string(model.signal[k].name) == fixed.signal[k].name);
+  for (int k = 0; k < fixed.events; ++k)
+    CHECK(std::string(model.event[k].name) == fixed.event[k].name);
   CHECK(results(model) == results(fixed));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include <sstream>
+
 #include "identify/recordings/recording.hpp"
 #include "identify/recordings/table.hpp"
 #include "tests/identify/program/catena_program.hpp"
@@ -95,6 +97,41 @@ TEST_CASE("a case of a model in space starts in azimuths and has a third compone
               "[[experiment]]\nname = \"a\"\ndata = \"turned/positions.csv\"\n"
               "kind = \"markers\"\nwindow = 0.3\njoined = true\n",
           "experiment: joined: \"a\"; windows of a model in space cannot be joined");
+}
+
+TEST_CASE("the times at which an event value changes its sign are written") {
+  const testing::TemporaryFolder folder;
+  folder.write("watch.toml",
+               "format = 1\nkind = \"effect\"\nid = \"watch\"\ntitle = \"Watch\"\n"
+               "description = \"Tells when the load is plumb\"\n[[event]]\nname = \"plumb\"\n"
+               "unit = \"m\"\nat = \"load\"\nvalue = \"side\"\n");
+  folder.write("watched.toml",
+               "format = 1\nkind = \"model\"\nid = \"watched\"\neffects = [\"watch.toml\"]\n");
+  const auto the_case = folder.write(
+      "swing.toml", testing::replaced(testing::kSwing, "[model]\n",
+                                      "[model]\ndescription = \"watched.toml\"\n"));
+  const std::filesystem::path output = folder.path() / "swing";
+  const ProcessResult run = run_catena({"simulate", the_case, "--output", output});
+  REQUIRE_MESSAGE(run.exit_status == 0, run.output);
+  const Table positions = read_table(output / "positions.csv");
+  const std::vector<double> side = positions.column("side_load_m"),
+                            time = positions.column("time_s");
+  std::istringstream lines(testing::text_of(output / "events.csv"));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "time_s,event,change");
+  int crossings = 0;
+  for (std::size_t k = 1; k < side.size(); ++k) {
+    if ((side[k - 1] < 0) == (side[k] < 0)) continue;
+    ++crossings;
+    REQUIRE(std::getline(lines, line));
+    const double at = std::stod(line);
+    CHECK(at > time[k - 1]);
+    CHECK(at < time[k]);
+    CHECK(line.substr(line.find(',')) == (side[k] > 0 ? ",watch.plumb,rises" : ",watch.plumb,falls"));
+  }
+  CHECK(crossings > 0);
+  CHECK(!std::getline(lines, line));
 }
 
 TEST_CASE("without --output no command replaces what another one wrote") {
