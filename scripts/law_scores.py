@@ -11,7 +11,7 @@ import tomllib
 # Where an effect acts, as the truth's forces.csv calls it (make_recording --forces).
 PLACES = {"link_centre": "middle_", "load": "load_"}
 # What a law may go with that is no point: its position and its rate.
-NUMBERS = {"joint": ("joint_angle", "joint_rate"), "chord": ("distance", "distance_rate")}
+NUMBERS = {"joint": ("joint_angle", "joint_rate", "steady_tension"), "chord": ("distance", "distance_rate")}
 STEP = 1e-5  # of differences, m, m/s, rad, rad/s
 GRAVITY = 9.81  # m/s^2, of make_recording
 LINK_ENDS = 2  # every so many-th marker is the end of a link
@@ -97,6 +97,8 @@ class Law:
         """Its parts: side and down, N, of a place; the moment, N m, of a joint; what parts two places, N."""
         if self.along:
             return self._pushes(state)
+        if self.torque:
+            return [self._energy(state)]
         if self.at in NUMBERS:
             names = NUMBERS[self.at][not self.potential :][:1]
         else:
@@ -158,9 +160,21 @@ def steady_tensions(angles, rates, cable):
     return tensions
 
 
+def joints_of(true):
+    """How many there are."""
+    return sum(1 for name in true if re.fullmatch(r"joint_\d+_rate", name))
+
+
+def middle_tensions(true, cable):
+    """The steady tension in mid-joint, N, by frames."""
+    count = joints_of(true)
+    motions = ([[true[f"joint_{i + 1}_{of}"][k] for i in range(count)] for of in ("angle", "rate")] for k in range(len(true["time_s"])))
+    return [steady_tensions(angles, rates, cable)[count // 2] for angles, rates in motions]
+
+
 def friction_error(law, true):
     """Of dry friction in joints, where they slide: what sticks has no curve."""
-    count = sum(1 for name in true if re.fullmatch(r"joint_\d+_rate", name))
+    count = joints_of(true)
     link = law.cable["length"] / count
     spacings = [link / 2] + [link] * (count - 1)
     errors, truths = [], []
@@ -178,6 +192,7 @@ def curve_error(found, forces):
     """Root mean square, over the true motion, of the law's force less the true one at the same state, over that of the
     true one. None where the law acts where no force is."""
     law, true = Law(found), columns(forces)
+    true["steady_tension"] = middle_tensions(true, law.cable)
     if law.joints:
         return friction_error(law, true)
     if law.at in NUMBERS:
@@ -196,7 +211,8 @@ def curve_error(found, forces):
     if law.over_time:
         says = zip(*law.histories(true, where))
     else:
-        says = (law.force({name: true[where + name][k] for name in states}) for k in frames)
+        says = (law.force({name: true[name if name == "steady_tension" else where + name][k] for name in states})
+                for k in frames)  # fmt: skip
     errors = [math.hypot(*(a - b for a, b in zip(said, truth))) for said, truth in zip(says, zip(*there))]
     return rms(errors) / size
 

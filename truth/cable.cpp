@@ -164,7 +164,8 @@ double Chain::joint_moment(int i, double angle, double rate, double tension, dou
       h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
   if (h.tension_friction != 0) moment += h.tension_friction * tension * rounded_sign(rate);
   if (i == n_ / 2) {
-    const double against = middle_moment(angle, rate) + h.maxwell * memory;
+    const double against =
+        middle_moment(angle, rate) + h.maxwell * memory + h.eccentric_pull * tension;
     moment += against;
     if (outside) {
       outside->joint_angle = angle;

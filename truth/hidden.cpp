@@ -86,6 +86,7 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"maxwell.stiffness", &Hidden::maxwell},
       {"maxwell.lag", &Hidden::maxwell_lag},
       {"tension_friction.reach", &Hidden::tension_friction},
+      {"eccentric_pull.lever", &Hidden::eccentric_pull},
       {"leak.rate", &Hidden::leak},
       {"insect.mass", &Hidden::insect},
       {"carried.share", &Hidden::carried},

@@ -69,6 +69,7 @@ struct Hidden {
   double valve = 0;                  // N s/m; resists mid-cable on its way to larger sides
   double maxwell = 0, maxwell_lag = 0.3;  // N m/rad, s; spring before a dashpot in mid-joint
   double tension_friction = 0;            // m; every joint's friction over its tension
+  double eccentric_pull = 0;              // m; the tension pulls beside mid-joint by so much
   double leak = 0;                        // kg/s that the load loses
   double insect = 0;                      // kg at mid-cable
   double carried =

@@ -202,8 +202,7 @@ std::string any_links_header_text(const Description& description, const ModelFun
          "    return number;\n  }\n"
       << size("coordinates", count(table.coordinates)) << size("states", count(table.states))
       << size("signals", count(table.signals)) << size("events", count(table.events))
-      << size("parameters", count(table.parameters))
-      << functions_text(model, NumberOfLinks::kAny)
+      << size("parameters", count(table.parameters)) << functions_text(model, NumberOfLinks::kAny)
       << "};\n\n#pragma GCC diagnostic pop\n\n"
          "/// The table of a chain, in double precision. Its id and what it lists are to be filled "
          "in:\n/// names take memory (AnyLinksModel of any_links_table.hpp does it). Its context "

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "description/expression_syntax.hpp"
 #include "identify/forces/place_kinematics.hpp"
 
 namespace catena {
@@ -46,6 +47,8 @@ constexpr double kTriedLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
 std::string unit_over(const LawNames& names, int power) {
   if (power == 0) return names.force_unit;
   if (names.variable_unit == "m/s^2") return "kg";
+  if (names.variable_unit == "N")
+    return power == 1 ? "m" : fmt::format("m/N^{}", power - 1);  // moments
   struct Row {
     const char *unit, *below, *above;
   };
@@ -115,7 +118,7 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   }
   choose_grammar(least, most);
   if (has_time()) return;  // in s
-  if (!against() && !is_angle() && !is_distance()) middle_ = 0.5 * (least + most);
+  if (!against() && !is_angle() && !is_distance() && !of_tension()) middle_ = 0.5 * (least + most);
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
   const double mean = against() ? 0 : sum / count;  // a sign changes at 0
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
@@ -129,6 +132,7 @@ void CandidateLaw::choose_grammar(double least, double most) {
              : has_lag()                             ? relaxing_grammar()
              : has_time()                            ? time_grammar(least, most)
              : over_tension(variable_)               ? friction_grammar()
+             : of_tension()                          ? tension_grammar()
              : variable_ == LawVariable::kChordRate  ? dashpot_grammar()
              : against()                             ? velocity_grammar()
              : is_angle()                            ? angle_grammar()
@@ -317,12 +321,12 @@ std::string CandidateLaw::variable_name() const {
 
 CandidateLaw::Formula::Kind CandidateLaw::kind() const {
   using Kind = Formula::Kind;
-  return variable_ == LawVariable::kAcceleration ? Kind::kMass
-         : has_lag()                             ? Kind::kRelaxing
-         : has_time()                            ? Kind::kForce
-         : over_tension(variable_)               ? Kind::kTorque
-         : against()                             ? Kind::kDissipation
-                                                 : Kind::kPotential;
+  return variable_ == LawVariable::kAcceleration   ? Kind::kMass
+         : has_lag()                               ? Kind::kRelaxing
+         : has_time()                              ? Kind::kForce
+         : over_tension(variable_) || of_tension() ? Kind::kTorque
+         : against()                               ? Kind::kDissipation
+                                                   : Kind::kPotential;
 }
 
 CandidateLaw::Constant CandidateLaw::amplitude(const std::string& name, int power,
@@ -350,7 +354,16 @@ void CandidateLaw::add_spring_about_rest(Formula& formula, const VectorXd& coeff
   formula.constants.push_back({"rest", names.variable_unit, rest, deviation, false,
                                rest - kBound * deviation, rest + kBound * deviation});
   formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
-  formula.energy = fmt::format("linear*({} - rest)^2/2", names.symbols);
+  formula.energy = energy_of({TermKind::kLinear}, fmt::format("{} - rest", names.symbols));
+}
+
+std::string CandidateLaw::energy_of(const LawTerm& term, const std::string& symbols) const {
+  const LawTermText& text = text_of(term.kind);
+  return filled(is_piece(term.kind)                ? piece_text(term)
+                : kind() == Formula::Kind::kTorque ? text.slope
+                                                   : text.energy,
+                "", symbols, names_of(site_, variable_, chain_.in_space).squared,
+                letter_of(term.knot));
 }
 
 void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
@@ -372,11 +385,7 @@ void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
     const LawTermText& text = text_of(term.kind);
     const std::string n = letter_of(term.knot);
     terms += (terms.empty() ? "" : " + ") + filled(text.words, words, "", "", n);
-    formula.energy +=
-        (formula.energy.empty() ? "" : " + ") + filled(over_tension(variable_) ? text.slope
-                                                       : is_piece(term.kind)   ? piece_text(term)
-                                                                               : text.energy,
-                                                       "", symbols, names.squared, n);
+    formula.energy += (formula.energy.empty() ? "" : " + ") + energy_of(term, symbols);
     const auto i = static_cast<Index>(j);
     formula.constants.push_back(amplitude(filled(text.amplitude, "", "", "", n), text.power,
                                           coefficients[i], deviations[i]));
@@ -429,7 +438,6 @@ void CandidateLaw::add_fixed(Formula& formula, const std::vector<int>& form) con
   add("edge_width", width * half_);
   add("floor", kSpeedFloor);
   add("unit", 1);
-  if (over_tension(variable_)) formula.fixed.push_back({"tension_floor", "N", kTensionFloor});
 }
 
 CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
@@ -479,6 +487,11 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
     formula.energy =
         fmt::format("-point_mass*gravity*({})", symbols_of(LawVariable::kDownPosition, false));
   add_fixed(formula, form);
+  if (over_tension(variable_)) {
+    formula.energy =
+        fmt::format("sqrt({}^2 + tension_floor^2)*({})", kSteadyTension, formula.energy);
+    formula.fixed.push_back({"tension_floor", "N", kTensionFloor});
+  }
   return formula;
 }
 

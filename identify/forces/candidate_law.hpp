@@ -31,6 +31,8 @@ class CandidateLaw {
   Eigen::Index places() const;
   /// The force is against a velocity, an acceleration or a stretch that relaxes: no coefficient is positive.
   bool against() const { return !has_potential(variable_); }
+  /// The force changes with the rates of the turns.
+  bool follows_rates() const { return against() || of_tension(); }
   /// The force depends on nothing but the time.
   bool has_time() const { return timed_of(variable_).has_value(); }
   /// What the force looks at besides the state of its time.
@@ -94,8 +96,8 @@ class CandidateLaw {
   struct Formula {
     std::string text;  ///< "side force = -linear x (side position - rest)"
     std::vector<Constant> constants;
-    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot, a force or a torque under
-    /// tension (law_effect.cpp).
+    /// What follows declares a potential, a dissipation, a mass, a spring before a dashpot, a force or a torque that
+    /// goes with the tension (law_effect.cpp).
     enum class Kind {
       kPotential,
       kDissipation,
@@ -106,8 +108,8 @@ class CandidateLaw {
     } kind = Kind::kPotential;
     bool curve = false;  ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
-    /// mass; of the time the force; of a curve against a velocity -force; under tension -force
-    /// over that. A place is `offset` past the middle of a link.
+    /// mass; of the time the force; of a curve against a velocity, and with the tension, -force. A place is `offset`
+    /// past the middle of a link.
     std::string energy;
     Definitions
         definitions;  ///< of a curve: `motion`, the velocity, and what else the energy names
@@ -123,6 +125,7 @@ class CandidateLaw {
  private:
   bool has_point() const { return variable_ == LawVariable::kDistance; }
   bool is_distance() const { return has_point() || variable_ == LawVariable::kChord; }
+  bool of_tension() const { return variable_ == LawVariable::kTension; }
   bool is_angle() const {
     return variable_ == LawVariable::kJointAngle || variable_ == LawVariable::kCurvature;
   }
@@ -137,6 +140,8 @@ class CandidateLaw {
   /// A factor of a term in physical units. `coefficient`, `deviation`: over the half width, as in a fit.
   Constant amplitude(const std::string& name, int power, double coefficient,
                      double deviation) const;
+  /// What a term has in the energy of a formula.
+  std::string energy_of(const LawTerm& term, const std::string& symbols) const;
   void add_spring_about_rest(Formula& formula, const Eigen::VectorXd& coefficients,
                              const Eigen::MatrixXd& covariance) const;
   void add_terms(Formula& formula, const std::vector<int>& form,

@@ -70,6 +70,17 @@ NodeForces random_forces(const ForcePath& path, const std::vector<ForcePattern>&
   return forces;
 }
 
+/// The force of a path as torques on the links, turns x nodes.
+MatrixXd torques_of(const ForcePath& path, const std::vector<ForcePattern>& patterns,
+                    const LawChain& chain) {
+  MatrixXd torques = MatrixXd::Zero(chain.turns(), path.force.cols());
+  for (Index k = 0; k < torques.cols(); ++k)
+    for (std::size_t m = 0; m < patterns.size(); ++m)
+      torques.col(k) += path.force(static_cast<Index>(2 * m), k) *
+                        link_torques(patterns[m], chain.lengths, path.state.col(k).data());
+  return torques;
+}
+
 /// A formula fitted to all frames, with its force following the state.
 struct FittedForm {
   CandidateLaw law;
@@ -431,7 +442,7 @@ class LawSearch {
           by_state.middleCols(chain_.coordinates, turns()) =
               law.resistance(state, form, coefficients);
         else
-          for (Index i = 0; law.against() && i < turns(); ++i)
+          for (Index i = 0; law.follows_rates() && i < turns(); ++i)
             differentiate(chain_.coordinates + i);
         for (Index i = motion.state.rows(); i < state.size(); ++i) differentiate(i);
       }
@@ -607,7 +618,12 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   std::vector<ForcePattern> torques;
   for (Index k = 0; k < chain.lengths.size(); ++k)
     for (ForcePattern& torque : torque_patterns(k, chain)) torques.push_back(std::move(torque));
+  std::vector<MatrixXd> found;
+  for (const ForcePath& path : paths.paths())
+    found.push_back(torques_of(path, paths.patterns(), chain));
   paths.act(std::move(torques));
+  // Linear about the motion with its force: without one the rates go astray within a step.
+  paths.take_forces(found);
   const std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
   const std::vector<LawMotion> visited = motions_of(paths);

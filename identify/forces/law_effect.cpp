@@ -134,8 +134,7 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
                         formula.along.size() > 1 ? fmt::format("*({})/motion", along) : "");
   if (!formula.along.empty()) return text;
   if (formula.kind == Kind::kTorque) {
-    declare("torque",
-            fmt::format("(-sqrt({}^2 + tension_floor^2)*({}))", kSteadyTension, formula.energy));
+    declare("torque", fmt::format("(-({}))", formula.energy));
     return text;
   }
   if (formula.kind == Kind::kMass)

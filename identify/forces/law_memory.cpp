@@ -22,7 +22,7 @@ struct MemoryStep {
 
 MemoryStep step_of(const LawMemory& memory, double duration) {
   if (timed_of(memory.variable)) return {};  // the time does not follow the motion
-  if (memory.variable == LawVariable::kAcceleration) return {-kKept, (1 + kKept) / duration};
+  if (has_accelerations(memory.variable)) return {-kKept, (1 + kKept) / duration};
   const double kept = std::exp(-duration / memory.lag);
   return {kept, memory.lag / duration * (1 - kept)};  // x goes straight
 }
@@ -36,7 +36,7 @@ struct Followed {
 Followed followed_by(const LawMemory& memory, const LawChain& chain, const VectorXd& state) {
   const Index links = chain.lengths.size();
   Followed followed;
-  if (memory.variable == LawVariable::kAcceleration) {
+  if (has_accelerations(memory.variable)) {
     followed.value = state.segment(chain.coordinates, links);
     followed.by_state.setZero(links, state.size());
     followed.by_state.middleCols(chain.coordinates, links).setIdentity();
@@ -99,7 +99,7 @@ MatrixXd LawMemory::along(const LawMotion& motion, const LawChain& chain) const 
   }
   MatrixXd out(states + followed.rows(), nodes);
   out.topRows(states) = motion.state;
-  if (variable == LawVariable::kAcceleration) {
+  if (has_accelerations(variable)) {
     out.bottomRows(followed.rows()) =
         accelerations(motion.state.topRows(followed.rows()), followed, motion.time);
     return out;

@@ -16,13 +16,15 @@ constexpr double kSignWidth = 0.05, kEdgeWidth = 0.03;
 /// Of a corner of a piece, over the largest velocity: cosh of its inverse is a number, and of seven times that.
 constexpr double kPieceWidth = 0.01;
 
-/// max(y, 0), smooth: the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
+/// max(y, 0), smooth: CATENA_POSITIVE_PART, the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
 double positive_part(double y, double width) {
   const double size = std::hypot(y, width);
   return 0.25 * (y + size) * (y + size) / size;
 }
 
 #define CATENA_STOP(Y) "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/8"
+#define CATENA_POSITIVE_PART(Y) \
+  "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/(4*sqrt(" Y "^2 + edge_width^2))"
 
 /// log(cosh(y)), also where cosh(y) is too large a number.
 double log_cosh(double y) {
@@ -97,12 +99,14 @@ void add_shapes(Forms& forms, TermKind kind, std::initializer_list<double> shape
 const LawTerm kOne{TermKind::kConstant}, kX{TermKind::kLinear}, kX2{TermKind::kQuadratic},
     kX3{TermKind::kCubic};
 
-/// With a curve of straight pieces: for what no formula fits.
-LawGrammar with_curve(const Forms& forms) {
+constexpr std::initializer_list<double> kKnotsBothWays = {-0.6, -0.2, 0.2, 0.6};
+
+/// With a curve of straight pieces between knots: for what no formula fits.
+LawGrammar with_curve(const Forms& forms, std::initializer_list<double> knots) {
   LawGrammar all = grammar(forms);
   std::vector<LawTerm> curve = {kOne, kX};
   int next = 0;
-  for (const double knot : {-0.6, -0.2, 0.2, 0.6}) {
+  for (const double knot : knots) {
     LawTerm& bend = curve.emplace_back(LawTerm{TermKind::kBend, knot});
     bend.knot = next++;
   }
@@ -216,10 +220,13 @@ const LawTermText& text_of(TermKind kind) {
     TermKind kind;
     LawTermText text;
   } kTexts[] = {
-      {TermKind::kConstant, {"constant", nullptr, 0, "constant", "constant*({z})"}},
-      {TermKind::kLinear, {"linear", nullptr, 1, "linear x ({x})", "linear*({z})^2/2"}},
+      {TermKind::kConstant,
+       {"constant", nullptr, 0, "constant", "constant*({z})", false, "constant"}},
+      {TermKind::kLinear,
+       {"linear", nullptr, 1, "linear x ({x})", "linear*({z})^2/2", false, "linear*({z})"}},
       {TermKind::kQuadratic,
-       {"quadratic", nullptr, 2, "quadratic x ({x})^2", "quadratic*({z})^3/3"}},
+       {"quadratic", nullptr, 2, "quadratic x ({x})^2", "quadratic*({z})^3/3", false,
+        "quadratic*({z})^2"}},
       {TermKind::kCubic, {"cubic", nullptr, 3, "cubic x ({x})^3", "cubic*({z})^4/4"}},
       {TermKind::kUpperStop,
        {"spring", "edge", 1, "spring x (({x}) - edge, if it is above)",
@@ -232,7 +239,8 @@ const LawTermText& text_of(TermKind kind) {
         "spring*(" CATENA_STOP("({z} - gap)") " + " CATENA_STOP("(-({z}) - gap)") ")"}},
       {TermKind::kBend,
        {"bend_{n}", nullptr, 1, "bend_{n} x (({x}) - knot_{n}, if it is above)",
-        "bend_{n}*" CATENA_STOP("({z} - knot_{n})")}},
+        "bend_{n}*" CATENA_STOP("({z} - knot_{n})"), false,
+        "bend_{n}*" CATENA_POSITIVE_PART("({z} - knot_{n})")}},
       {TermKind::kUpperExponential,
        {"force", "decay", 0, "force x exp(({x})/decay)", "force*decay*exp(({z})/decay)"}},
       {TermKind::kLowerExponential,
@@ -276,6 +284,7 @@ const LawTermText& text_of(TermKind kind) {
 #undef CATENA_UP_TO
 #undef CATENA_ONE_WAY_UP_TO
 #undef CATENA_STOP
+#undef CATENA_POSITIVE_PART
 
 std::string filled(const std::string& text, const std::string& x, const std::string& z,
                    const std::string& q, const std::string& n) {
@@ -299,7 +308,7 @@ const LawGrammar& position_grammar() {
     add_shapes(forms, TermKind::kLowerStop, {0.5, 0.25, 0, -0.25, -0.5});
     add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
     add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
-    return with_curve(forms);
+    return with_curve(forms, kKnotsBothWays);
   }();
   return kGrammar;
 }
@@ -323,7 +332,7 @@ const LawGrammar& angle_grammar() {
     add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
     add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
     add_shapes(forms, TermKind::kLowerStop, {0.25, 0, -0.25, -0.5});
-    return with_curve(forms);
+    return with_curve(forms, kKnotsBothWays);
   }();
   return kGrammar;
 }
@@ -349,6 +358,12 @@ const LawGrammar& friction_grammar() {
     add_shapes(forms, TermKind::kSaturating, {0.15, 0.3, 0.6});
     return grammar(forms);
   }();
+  return kGrammar;
+}
+
+const LawGrammar& tension_grammar() {
+  static const LawGrammar kGrammar =
+      with_curve({{kX}, {kOne, kX}, {kX, kX2}, {kOne, kX, kX2}}, {0.2, 0.4, 0.6, 0.8});
   return kGrammar;
 }
 

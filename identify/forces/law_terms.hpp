@@ -83,7 +83,7 @@ struct LawTermText {
   int power = 0;
   const char *words, *energy;   ///< of the time: its force instead
   bool moment = false;          ///< whether it has one
-  const char* slope = nullptr;  ///< of the energy, where a force may be over the tension
+  const char* slope = nullptr;  ///< of the energy, where a force may be over the tension or of it
 };
 /// Of every kind there is one.
 const LawTermText& text_of(TermKind kind);
@@ -97,13 +97,14 @@ struct LawGrammar {
   std::vector<LawTerm> terms;
   std::vector<std::vector<int>> forms;
 };
-/// For a position, a distance, a joint's angle, a velocity or rate, an acceleration, and what relaxes.
+/// For a position, a distance, a joint's angle, a velocity or rate, a tension, an acceleration, and what relaxes.
 const LawGrammar& position_grammar();
 const LawGrammar& distance_grammar();
 const LawGrammar& angle_grammar();
 const LawGrammar& velocity_grammar();
 const LawGrammar& friction_grammar();  ///< of these friction alone
-const LawGrammar& dashpot_grammar();   ///< for the rate of a distance
+const LawGrammar& tension_grammar();
+const LawGrammar& dashpot_grammar();  ///< for the rate of a distance
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
 /// Adds a curve against a velocity: pieces from 0 between these knots, the same both ways or, where the variable has a sign,

@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "description/expression_syntax.hpp"
+
 namespace catena {
 
 using Eigen::Index;
@@ -57,6 +59,7 @@ constexpr NamesOfVariable kNames[] = {
      "joint_rate"},
     {LawVariable::kRateUnderTension, false, "moment over the tension", "joint rate", "rad/s",
      "joint_rate"},
+    {LawVariable::kTension, true, "moment", "tension", "N", kSteadyTension},
     {LawVariable::kCurvature, true, "bending moment", "curvature", "1/m", "joint_angle/spacing"},
     {LawVariable::kCurvatureRate, false, "bending moment", "rate of curvature", "1/(m s)",
      "joint_rate/spacing"},
@@ -150,6 +153,10 @@ bool over_tension(LawVariable variable) {
          variable == LawVariable::kCurvatureRateUnderTension;
 }
 
+bool has_accelerations(LawVariable variable) {
+  return variable == LawVariable::kAcceleration || variable == LawVariable::kTension;
+}
+
 std::string symbols_of(LawVariable variable, bool in_space) {
   if (in_space) switch (variable) {
       case LawVariable::kSidePosition:
@@ -209,8 +216,8 @@ LawNames names_of(const LawSite& site, LawVariable variable, bool in_space) {
   if (site.kind == SiteKind::kJoint && site.joint == 0) {
     names.force =
         over_tension(variable) ? "torque at the support over the tension" : "torque at the support";
-    names.variable = timed_of(variable)                             ? names.variable
-                     : variable == LawVariable::kJointAngle         ? "angle of link 1"
+    names.variable = timed_of(variable) || variable == LawVariable::kTension ? names.variable
+                     : variable == LawVariable::kJointAngle                  ? "angle of link 1"
                      : variable == LawVariable::kRelaxingJointAngle ? "relaxing angle of link 1"
                                                                     : "rate of link 1";
   }
@@ -271,7 +278,8 @@ std::string site_in_words(const LawSite& site) {
   return "";
 }
 
-VectorXd steady_tensions(const LawChain& chain, const VectorXd& state) {
+VectorXd joint_tensions(const LawChain& chain, const VectorXd& state,
+                        const VectorXd& accelerations) {
   const Index links = chain.lengths.size();
   // Gravity less the acceleration: of the mass centre of every link, and of the end of the last one.
   Eigen::Matrix2Xd centre(2, links), along(2, links);
@@ -279,9 +287,11 @@ VectorXd steady_tensions(const LawChain& chain, const VectorXd& state) {
   for (Index k = 0; k < links; ++k) {
     const double angle = state[k], rate = state[chain.coordinates + k];
     along.col(k) << std::sin(angle), std::cos(angle);
-    const Vector2d towards = rate * rate * chain.lengths[k] * along.col(k);
-    centre.col(k) = end + 0.5 * towards;
-    end += towards;
+    const Vector2d across(along(1, k), -along(0, k));
+    const Vector2d more =
+        chain.lengths[k] * (rate * rate * along.col(k) - accelerations[k] * across);
+    centre.col(k) = end + 0.5 * more;
+    end += more;
   }
   VectorXd tensions(links);
   Vector2d pull = chain.load * end;
@@ -318,7 +328,11 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
     elements.push_back({down.dot(faster) - turning.dot(side) - chain.gravity, down.transpose(), 1});
     return elements;
   }
-  const VectorXd tensions = over_tension(variable) ? steady_tensions(chain, state) : VectorXd();
+  const bool of_tension = variable == LawVariable::kTension;
+  const VectorXd tensions = of_tension ? joint_tensions(chain, state, state.tail(links))
+                            : over_tension(variable)
+                                ? joint_tensions(chain, state, VectorXd::Zero(links))
+                                : VectorXd();
   const auto add_joint = [&](Index joint, double spacing, double weight) {
     const Index of = has_potential(variable) ? 0 : chain.coordinates;
     LawElement& element = elements.emplace_back();
@@ -329,9 +343,9 @@ std::vector<LawElement> law_elements(const LawSite& site, LawVariable variable,
       element.gradient[joint - 1] = -1 / spacing;
       element.value -= state[of + joint - 1];
     }
-    element.value /= spacing;
+    element.value = of_tension ? tensions[joint] : element.value / spacing;
     element.weight =
-        tensions.size() > 0 ? weight * std::hypot(tensions[joint], kTensionFloor) : weight;
+        over_tension(variable) ? weight * std::hypot(tensions[joint], kTensionFloor) : weight;
   };
   switch (site.kind) {
     case SiteKind::kPlace: {
@@ -419,12 +433,12 @@ std::vector<LawVariable> variables_of(const LawSite& site, const LawChain& chain
     case SiteKind::kJoint:
       if (!chain.in_space)
         add({LawVariable::kJointAngle, LawVariable::kJointRate, LawVariable::kRelaxingJointAngle,
-             LawVariable::kRateUnderTension});
+             LawVariable::kRateUnderTension, LawVariable::kTension});
       break;
     case SiteKind::kJoints:
       if (!chain.in_space)
         add({LawVariable::kCurvature, LawVariable::kCurvatureRate, LawVariable::kRelaxingCurvature,
-             LawVariable::kCurvatureRateUnderTension});
+             LawVariable::kCurvatureRateUnderTension, LawVariable::kTension});
       break;
   }
   return variables;

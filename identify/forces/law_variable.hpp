@@ -28,7 +28,7 @@ struct LawSite {
 };
 
 /// What a law may depend on. Its force is along the change of the variable, so that force times rate
-/// of the variable is the power: the pair is conjugate.
+/// of the variable is the power: the pair is conjugate. The time and the tension are in no such pair.
 enum class LawVariable {
   // of a place
   kSidePosition,
@@ -56,6 +56,8 @@ enum class LawVariable {
   kJointRate,
   kRelaxingJointAngle,
   kRateUnderTension,  ///< the rate again; the force is over the tension
+  // of a joint, or of every joint
+  kTension,  ///< of weights and accelerations; the moment is along the joint angle
   // of every joint
   kCurvature,
   kCurvatureRate,
@@ -80,6 +82,9 @@ bool over_tension(LawVariable variable);
 
 /// A velocity of a site in the language of effects; of the speed its components.
 std::vector<std::string> components_of(const LawSite& site, LawVariable variable, bool in_space);
+
+/// Whether it goes with accelerations of the links, which then stand behind the state.
+bool has_accelerations(LawVariable variable);
 
 /// The position or angle along which a force acts that depends on the time; nothing for others.
 std::optional<LawVariable> timed_of(LawVariable variable);
@@ -119,8 +124,10 @@ struct LawChain : LinkChain {
   Eigen::Index turns() const { return lengths.size() * (in_space ? 3 : 1); }
 };
 
-/// The steady tension (docs/effects.md) in every joint, N, from the support on, in the plane. `state`: (q, v, z).
-Eigen::VectorXd steady_tensions(const LawChain& chain, const Eigen::VectorXd& state);
+/// The tension in every joint, N, from the support on, in the plane: what weights and accelerations below it make along
+/// the link. Without accelerations it is the steady one (docs/effects.md). `state`: (q, v, z).
+Eigen::VectorXd joint_tensions(const LawChain& chain, const Eigen::VectorXd& state,
+                               const Eigen::VectorXd& accelerations);
 
 /// N: the size of a tension T is sqrt(T^2 + floor^2), in effects, too.
 inline constexpr double kTensionFloor = 1e-3;

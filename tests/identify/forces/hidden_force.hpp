@@ -29,13 +29,17 @@ namespace catena::testing {
 struct Film {
   truth::Camera camera;
   int links = 24, case_links = 24;
+  double held_side = 1.2,
+         held_down = 2.0;  ///< m, of the end before its release: a tenth of the cable is slack
 
   truth::Cable cable() const {
     truth::Cable cable;
     cable.links = links;
     return cable;
   }
-  std::vector<double> start() const { return truth::catenary_angles(cable(), 1.2, 2.0); }
+  std::vector<double> start() const {
+    return truth::catenary_angles(cable(), held_side, held_down);
+  }
 };
 
 /// Arc length at which the hidden spring to the wall acts, m.

@@ -146,7 +146,9 @@ VectorXd force_of(const MadeLaw& made, const VectorXd& at, const LawChain& chain
   using Kind = CandidateLaw::Formula::Kind;
   const Kind kind = made.found.formula.kind;
   VectorXd beside = accelerations_of(links);
-  if (kind != Kind::kMass) beside.setConstant(kind == Kind::kForce ? kTime : kStretch);
+  // A torque of an effect goes with the steady tension.
+  if (kind != Kind::kMass)
+    beside.setConstant(kind == Kind::kForce ? kTime : kind == Kind::kTorque ? 0 : kStretch);
   state << at, beside;
   const CandidateLaw law = links == 2 ? made.law : made.law.on(chain);
   VectorXd torques = law.force(state, made.form) * made.coefficients;

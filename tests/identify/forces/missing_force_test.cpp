@@ -542,6 +542,21 @@ TEST_CASE("a spring before a dashpot in a joint: its stiffness and its lag") {
   }
 }
 
+TEST_CASE("a tension that pulls beside the middle of a joint: its lever") {
+  testing::Film film = short_film();
+  film.camera.duration = 4;
+  film.held_side = 1.4, film.held_down = 2.16;  // taut: a cable that snaps has no steady tension
+  truth::Hidden hidden;
+  hidden.eccentric_pull = 0.01;  // m
+  const MissingForce found = force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->variable == "tension");
+  CHECK(found.law->site.joint == 3);
+  REQUIRE(found.law->formula.constants.size() == 1);
+  check_constant(found.law->formula.constants[0], hidden.eccentric_pull, "m");
+}
+
 TEST_CASE("a viscous joint and an elastic one remember nothing") {
   testing::Film film = short_film();
   film.camera.duration = 4;

@@ -108,8 +108,8 @@ TEST_CASE("the times at which an event value changes its sign are written") {
   folder.write("watched.toml",
                "format = 1\nkind = \"model\"\nid = \"watched\"\neffects = [\"watch.toml\"]\n");
   const auto the_case = folder.write(
-      "swing.toml", testing::replaced(testing::kSwing, "[model]\n",
-                                      "[model]\ndescription = \"watched.toml\"\n"));
+      "swing.toml",
+      testing::replaced(testing::kSwing, "[model]\n", "[model]\ndescription = \"watched.toml\"\n"));
   const std::filesystem::path output = folder.path() / "swing";
   const ProcessResult run = run_catena({"simulate", the_case, "--output", output});
   REQUIRE_MESSAGE(run.exit_status == 0, run.output);
@@ -128,7 +128,8 @@ TEST_CASE("the times at which an event value changes its sign are written") {
     const double at = std::stod(line);
     CHECK(at > time[k - 1]);
     CHECK(at < time[k]);
-    CHECK(line.substr(line.find(',')) == (side[k] > 0 ? ",watch.plumb,rises" : ",watch.plumb,falls"));
+    CHECK(line.substr(line.find(',')) ==
+          (side[k] > 0 ? ",watch.plumb,rises" : ",watch.plumb,falls"));
   }
   CHECK(crossings > 0);
   CHECK(!std::getline(lines, line));
