@@ -292,11 +292,14 @@ bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw
   return kinds_of(*this, form) == kinds_of(other, other_form);
 }
 
+bool CandidateLaw::same_pair(const CandidateLaw& other) const {
+  return site_.kind == other.site_.kind && site_.joint == other.site_.joint &&
+         places() == other.places() && variable_ == other.variable_;
+}
+
 bool CandidateLaw::differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
                                       const std::vector<int>& other_form) const {
-  return site_.kind == other.site_.kind && site_.joint == other.site_.joint &&
-         places() == other.places() && variable_ == other.variable_ &&
-         has_terms_of(form, other, other_form);
+  return same_pair(other) && has_terms_of(form, other, other_form);
 }
 
 CandidateLaw CandidateLaw::sharp() const {

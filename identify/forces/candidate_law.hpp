@@ -76,6 +76,8 @@ class CandidateLaw {
   /// Whether both formulas have terms of the same kinds; of curves against a velocity whether both are odd or none.
   bool has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
                     const std::vector<int>& other_form) const;
+  /// Whether both are of the same force and variable at the same site.
+  bool same_pair(const CandidateLaw& other) const;
   /// Whether fits of both could find the same law: they differ by nothing but numbers.
   bool differs_by_numbers(const std::vector<int>& form, const CandidateLaw& other,
                           const std::vector<int>& other_form) const;

@@ -88,6 +88,7 @@ struct FittedForm {
   VectorXd coefficients;
   MatrixXd covariance;  // of the coefficients and the law's numbers
   double squares = HUGE_VAL, freedom = 0;
+  double without = HUGE_VAL;  // squares without a law
 
   double constants() const { return law.constants(form); }
 };
@@ -475,6 +476,7 @@ class LawSearch {
         best.law = law;
         best.coefficients = coefficients;
         best.squares = squares;
+        best.without = value.squaredNorm();
         best.freedom = static_cast<double>(part.seen - laws.cols());
         best.covariance = inverse(laws.transpose() * laws);
       }
@@ -517,8 +519,18 @@ class LawSearch {
       return fitted.squares / inflation + fitted.constants() * std::log(fitted.freedom);
     }
   };
-  /// Fits them, each from where it begins. The best is the simplest that the data do not decide against. Nothing where
-  /// none makes a law.
+  /// Whether a formula says nearly the same as one of the same pair that has its terms and more.
+  static bool says_nearly_the_same(const FittedForm& fewer, const FittedForm& more) {
+    const auto has = [&](int term) {
+      return std::find(more.form.begin(), more.form.end(), term) != more.form.end();
+    };
+    return fewer.form.size() < more.form.size() && fewer.law.same_pair(more.law) &&
+           std::all_of(fewer.form.begin(), fewer.form.end(), has) &&
+           fewer.squares - more.squares < kLawThresholds.worth * (more.without - more.squares);
+  }
+
+  /// Fits them, each from where it begins. The best is the simplest that the data do not decide against, less terms that
+  /// do hardly anything. Nothing where none makes a law.
   std::optional<ComparedForms> compared(const std::vector<FittedForm>& begins) const {
     ComparedForms all;
     double least = HUGE_VAL, lowest = HUGE_VAL;
@@ -540,6 +552,11 @@ class LawSearch {
     };
     for (std::size_t i = 1; i < all.fits.size(); ++i)
       if (rank(all.fits[i]) < rank(all.fits[all.best])) all.best = i;
+    const FittedForm best = all.fits[all.best];
+    for (std::size_t i = 0; i < all.fits.size(); ++i)
+      if (says_nearly_the_same(all.fits[i], best) &&
+          all.fits[i].constants() < all.fits[all.best].constants())
+        all.best = i;
     return all;
   }
 
