@@ -32,6 +32,8 @@ constexpr double kMostSteps = 5, kSettledStep = 0.01;
 constexpr int kRoundsAboutLaw = 2;
 /// Deviation of a coefficient's prior there, in units of its size; of another number, of its step.
 constexpr double kWide = 100;
+/// Searches with the pairs left out that went astray.
+constexpr int kMostSearches = 4;
 /// Steps of the integration in one of the estimate of the force. A law has few constants, which all
 /// frames determine: with one they are wrong by half their standard error.
 constexpr int kFiner = 4;
@@ -159,6 +161,8 @@ class LawSearch {
     if (law.found && split_ == Split::kPoints) law.found = is_between_ends(law);
     return law;
   }
+  /// The law that left too much about its own motion, after run.
+  const std::optional<CandidateLaw>& astray() const { return astray_; }
 
  private:
   static void take_names(const CandidateLaw& candidate, ForceLaw& law) {
@@ -372,6 +376,15 @@ class LawSearch {
     }
   }
 
+  /// The same. False, and the law noted, where it leaves too much there.
+  bool follows(FittedForm& fitted) {
+    const double promised = std::max(1.0, fitted.squares / fitted.freedom);
+    follow(fitted);
+    if (fitted.squares / fitted.freedom <= kLawThresholds.astray * promised) return true;
+    astray_ = fitted.law;
+    return false;
+  }
+
   /// Squared residuals that the free force leaves, in standard deviations.
   double left_by_force(FrameHalf half) const {
     double sum = 0;
@@ -576,7 +589,8 @@ class LawSearch {
     law.found = all.has_value();
     if (!law.found) return;
     FittedForm found = all->fits[all->best];
-    follow(found);
+    law.found = follows(found);
+    if (!law.found) return;
     const bool formula = !found.law.is_curve(found.form);
     const std::optional<ComparedForms> again =
         found.law.against() && formula ? std::nullopt : compared(all->fits);
@@ -585,7 +599,8 @@ class LawSearch {
       all = again;
       if (other) {
         found = all->fits[all->best];
-        follow(found);
+        law.found = follows(found);
+        if (!law.found) return;
       }
     }
     const FittedForm& best = all->fits[all->best];
@@ -622,6 +637,7 @@ class LawSearch {
   std::vector<CandidateLaw> candidates_;
   Split split_;
   int searches_;
+  std::optional<CandidateLaw> astray_;
 };
 
 }  // namespace
@@ -651,9 +667,16 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
                                          ? candidates_of_time(site, chain, visited)
                                          : candidates_at(site, chain, visited))
         candidates.push_back(std::move(candidate));
-    if (candidates.empty()) return ForceLaw{};
-    return LawSearch(paths, random, numbers, *linear, chain, std::move(candidates), split, searches)
-        .run();
+    ForceLaw law;
+    for (int search = 0; search < kMostSearches && !candidates.empty(); ++search) {
+      ForcePaths own = paths;  // which follow the law
+      LawSearch of_candidates(own, random, numbers, *linear, chain, candidates, split, searches);
+      law = of_candidates.run();
+      const std::optional<CandidateLaw>& astray = of_candidates.astray();
+      if (!astray) break;
+      std::erase_if(candidates, [&](const CandidateLaw& each) { return each.same_pair(*astray); });
+    }
+    return law;
   };
   ForceLaw law = law_at(sites.first, Split::kFrames, 1);
   if (law.found) return law;

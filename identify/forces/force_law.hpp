@@ -27,6 +27,10 @@ struct LawThresholds {
   /// off by less than 5 % of its root mean square: signs are smoothed and parameters followed in a line, which is no
   /// better, and noise has no part in that. Chosen.
   double worth = 0.002;
+  /// Squared residuals that a formula may leave about the motion that it gives itself, over those about the motion found,
+  /// or over noise if that is more. What leaves more was right about a motion that it does not make: parameters that
+  /// are far from their values can make a wrong law look so. Twice the residual; right laws have 0.9 to 1.3. Chosen.
+  double astray = 4;
   /// Formulas that are not told apart from the law and are fitted exactly, most probable first. Each
   /// costs a fit. Chosen.
   int rivals = 3;

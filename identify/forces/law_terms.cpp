@@ -99,18 +99,10 @@ void add_shapes(Forms& forms, TermKind kind, std::initializer_list<double> shape
 const LawTerm kOne{TermKind::kConstant}, kX{TermKind::kLinear}, kX2{TermKind::kQuadratic},
     kX3{TermKind::kCubic};
 
-constexpr std::initializer_list<double> kKnotsBothWays = {-0.6, -0.2, 0.2, 0.6};
-
-/// With a curve of straight pieces between knots: for what no formula fits.
-LawGrammar with_curve(const Forms& forms, std::initializer_list<double> knots) {
+/// With a curve over both sides of the middle.
+LawGrammar with_curve(const Forms& forms) {
   LawGrammar all = grammar(forms);
-  std::vector<LawTerm> curve = {kOne, kX};
-  int next = 0;
-  for (const double knot : knots) {
-    LawTerm& bend = curve.emplace_back(LawTerm{TermKind::kBend, knot});
-    bend.knot = next++;
-  }
-  add_form(all, curve);
+  add_curve(all, {-0.6, -0.2, 0.2, 0.6});
   return all;
 }
 
@@ -308,7 +300,7 @@ const LawGrammar& position_grammar() {
     add_shapes(forms, TermKind::kLowerStop, {0.5, 0.25, 0, -0.25, -0.5});
     add_shapes(forms, TermKind::kUpperExponential, {0.25, 0.5});
     add_shapes(forms, TermKind::kLowerExponential, {0.25, 0.5});
-    return with_curve(forms, kKnotsBothWays);
+    return with_curve(forms);
   }();
   return kGrammar;
 }
@@ -332,7 +324,7 @@ const LawGrammar& angle_grammar() {
     add_shapes(forms, TermKind::kDeadZone, {0.15, 0.3, 0.45, 0.6});
     add_shapes(forms, TermKind::kUpperStop, {-0.25, 0, 0.25, 0.5});
     add_shapes(forms, TermKind::kLowerStop, {0.25, 0, -0.25, -0.5});
-    return with_curve(forms, kKnotsBothWays);
+    return with_curve(forms);
   }();
   return kGrammar;
 }
@@ -362,8 +354,7 @@ const LawGrammar& friction_grammar() {
 }
 
 const LawGrammar& tension_grammar() {
-  static const LawGrammar kGrammar =
-      with_curve({{kX}, {kOne, kX}, {kX, kX2}, {kOne, kX, kX2}}, {0.2, 0.4, 0.6, 0.8});
+  static const LawGrammar kGrammar = grammar({{kX}, {kOne, kX}, {kX, kX2}, {kOne, kX, kX2}});
   return kGrammar;
 }
 
@@ -383,6 +374,16 @@ const LawGrammar& inertia_grammar() {
 const LawGrammar& relaxing_grammar() {
   static const LawGrammar kGrammar = grammar({{{TermKind::kRelaxing}}});
   return kGrammar;
+}
+
+void add_curve(LawGrammar& grammar, const std::vector<double>& knots) {
+  std::vector<LawTerm> curve = {kOne, kX};
+  int next = 0;
+  for (const double knot : knots) {
+    LawTerm& bend = curve.emplace_back(LawTerm{TermKind::kBend, knot});
+    bend.knot = next++;
+  }
+  add_form(grammar, curve);
 }
 
 void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign) {

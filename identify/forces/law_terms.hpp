@@ -107,6 +107,8 @@ const LawGrammar& tension_grammar();
 const LawGrammar& dashpot_grammar();  ///< for the rate of a distance
 const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
+/// Adds a curve of straight pieces between these knots, for what no formula fits.
+void add_curve(LawGrammar& grammar, const std::vector<double>& knots);
 /// Adds a curve against a velocity: pieces from 0 between these knots, the same both ways or, where the variable has a sign,
 /// different ones. No piece makes energy where it is against the velocity.
 void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign);
