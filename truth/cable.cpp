@@ -123,9 +123,8 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
   force.side -= h.stop * std::max(0.0, at.side - h.stop_side);
   const Vector to_hook = Vector{h.string_side, h.string_down} - at;
   const double length = norm(to_hook);
-  const double stretch = length - h.string_slack;
-  if (stretch > 0)
-    force = force + ((h.string + h.string_hardening * stretch) * stretch / length) * to_hook;
+  if (length > h.string_slack)
+    force = force + (h.string * (length - h.string_slack) / length) * to_hook;
   if (h.kick != 0) {  // a smooth push of 40 ms
     const double x = (t - h.kick_time) / 0.02;
     if (std::abs(x) < 1) force.side += h.kick / 0.02 * 0.5 * (1 + std::cos(std::numbers::pi * x));

@@ -68,7 +68,6 @@ const std::vector<HiddenParameter>& hidden_parameters() {
       {"stop.side", &Hidden::stop_side},
       {"string.stiffness", &Hidden::string},
       {"string.slack", &Hidden::string_slack},
-      {"string.hardening", &Hidden::string_hardening},
       {"string.side", &Hidden::string_side},
       {"string.down", &Hidden::string_down},
       {"tie.stiffness", &Hidden::tie},

@@ -57,7 +57,6 @@ struct Hidden {
   double gusts = 0, gusts_turn = 0;       // N sideways at mid-cable, rad; five oscillations
   double stop = 0, stop_side = 0.3;       // N/m, m; pushes mid-cable back beyond it
   double string = 0, string_slack = 0.6;  // N/m, m; from mid-cable to a hook, taut when longer
-  double string_hardening = 0;  // N/m^2, its force goes with the square of its stretch, too
   double string_side = -0.3, string_down = 0.6;  // m, of the hook
   double tie = 0,
          tie_slack = 1;  // N/m, m; from mid-cable to the middle of the last link, taut when longer

@@ -39,8 +39,8 @@ constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
 /// the last knot. Most of the time is spent below two root mean squares; a snap of the cable goes far beyond. A corner
 /// between two knots is off by 6 % of the root mean square times its change of slope, at most.
 constexpr double kVelocityKnots[] = {0.5, 1, 1.5, 2}, kLastInnerKnot = 0.85;
-/// Knots of a curve against a distance or a tension, over the visited range.
-constexpr double kRangeKnots[] = {0.2, 0.4, 0.6, 0.8};
+/// Knots of a curve against a tension, over the visited range.
+constexpr double kTensionKnots[] = {0.2, 0.4, 0.6, 0.8};
 /// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit
 /// may find.
 constexpr double kTriedLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
@@ -124,9 +124,9 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
   const double mean = against() ? 0 : sum / count;  // a sign changes at 0
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
-  if (is_distance() || of_tension()) {
+  if (of_tension()) {
     std::vector<double> knots;
-    for (const double knot : kRangeKnots) knots.push_back((least + knot * (most - least)) / half_);
+    for (const double knot : kTensionKnots) knots.push_back((least + knot * (most - least)) / half_);
     add_curve(grammar_, knots);
   }
   add_velocity_curves(spread);
