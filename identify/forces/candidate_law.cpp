@@ -126,7 +126,8 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
   if (of_tension()) {
     std::vector<double> knots;
-    for (const double knot : kTensionKnots) knots.push_back((least + knot * (most - least)) / half_);
+    for (const double knot : kTensionKnots)
+      knots.push_back((least + knot * (most - least)) / half_);
     add_curve(grammar_, knots);
   }
   add_velocity_curves(spread);

@@ -29,7 +29,7 @@ struct LawThresholds {
   double worth = 0.002;
   /// Squared residuals that a formula may leave about the motion that it gives itself, over those about the motion found,
   /// or over noise if that is more. What leaves more was right about a motion that it does not make: parameters that
-  /// are far from their values can make a wrong law look so. Twice the residual; right laws have 0.9 to 1.3. Chosen.
+  /// are far from their values can make a wrong law look so. Twice the residual. Chosen.
   double astray = 4;
   /// Formulas that are not told apart from the law and are fitted exactly, most probable first. Each
   /// costs a fit. Chosen.
