@@ -114,8 +114,8 @@ TEST_CASE("the times at which an event value changes its sign are written") {
   const ProcessResult run = run_catena({"simulate", the_case, "--output", output});
   REQUIRE_MESSAGE(run.exit_status == 0, run.output);
   const Table positions = read_table(output / "positions.csv");
-  const std::vector<double> side = positions.column("side_load_m"),
-                            time = positions.column("time_s");
+  const std::vector<double>& side = positions.column("side_load_m");
+  const std::vector<double>& time = positions.column("time_s");
   std::istringstream lines(testing::text_of(output / "events.csv"));
   std::string line;
   std::getline(lines, line);
