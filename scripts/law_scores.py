@@ -45,7 +45,7 @@ class Law:
         self.mass = self.constants["point_mass"] if "kinetic" in law else 0.0
         self.potential, self.torque = "potential" in law, "torque" in law
         self.cable = case["cable"]
-        self.remembers = "state" in law
+        self.remembers = law["state"][0]["name"] if "state" in law else None
         kind = next(kind for kind in ("force", "torque", "potential", "dissipation") if kind in law)
         energy = law[kind][0]
         # A force of what remembers, of the time, or of a curve against a velocity: `value` along each of these.
@@ -132,7 +132,7 @@ class Law:
             for k in range(1, len(time)):
                 step = (time[k] - time[k - 1]) / lag
                 stretch = math.exp(-step) * stretch + (1 - math.exp(-step)) / step * (followed[k] - followed[k - 1])
-                forces[k] = -self.constants["spring"] * stretch
+                forces[k] = self._value(self.along[0][1], {self.remembers: stretch})
         else:
             forces = [self._energy({"time": t}) for t in time]
         nothing = [0.0] * len(time)

@@ -35,6 +35,12 @@ double rounded_sign(double rate) { return std::tanh(rate / 0.008); }
 /// What of x is beyond -gap to gap.
 double past(double x, double gap) { return std::max(0.0, x - gap) - std::max(0.0, -x - gap); }
 
+/// A force that grows to a limit and falls beyond, as what slips does; without a limit (0) it stays as it is.
+double slipping(double force, double limit) {
+  const double share = limit > 0 ? force / (2 * limit) : 0;
+  return force / (1 + share * share);
+}
+
 class Chain {
  public:
   Chain(const Cable& cable, const Hidden& hidden)
@@ -139,8 +145,8 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
 /// Hidden force that draws mid-cable and the middle of the last link together.
 double Chain::tie_force(double distance, double rate) const {
   const Hidden& h = hidden_;
-  return h.tie * std::max(0.0, distance - h.tie_slack) + h.tie_damping * rate +
-         h.tie_valve * std::max(0.0, rate);
+  return slipping(h.tie * std::max(0.0, distance - h.tie_slack), h.tie_limit) +
+         h.tie_damping * rate + h.tie_valve * std::max(0.0, rate);
 }
 
 /// Hidden moment against the angle of the joint at mid-cable.
@@ -164,8 +170,9 @@ double Chain::joint_moment(int i, double angle, double rate, double tension, dou
       h.cubic_stiffness * angle * angle * angle + h.joint_friction * rounded_sign(rate);
   if (h.tension_friction != 0) moment += h.tension_friction * tension * rounded_sign(rate);
   if (i == n_ / 2) {
-    const double against =
-        middle_moment(angle, rate) + h.maxwell * memory + h.eccentric_pull * tension;
+    const double against = middle_moment(angle, rate) +
+                           slipping(h.maxwell * memory, h.maxwell_limit) +
+                           h.eccentric_pull * tension;
     moment += against;
     if (outside) {
       outside->joint_angle = angle;

@@ -60,6 +60,7 @@ struct Hidden {
   double string_side = -0.3, string_down = 0.6;  // m, of the hook
   double tie = 0,
          tie_slack = 1;  // N/m, m; from mid-cable to the middle of the last link, taut when longer
+  double tie_limit = 0;  // N, of what it holds before it slips; 0: none
   double tie_damping = 0;                  // N s/m, between these two
   double tie_valve = 0;                    // N s/m, the same on their way apart
   double brake = 0, brake_rate = 2;        // N m s/rad, rad/s; eddy brake in mid-joint
@@ -68,6 +69,7 @@ struct Hidden {
   double vane = 0, vane_speed = 1;   // N s/m, m/s; resists mid-cable beyond that speed
   double valve = 0;                  // N s/m; resists mid-cable on its way to larger sides
   double maxwell = 0, maxwell_lag = 0.3;  // N m/rad, s; spring before a dashpot in mid-joint
+  double maxwell_limit = 0;               // N m, of what the spring holds before it slips; 0: none
   double tension_friction = 0;            // m; every joint's friction over its tension
   double eccentric_pull = 0;              // m; the tension pulls beside mid-joint by so much
   double leak = 0;                        // kg/s that the load loses

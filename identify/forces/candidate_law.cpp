@@ -39,8 +39,8 @@ constexpr double kBeyond[] = {0.03, 0.06, 0.12, 0.25};
 /// the last knot. Most of the time is spent below two root mean squares; a snap of the cable goes far beyond. A corner
 /// between two knots is off by 6 % of the root mean square times its change of slope, at most.
 constexpr double kVelocityKnots[] = {0.5, 1, 1.5, 2}, kLastInnerKnot = 0.85;
-/// Knots of a curve against a tension, over the visited range.
-constexpr double kTensionKnots[] = {0.2, 0.4, 0.6, 0.8};
+/// Knots of a curve against the distance of two places or a tension, over the visited range.
+constexpr double kRangeKnots[] = {0.2, 0.4, 0.6, 0.8};
 /// s, of what relaxes: a swing of a cable takes some seconds, its bending some tenths of one. The least that a fit
 /// may find.
 constexpr double kTriedLags[] = {0.1, 0.3, 1}, kLeastLag = 1e-3;
@@ -124,10 +124,10 @@ CandidateLaw::CandidateLaw(LawSite site, LawVariable variable, const LawChain& c
   half_ = std::max({std::abs(least - middle_), std::abs(most - middle_), 1e-9});
   const double mean = against() ? 0 : sum / count;  // a sign changes at 0
   const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean));
-  if (of_tension()) {
+  // The distance from a point that may move would be a position with knots that may.
+  if (variable_ == LawVariable::kChord || of_tension()) {
     std::vector<double> knots;
-    for (const double knot : kTensionKnots)
-      knots.push_back((least + knot * (most - least)) / half_);
+    for (const double knot : kRangeKnots) knots.push_back((least + knot * (most - least)) / half_);
     add_curve(grammar_, knots);
   }
   add_velocity_curves(spread);
@@ -151,7 +151,7 @@ void CandidateLaw::choose_grammar(double least, double most) {
 void CandidateLaw::add_velocity_curves(double spread) {
   // Of the size of a vector at a right angle to the cable effects have squares alone.
   const bool size = chain_.in_space && variable_ == LawVariable::kNormalVelocity;
-  if (kind() != Formula::Kind::kDissipation || size) return;
+  if ((kind() != Formula::Kind::kDissipation && !has_lag()) || size) return;
   std::vector<double> knots;
   for (const double knot : kVelocityKnots)
     if (knot * spread < kLastInnerKnot * half_) knots.push_back(knot * spread / half_);
@@ -482,12 +482,14 @@ CandidateLaw::Formula CandidateLaw::formula(const std::vector<int>& form,
                                  numbers_.lag / kMostShapeChange, numbers_.lag * kMostShapeChange});
   if (has_lag() || has_time()) formula.along = {names.symbols};
   if (has_pieces(form)) {
-    formula.kind = Formula::Kind::kForce;
-    formula.along = components_of(site_, variable_, chain_.in_space);
-    formula.definitions.emplace_back("motion",
-                                     variable_ == LawVariable::kSpeed
-                                         ? fmt::format("sqrt({} + floor^2)", names.squared)
-                                         : names.symbols);
+    if (!has_lag()) {
+      formula.kind = Formula::Kind::kForce;
+      formula.along = components_of(site_, variable_, chain_.in_space);
+      formula.definitions.emplace_back("motion",
+                                       variable_ == LawVariable::kSpeed
+                                           ? fmt::format("sqrt({} + floor^2)", names.squared)
+                                           : names.symbols);
+    }
     for (const int term : form)
       for (auto& part : piece_parts(grammar_.terms[static_cast<std::size_t>(term)]))
         if (std::find(formula.definitions.begin(), formula.definitions.end(), part) ==

@@ -69,7 +69,7 @@ class CandidateLaw {
   /// The law with other numbers; nothing where no law has them.
   std::optional<CandidateLaw> with(const std::vector<int>& form,
                                    const Eigen::VectorXd& numbers) const;
-  /// Whether it is a curve against a velocity, of which pieces may be missing.
+  /// Whether it is a curve against a velocity or what relaxes, of which pieces may be missing.
   bool has_pieces(const std::vector<int>& form) const;
   /// Whether it is a curve of straight pieces: no formula.
   bool is_curve(const std::vector<int>& form) const;
@@ -110,11 +110,11 @@ class CandidateLaw {
     } kind = Kind::kPotential;
     bool curve = false;  ///< straight pieces between knots: no formula fits
     /// The integral of -force over the variable in the language of effects (docs/effects.md), that of gravity for a
-    /// mass; of the time the force; of a curve against a velocity, and with the tension, -force. A place is `offset`
+    /// mass; of the time the force; of a curve of pieces, and with the tension, -force. A place is `offset`
     /// past the middle of a link.
     std::string energy;
-    Definitions
-        definitions;  ///< of a curve: `motion`, the velocity, and what else the energy names
+    /// Of a curve of pieces: what the energy names. `motion` is the velocity, or what relaxes, which the effect names.
+    Definitions definitions;
     /// The velocity or rate along which a spring before a dashpot or a force acts; of a speed its components.
     std::vector<std::string> along;
     std::string variable_unit;
@@ -148,7 +148,7 @@ class CandidateLaw {
                              const Eigen::MatrixXd& covariance) const;
   void add_terms(Formula& formula, const std::vector<int>& form,
                  const Eigen::VectorXd& coefficients, const Eigen::VectorXd& deviations) const;
-  /// A curve against a velocity: through which values.
+  /// A curve of pieces: through which values.
   std::string pieces_in_words(const std::vector<int>& form) const;
   /// Known constants that the energy names.
   void add_fixed(Formula& formula, const std::vector<int>& form) const;

@@ -11,6 +11,7 @@
 
 #include "common/normal_quantile.hpp"
 #include "identify/forces/law_choice.hpp"
+#include "identify/forces/law_fit.hpp"
 #include "identify/forces/law_response.hpp"
 #include "identify/forces/place_kinematics.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
@@ -24,10 +25,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Fits in which the force follows the state; more where there are numbers to be found, at most so many of
-/// their steps at a time, until they move by less than such a part of one.
-constexpr int kClosedLoops = 3, kMostLoops = 16;
-constexpr double kMostSteps = 5, kSettledStep = 0.01;
 /// Times that the motion is linearised anew about the law.
 constexpr int kRoundsAboutLaw = 2;
 /// Deviation of a coefficient's prior there, in units of its size; of another number, of its step.
@@ -83,26 +80,6 @@ MatrixXd torques_of(const ForcePath& path, const std::vector<ForcePattern>& patt
   return torques;
 }
 
-/// A formula fitted to all frames, with its force following the state.
-struct FittedForm {
-  CandidateLaw law;
-  std::vector<int> form;
-  VectorXd coefficients;
-  MatrixXd covariance;  // of the coefficients and the law's numbers
-  double squares = HUGE_VAL, freedom = 0;
-  double without = HUGE_VAL;  // squares without a law
-
-  double constants() const { return law.constants(form); }
-};
-
-/// The motions found.
-std::vector<LawMotion> motions_of(const ForcePaths& paths) {
-  std::vector<LawMotion> motions;
-  for (std::size_t r = 0; r < paths.paths().size(); ++r)
-    motions.push_back({paths.paths()[r].state, paths.times(r)});
-  return motions;
-}
-
 /// What a law is chosen and confirmed by: both halves of the frames, or every other point that is seen. A law of the
 /// time says nothing of other times.
 enum class Split { kFrames, kPoints };
@@ -139,7 +116,8 @@ class LawSearch {
         chain_(chain),
         candidates_(std::move(candidates)),
         split_(split),
-        searches_(searches) {}
+        searches_(searches),
+        fits_(paths_, linear_, chain_) {}
 
   ForceLaw run() {
     ForceLaw law;
@@ -175,7 +153,8 @@ class LawSearch {
   /// that does better: for the recorded force and for the random ones.
   std::vector<double> confirm(const LawTrials& first, const LawTrials& second,
                               std::vector<ChosenLaw>& chosen) const {
-    const std::vector<ChosenLaw> curves = choose_law(candidates_, first, LawForms::kCurves);
+    std::vector<ChosenLaw> curves = choose_law(candidates_, first, LawForms::kCurves);
+    if (split_ == Split::kFrames) choose_following_curves(first, second, curves);
     std::vector<double> confirmed;
     for (std::size_t t = 0; t < chosen.size(); ++t) {
       const double least =
@@ -206,26 +185,64 @@ class LawSearch {
     return true;
   }
 
-  /// One part with a law whose force follows the state, each column without what the unknowns imitate then: the
-  /// recorded one (first) and the random ones, and what the law's force along the motion found does.
-  struct FollowingTrial {
-    MatrixXd values;
-    VectorXd law;
-  };
-  FollowingTrial following_trial(const FittedForm& fitted, FrameHalf half,
-                                 const MatrixXd& noise) const {
-    std::vector<NodeForces> forces = forces_of(fitted.law, fitted.form, fitted.coefficients);
+  /// One part with the terms of a law whose force follows the state, as trials of that law alone; `noise`: in the random
+  /// forces.
+  LawTrials following_trials(const FittedForm& fitted, FrameHalf half,
+                             const MatrixXd& noise) const {
+    const auto terms = static_cast<Index>(fitted.form.size());
+    std::vector<NodeForces> forces = fits_.forces_of(fitted.law, fitted.form, fitted.coefficients);
     for (std::size_t r = 0; r < forces.size(); ++r)
       for (std::size_t k = 0; k < forces[r].columns.size(); ++k) {
         MatrixXd& columns = forces[r].columns[k];
-        columns.conservativeResize(Eigen::NoChange, 1 + kRandomSeries);
+        columns.conservativeResize(Eigen::NoChange, terms + kRandomSeries);
         columns.rightCols(kRandomSeries) = random_[r].columns[k];
       }
-    const LawPart part = law_part(linear_, forces, half);
-    MatrixXd columns(part.value.size(), 2 + kRandomSeries);
-    columns << part.forces.col(0), part.value, part.forces.rightCols(kRandomSeries) + noise;
+    const LawPart part = law_part(fits_.with_memory(fitted.law), forces, half);
+    MatrixXd columns(part.value.size(), terms + 1 + kRandomSeries);
+    columns << part.forces.leftCols(terms), part.value, part.forces.rightCols(kRandomSeries);
+    columns.topRightCorner(part.seen, kRandomSeries) += noise.topRows(part.seen);
     columns = without_nuisance(part, columns);
-    return {columns.rightCols(1 + kRandomSeries), columns.col(0)};
+    const auto responses = columns.leftCols(terms);
+    const auto values = columns.rightCols(1 + kRandomSeries);
+    LawTrials trials;
+    trials.squares = values.colwise().squaredNorm().transpose();
+    trials.rows = columns.rows();
+    trials.seen = part.seen;
+    LawTrials::OfCandidate& of = trials.candidates.emplace_back();
+    // Numbered as all terms of the law.
+    MatrixXd all = MatrixXd::Zero(columns.rows(), fitted.law.terms());
+    for (Index j = 0; j < terms; ++j)
+      all.col(fitted.form[static_cast<std::size_t>(j)]) = responses.col(j);
+    of.gram = products_in_forms(all, {fitted.form});
+    of.cross = all.transpose() * values;
+    return trials;
+  }
+
+  /// Chooses a candidate's form for the columns in which it does better with its force following the state, and confirms it
+  /// so. It is fitted to the recorded force.
+  void choose_following(std::size_t candidate, const std::vector<int>& form, const LawTrials& first,
+                        const LawTrials& second, std::vector<ChosenLaw>& chosen) const {
+    const CandidateLaw& law = candidates_[candidate];
+    const FittedForm fitted =
+        fits_.fit_without_drive({.law = law, .form = form}, FrameHalf::kFirst);
+    if (!std::isfinite(fitted.squares) || !law.admits(fitted.coefficients)) return;
+    const LawTrials in_first = following_trials(fitted, FrameHalf::kFirst, first.noise);
+    const LawTrials in_second = following_trials(fitted, FrameHalf::kSecond, second.noise);
+    const double count = std::log(static_cast<double>(first.rows));
+    for (std::size_t t = 0; t < chosen.size(); ++t) {
+      const auto column = static_cast<Index>(t);
+      const auto of_column = fit_of_column(law, in_first.candidates[0], fitted.form, column, count);
+      if (!of_column) continue;
+      // Both are less what a law along the motion found leaves of the same part.
+      const double left = in_first.squares[column] - of_column->explained;
+      const double score =
+          1 - (left + count * law.constants(of_column->form)) / first.squares[column];
+      if (score <= chosen[t].score) continue;
+      const ChosenLaw alone{0, of_column->form, score, of_column->coefficients};
+      const double after = in_second.squares[column] - explained_squares(in_second, column, alone);
+      chosen[t] = {candidate, of_column->form, score, of_column->coefficients,
+                   second.squares[column] - after};
+    }
   }
 
   /// Friction in joints is chosen and confirmed with its force following the state, for the recorded force and the
@@ -238,23 +255,20 @@ class LawSearch {
       const std::vector<int>& form = law.forms().front();
       if (form.size() != 1 || !law.sticks(form)) continue;
       if (law.site().kind == SiteKind::kJoint && law.site().joint % every != 0) continue;
-      const FittedForm fitted = fit(law, form, {}, FrameHalf::kFirst);
-      if (!std::isfinite(fitted.squares) || !law.admits(fitted.coefficients)) continue;
-      const FollowingTrial in_first = following_trial(fitted, FrameHalf::kFirst, first.noise);
-      const FollowingTrial in_second = following_trial(fitted, FrameHalf::kSecond, second.noise);
-      const double penalty = std::log(static_cast<double>(first.rows)) * law.constants(form);
-      for (std::size_t t = 0; t < chosen.size(); ++t) {
-        const auto column = static_cast<Index>(t);
-        const VectorXd value = in_first.values.col(column);
-        const VectorXd coefficient =
-            VectorXd::Constant(1, in_first.law.dot(value) / in_first.law.squaredNorm());
-        const double left = (value - coefficient[0] * in_first.law).squaredNorm();
-        const double score = (first.squares[column] - left - penalty) / first.squares[column];
-        if (score <= chosen[t].score || !law.admits(coefficient)) continue;
-        const double after =
-            (in_second.values.col(column) - coefficient[0] * in_second.law).squaredNorm();
-        chosen[t] = {c, form, score, coefficient, second.squares[column] - after};
-      }
+      choose_following(c, form, first, second, chosen);
+    }
+  }
+
+  /// So are the best curves: the motion found is that of a smooth force, so a law that turns on and off has another one.
+  void choose_following_curves(const LawTrials& first, const LawTrials& second,
+                               std::vector<ChosenLaw>& chosen) const {
+    std::vector<Close> curves;
+    for (const Close& close : ranked({&first})) {
+      if (curves.size() == kFittedCurves) break;
+      if (!candidates_[close.candidate].is_curve(close.form) || is_like_one_of(close, curves))
+        continue;
+      choose_following(close.candidate, close.form, first, second, chosen);
+      curves.push_back(close);
     }
   }
 
@@ -288,7 +302,7 @@ class LawSearch {
       for (const LawMotion& motion : motions_of(paths_)) {
         const auto nodes = static_cast<std::size_t>(motion.state.cols());
         NodeForces& of_recording = forces.emplace_back();
-        of_recording.columns.assign(nodes, MatrixXd(turns(), columns));
+        of_recording.columns.assign(nodes, MatrixXd(chain_.turns(), columns));
         Index column = 0;
         for (std::size_t c = begin; c < end; ++c, column += candidates_[c - 1].terms()) {
           const MatrixXd states = candidates_[c].memory().along(motion, chain_);
@@ -316,16 +330,20 @@ class LawSearch {
     std::vector<int> form;
     double criterion = 0;
   };
-  std::vector<Close> closest(std::size_t chosen, const LawTrials& first,
-                             const LawTrials& second) const {
-    std::vector<Close> all, some;
-    const double count = std::log(static_cast<double>(first.rows + second.rows));
+  std::vector<Close> ranked(const std::vector<const LawTrials*>& parts) const {
+    std::vector<Close> all;
+    Index rows = 0;
+    for (const LawTrials* part : parts) rows += part->rows;
+    const double count = std::log(static_cast<double>(rows));
     for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const LawTrials::OfCandidate both{
-          first.candidates[c].gram + second.candidates[c].gram,
-          first.candidates[c].cross.leftCols(1) + second.candidates[c].cross.leftCols(1)};
+      LawTrials::OfCandidate sum{parts.front()->candidates[c].gram,
+                                 parts.front()->candidates[c].cross.leftCols(1)};
+      for (std::size_t part = 1; part < parts.size(); ++part) {
+        sum.gram += parts[part]->candidates[c].gram;
+        sum.cross += parts[part]->candidates[c].cross.leftCols(1);
+      }
       for (const std::vector<int>& form : candidates_[c].forms()) {
-        const auto fit = fit_of_column(candidates_[c], both, form, 0, count);
+        const auto fit = fit_of_column(candidates_[c], sum, form, 0, count);
         if (fit)
           all.push_back(
               {c, fit->form, count * candidates_[c].constants(fit->form) - fit->explained});
@@ -333,17 +351,25 @@ class LawSearch {
     }
     std::sort(all.begin(), all.end(),
               [](const Close& a, const Close& b) { return a.criterion < b.criterion; });
+    return all;
+  }
+  /// Whether a fit of one of them finds the same law: one beginning is enough.
+  bool is_like_one_of(const Close& close, const std::vector<Close>& some) const {
+    return std::any_of(some.begin(), some.end(), [&](const Close& better) {
+      return candidates_[close.candidate].differs_by_numbers(
+          close.form, candidates_[better.candidate], better.form);
+    });
+  }
+  std::vector<Close> closest(std::size_t chosen, const LawTrials& first,
+                             const LawTrials& second) const {
+    std::vector<Close> some;
     std::size_t of_chosen = 0, others = 0, curves = 0;
-    for (const Close& close : all) {
-      const CandidateLaw& law = candidates_[close.candidate];
-      // The fit finds the numbers: one beginning is enough.
-      if (std::any_of(some.begin(), some.end(), [&](const Close& better) {
-            return law.differs_by_numbers(close.form, candidates_[better.candidate], better.form);
-          }))
-        continue;
-      const bool fitted = law.is_curve(close.form)    ? curves++ < kFittedCurves
-                          : close.candidate == chosen ? of_chosen++ < kFittedOfChosen
-                                                      : others++ < kFittedOfOthers;
+    for (const Close& close : ranked({&first, &second})) {
+      if (is_like_one_of(close, some)) continue;
+      const bool curve = candidates_[close.candidate].is_curve(close.form);
+      const bool fitted = close.candidate == chosen ? of_chosen++ < kFittedOfChosen
+                          : curve                   ? curves++ < kFittedCurves
+                                                    : others++ < kFittedOfOthers;
       if (fitted) some.push_back(close);
     }
     return some;
@@ -356,12 +382,13 @@ class LawSearch {
       const VectorXd steps = fitted.law.steps(fitted.form);
       VectorXd wide(fitted.coefficients.size() + steps.size());
       wide << kWide * fitted.coefficients.cwiseAbs(), kWide * steps;
-      const LinearProblem closed = with_law(
-          with_memory(fitted.law), forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
+      const LinearProblem closed =
+          with_law(fits_.with_memory(fitted.law),
+                   fits_.forces_of(fitted.law, fitted.form, fitted.coefficients), wide);
       paths_.move(closed, smooth_forces(closed, {}, {}, paths_.prior, true));
       std::vector<MatrixXd> taken;
-      for (const NodeForces& of : forces_of(fitted.law, fitted.form, fitted.coefficients)) {
-        MatrixXd& force = taken.emplace_back(turns(), static_cast<Index>(of.columns.size()));
+      for (const NodeForces& of : fits_.forces_of(fitted.law, fitted.form, fitted.coefficients)) {
+        MatrixXd& force = taken.emplace_back(chain_.turns(), static_cast<Index>(of.columns.size()));
         for (std::size_t k = 0; k < of.columns.size(); ++k)
           force.col(static_cast<Index>(k)) =
               of.columns[k].leftCols(fitted.coefficients.size()) * fitted.coefficients;
@@ -370,7 +397,7 @@ class LawSearch {
       std::optional<LinearProblem> linear = paths_.linearise(kFiner);
       if (!linear) return;
       linear_ = std::move(*linear);
-      const FittedForm next = fit(fitted.law, fitted.form, fitted.coefficients);
+      const FittedForm next = fits_.fit(fitted);
       if (!std::isfinite(next.squares) || !next.law.admits(next.coefficients)) return;
       fitted = next;
     }
@@ -395,131 +422,6 @@ class LawSearch {
         if (points || (half == FrameHalf::kSecond) == (k >= recording.seen.size() / 2))
           sum += recording.seen[k].value.squaredNorm();
     return sum;
-  }
-
-  Index turns() const { return chain_.turns(); }
-
-  /// The linear problem with what a law remembers behind the states.
-  LinearProblem with_memory(const CandidateLaw& law) const {
-    LinearProblem linear = linear_;
-    const std::vector<LawMotion> along = motions_of(paths_);
-    for (std::size_t r = 0; r < along.size(); ++r)
-      linear.recordings[r] = law.memory().added_to(linear_.recordings[r], along[r], chain_);
-    return linear;
-  }
-
-  /// The terms of a form about the motion found. With coefficients also how the law's force changes with
-  /// each of its numbers, and how it follows the state.
-  std::vector<NodeForces> forces_of(const CandidateLaw& law, const std::vector<int>& form,
-                                    const VectorXd& coefficients) const {
-    std::vector<NodeForces> forces;
-    const bool known = coefficients.size() > 0;
-    const auto terms = static_cast<Index>(form.size());
-    // Downwards: a place at the end has nothing beyond it.
-    const VectorXd numbers = law.numbers(form), steps = -law.steps(form);
-    std::vector<CandidateLaw> beside;
-    for (Index i = 0; known && i < numbers.size(); ++i)
-      beside.push_back(
-          law.with(form, numbers + steps[i] * VectorXd::Unit(numbers.size(), i)).value_or(law));
-    for (const LawMotion& motion : motions_of(paths_)) {
-      NodeForces& of_recording = forces.emplace_back();
-      const MatrixXd states = law.memory().along(motion, chain_);
-      std::vector<MatrixXd> states_beside;
-      states_beside.reserve(beside.size());
-      for (const CandidateLaw& other : beside)
-        states_beside.push_back(other.memory().along(motion, chain_));
-      for (Index k = 0; k < states.cols(); ++k) {
-        VectorXd state = states.col(k);
-        MatrixXd& columns =
-            of_recording.columns.emplace_back(turns(), terms + static_cast<Index>(beside.size()));
-        columns.leftCols(terms) = law.force(state, form);
-        if (!known) continue;
-        const VectorXd here = columns.leftCols(terms) * coefficients;
-        for (std::size_t i = 0; i < beside.size(); ++i) {
-          const auto number = static_cast<Index>(i);
-          columns.col(terms + number) =
-              (beside[i].force(states_beside[i].col(k), form) * coefficients - here) /
-              steps[number];
-        }
-        constexpr double kDifference = 1e-7;  // rad, rad/s
-        MatrixXd& by_state =
-            of_recording.by_state.emplace_back(MatrixXd::Zero(turns(), state.size()));
-        const auto differentiate = [&](Index i) {
-          const double value = state[i];
-          state[i] += kDifference;
-          by_state.col(i) = (law.force(state, form) * coefficients - here) / kDifference;
-          state[i] = value;
-        };
-        // As many coordinates of the links as turns.
-        for (Index i = 0; i < turns(); ++i) differentiate(i);
-        if (law.sticks(form))
-          by_state.middleCols(chain_.coordinates, turns()) =
-              law.resistance(state, form, coefficients);
-        else
-          for (Index i = 0; law.follows_rates() && i < turns(); ++i)
-            differentiate(chain_.coordinates + i);
-        for (Index i = motion.state.rows(); i < state.size(); ++i) differentiate(i);
-      }
-    }
-    return forces;
-  }
-
-  /// The coefficients and numbers of least squares, by Gauss-Newton steps. `first`: coefficients to begin
-  /// with, or none.
-  FittedForm fit(CandidateLaw law, const std::vector<int>& form, VectorXd first = {},
-                 FrameHalf half = FrameHalf::kBoth) const {
-    FittedForm best{.law = law, .form = form, .coefficients = {}, .covariance = {}};
-    const auto terms = static_cast<Index>(form.size());
-    const Index numbers = law.numbers(form).size();
-    VectorXd coefficients = std::move(first);
-    for (int loop = 0; loop <= (numbers > 0 ? kMostLoops : kClosedLoops); ++loop) {
-      const bool open = coefficients.size() == 0;
-      const LawPart part = law_part(with_memory(law), forces_of(law, form, coefficients), half);
-      MatrixXd columns(part.value.size(), part.forces.cols() + 1);
-      columns << part.forces, part.value;
-      const MatrixXd left = without_nuisance(part, columns);
-      const VectorXd value = left.rightCols(1);
-      const MatrixXd laws = left.leftCols(part.forces.cols());
-      coefficients = least_squares(MatrixXd(laws.leftCols(terms)), value);
-      if (!coefficients.allFinite()) break;
-      if (open) continue;
-      // Those before were not of a force that follows the state as it does with them.
-      const double squares = (value - laws.leftCols(terms) * coefficients).squaredNorm();
-      if (loop >= kClosedLoops && (squares < best.squares || numbers == 0)) {
-        best.law = law;
-        best.coefficients = coefficients;
-        best.squares = squares;
-        best.without = value.squaredNorm();
-        best.freedom = static_cast<double>(part.seen - laws.cols());
-        best.covariance = inverse(laws.transpose() * laws);
-      }
-      if (numbers == 0) continue;
-      const VectorXd all = least_squares(laws, value);
-      VectorXd moved = all.tail(numbers);
-      const double most = moved.cwiseQuotient(law.steps(form)).cwiseAbs().maxCoeff();
-      if (!(most > kSettledStep) && loop >= kClosedLoops) break;
-      const double part_of_it = std::min(1.0, kMostSteps / most);
-      std::optional<CandidateLaw> next = law.with(form, law.numbers(form) + part_of_it * moved);
-      if (!next && loop >= kClosedLoops) break;
-      if (!next) continue;  // no law has those numbers: the coefficients alone are fitted
-      law = std::move(*next);
-      coefficients += part_of_it * (all.head(terms) - coefficients);
-    }
-    return best;
-  }
-
-  /// The same, where pieces of a curve that would make energy are left out, one by one.
-  FittedForm fit_without_drive(const FittedForm& begin) const {
-    FittedForm fitted = fit(begin.law, begin.form, begin.coefficients);
-    while (fitted.law.has_pieces(fitted.form) && fitted.form.size() > 1 &&
-           std::isfinite(fitted.squares)) {
-      Index most = 0;
-      if (!(fitted.coefficients.maxCoeff(&most) > 0)) break;
-      std::vector<int> form = fitted.form;
-      form.erase(form.begin() + most);
-      fitted = fit(fitted.law, form);
-    }
-    return fitted;
   }
 
   /// Formulas that were fitted to the same linear equations.
@@ -548,7 +450,7 @@ class LawSearch {
     ComparedForms all;
     double least = HUGE_VAL, lowest = HUGE_VAL;
     for (const FittedForm& begin : begins) {
-      FittedForm fitted = fit_without_drive(begin);
+      FittedForm fitted = fits_.fit_without_drive(begin);
       if (!std::isfinite(fitted.squares) || !fitted.law.admits(fitted.coefficients)) continue;
       if (fitted.squares < least) {
         least = fitted.squares;
@@ -581,10 +483,7 @@ class LawSearch {
     std::vector<FittedForm> begins;
     begins.reserve(close.size());
     for (const Close& of : close)
-      begins.push_back({.law = candidates_[of.candidate],
-                        .form = of.form,
-                        .coefficients = {},
-                        .covariance = {}});
+      begins.push_back({.law = candidates_[of.candidate], .form = of.form});
     std::optional<ComparedForms> all = compared(begins);
     law.found = all.has_value();
     if (!law.found) return;
@@ -637,6 +536,7 @@ class LawSearch {
   std::vector<CandidateLaw> candidates_;
   Split split_;
   int searches_;
+  LawFit fits_;
   std::optional<CandidateLaw> astray_;
 };
 

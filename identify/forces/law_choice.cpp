@@ -125,15 +125,18 @@ std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
   return best;
 }
 
+double explained_squares(const LawTrials& trials, Index column, const ChosenLaw& law) {
+  if (law.explained_in_second) return *law.explained_in_second;
+  const LawTrials::OfCandidate& of = trials.candidates[law.candidate];
+  const VectorXd& b = law.coefficients;
+  const VectorXd cross = of.cross(law.form, column);
+  return 2 * b.dot(cross) - b.dot(gram_of(of, law.form) * b);
+}
+
 double explained_by_law(const LawTrials& trials, Index column, const ChosenLaw& law, double least) {
   const double before = trials.squares[column];
   if (law.form.empty() || !(before > least)) return 0;
-  if (law.explained_in_second) return *law.explained_in_second / (before - least);
-  const LawTrials::OfCandidate& of = trials.candidates[law.candidate];
-  const VectorXd& b = law.coefficients;
-  const MatrixXd gram = gram_of(of, law.form);
-  const VectorXd cross = of.cross(law.form, column);
-  return (2 * b.dot(cross) - b.dot(gram * b)) / (before - least);
+  return explained_squares(trials, column, law) / (before - least);
 }
 
 }  // namespace catena

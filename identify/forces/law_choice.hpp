@@ -65,6 +65,8 @@ enum class LawForms { kFormulas, kCurves };
 std::vector<ChosenLaw> choose_law(const std::vector<CandidateLaw>& candidates,
                                   const LawTrials& trials, LawForms of);
 
+/// What a law with its coefficients takes off the squares of a column.
+double explained_squares(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law);
 /// Of what can be explained of a column, down to the squares `least`: the share that a law does.
 double explained_by_law(const LawTrials& trials, Eigen::Index column, const ChosenLaw& law,
                         double least);

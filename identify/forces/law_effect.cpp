@@ -61,13 +61,15 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
       title, formula.text, law.candidates, law.chosen_in(), 100 * law.share_confirmed(),
       law.chance);
   using Kind = CandidateLaw::Formula::Kind;
-  const char* const more =
-      formula.curve ? " No formula fits: the law is a curve of straight pieces between knots."
-      : formula.kind == Kind::kRelaxing ? " What relaxes is a spring before a dashpot (Maxwell): "
-                                          "its length z follows z' = rate - z/lag."
-      : formula.kind == Kind::kTorque
-          ? " The tension is that of weight and of turning at constant rates."
-          : "";
+  std::string more;
+  if (formula.curve)
+    more += " No formula fits: the law is a curve of straight pieces between knots.";
+  if (formula.kind == Kind::kRelaxing)
+    more +=
+        " What relaxes is a spring before a dashpot (Maxwell): its length z follows z' = rate - "
+        "z/lag.";
+  if (formula.kind == Kind::kTorque)
+    more += " The tension is that of weight and of turning at constant rates.";
   std::string text =
       fmt::format("format = 1\nkind = \"effect\"\nid = \"{}\"\ntitle = {}\ndescription = {}\n", id,
                   toml_quoted("Discovered: " + title), toml_quoted(words + more));
@@ -118,12 +120,15 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
   };
   std::string force = formula.energy;
   if (formula.kind == Kind::kRelaxing) {
+    const std::string stretch = id + "_stretch";
     text += fmt::format(
-        "\n[[state]]\nname = \"{0}_stretch\"\nunit = \"{1}\"\nper = \"{2}\"\n"
-        "rate = \"{3} - {0}_stretch/lag\"\n",
-        id, formula.variable_unit, where.at, formula.along.front());
-    force = fmt::format("(-{}spring*{}_stretch)", where.factor, id);
-  } else if (!formula.definitions.empty()) {
+        "\n[[state]]\nname = \"{0}\"\nunit = \"{1}\"\nper = \"{2}\"\n"
+        "rate = \"{3} - {0}/lag\"\n",
+        stretch, formula.variable_unit, where.at, formula.along.front());
+    force = fmt::format("(-{}spring*{})", where.factor, stretch);
+    if (!formula.definitions.empty()) define("motion", stretch);
+  }
+  if (!formula.definitions.empty()) {
     for (const auto& [name, value] : formula.definitions) define(name.c_str(), value);
     define("resistance", fmt::format("{}({})", where.factor, formula.energy));
     force = "(-resistance)";

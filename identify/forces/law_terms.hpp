@@ -109,8 +109,8 @@ const LawGrammar& inertia_grammar();
 const LawGrammar& relaxing_grammar();
 /// Adds a curve of straight pieces between these knots, for what no formula fits.
 void add_curve(LawGrammar& grammar, const std::vector<double>& knots);
-/// Adds a curve against a velocity: pieces from 0 between these knots, the same both ways or, where the variable has a sign,
-/// different ones. No piece makes energy where it is against the velocity.
+/// Adds a curve against a velocity or what relaxes: pieces from 0 between these knots, the same both ways or, where the
+/// variable has a sign, different ones. No piece makes energy where it is against that.
 void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign);
 /// Between these times, s.
 LawGrammar time_grammar(double begin, double end);

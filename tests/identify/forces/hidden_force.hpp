@@ -274,4 +274,19 @@ inline Recovery recovery_at_place(const Filmed& filmed, const truth::Hidden& hid
   return recovery(history.size.topRows(1), history.deviation.topRows(1), truth, history.time);
 }
 
+/// 2 s of a cable of six links with six markers.
+inline Film short_film() {
+  Film film;
+  film.links = film.case_links = 6;
+  film.camera.duration = 2;
+  film.camera.markers = 6;
+  return film;
+}
+
+inline MissingForce force_in(const Filmed& filmed) {
+  const FittedModel baseline = filmed.baseline();
+  if (!baseline.ok) throw std::runtime_error("the fit without a force failed");
+  return missing_force(*baseline.problem, baseline.x, {filmed.film.camera.noise});
+}
+
 }  // namespace catena::testing
