@@ -43,7 +43,7 @@ constexpr Index kJointsThatStick = 12;
 /// Columns of terms whose responses are made at a time: what is in memory at once.
 constexpr Index kColumnsAtOnce = 400;
 /// Formulas that are fitted with their force following the state: of the chosen pair, and of all others; and curves of
-/// any pair, which take no formula's place.
+/// any pair, which take no formula's place. A chosen curve is always fitted.
 constexpr std::size_t kFittedOfChosen = 6, kFittedOfOthers = 8, kFittedCurves = 3;
 
 /// What forces look like that follow no law: of the same spectrum as those of a path, with random
@@ -135,7 +135,7 @@ class LawSearch {
     law.chance *= searches_;
     law.by_points = split_ == Split::kPoints;
     law.found = law.chance <= kLawThresholds.chance && law.confirmed >= kLawThresholds.confirmed;
-    if (law.found) read_formula(closest(chosen[0].candidate, first, second), law);
+    if (law.found) read_formula(closest(chosen[0], first, second), law);
     if (law.found && split_ == Split::kPoints) law.found = is_between_ends(law);
     return law;
   }
@@ -360,16 +360,18 @@ class LawSearch {
           close.form, candidates_[better.candidate], better.form);
     });
   }
-  std::vector<Close> closest(std::size_t chosen, const LawTrials& first,
+  std::vector<Close> closest(const ChosenLaw& chosen, const LawTrials& first,
                              const LawTrials& second) const {
+    const bool chose_curve = candidates_[chosen.candidate].is_curve(chosen.form);
     std::vector<Close> some;
     std::size_t of_chosen = 0, others = 0, curves = 0;
     for (const Close& close : ranked({&first, &second})) {
       if (is_like_one_of(close, some)) continue;
       const bool curve = candidates_[close.candidate].is_curve(close.form);
-      const bool fitted = close.candidate == chosen ? of_chosen++ < kFittedOfChosen
-                          : curve                   ? curves++ < kFittedCurves
-                                                    : others++ < kFittedOfOthers;
+      const bool of_this = close.candidate == chosen.candidate;
+      const bool fitted = curve     ? (of_this && chose_curve) || curves++ < kFittedCurves
+                          : of_this ? of_chosen++ < kFittedOfChosen
+                                    : others++ < kFittedOfOthers;
       if (fitted) some.push_back(close);
     }
     return some;
