@@ -233,7 +233,7 @@ class LawSearch {
       const auto column = static_cast<Index>(t);
       const auto of_column = fit_of_column(law, in_first.candidates[0], fitted.form, column, count);
       if (!of_column) continue;
-      // Both are less what a law along the motion found leaves of the same part.
+      // Shares of what is there without a law along the motion found, as all scores are.
       const double left = in_first.squares[column] - of_column->explained;
       const double score =
           1 - (left + count * law.constants(of_column->form)) / first.squares[column];
