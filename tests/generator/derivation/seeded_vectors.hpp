@@ -15,10 +15,11 @@ namespace catena::testing {
 using Vector = std::array<GiNaC::ex, 3>;
 inline constexpr const char* kAxes[] = {"side", "down", "across"};
 
-/// Of the order of one and of both signs: the same for a name each time.
-inline GiNaC::ex draw(const std::string& name) {
+/// Of the order of one and of both signs: the same for a name and a seed each time.
+inline GiNaC::ex draw(const std::string& name, unsigned seed = 0) {
   std::seed_seq sequence(name.begin(), name.end());
   std::mt19937 generator(sequence);
+  generator.discard(seed);
   return GiNaC::numeric(2 * (static_cast<int>(generator() % 1801) - 900) + 1, 1000);
 }
 
