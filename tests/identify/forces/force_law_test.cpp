@@ -300,6 +300,24 @@ TEST_CASE("dry friction of the support: a sign alone, and its moment") {
   CHECK(std::abs(friction.value - hidden.pivot_friction) < 0.05 * hidden.pivot_friction);
 }
 
+// Least squares choose friction of another place, about the motion found. About its own motion it leaves ten times as much.
+TEST_CASE("a law that leaves too much about the motion that it makes is left out") {
+  testing::Film film = testing::short_film();
+  film.links = film.case_links = 2;
+  film.camera.markers = 2;
+  film.camera.duration = 15;
+  film.angles = {0.8, 0.8};
+  truth::Hidden hidden;
+  hidden.pivot_friction = 1.5;  // N m
+  const MissingForce found = testing::force_in(testing::film(film, hidden));
+  REQUIRE(found.law.has_value());
+  REQUIRE(found.law->found);
+  CHECK(found.law->force == "torque at the support");
+  CHECK(found.law->variable == "rate of link 1");
+  REQUIRE(found.law->formula.constants.size() == 1);
+  check_constant(found.law->formula.constants[0], hidden.pivot_friction, "N m");
+}
+
 TEST_CASE("friction that holds joints, with the tension and without") {
   testing::Film film = testing::short_film();
   film.camera.duration = 5;

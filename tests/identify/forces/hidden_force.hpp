@@ -25,12 +25,13 @@
 
 namespace catena::testing {
 
-/// How a recording is made: released from rest, from the shape of a hanging cable.
+/// How a recording is made: released from rest, from the shape of a hanging cable or from `angles`.
 struct Film {
   truth::Camera camera;
   int links = 24, case_links = 24;
   double held_side = 1.2,
          held_down = 2.0;  ///< m, of the end before its release: a tenth of the cable is slack
+  std::vector<double> angles;  ///< rad, of the links
 
   truth::Cable cable() const {
     truth::Cable cable;
@@ -38,7 +39,7 @@ struct Film {
     return cable;
   }
   std::vector<double> start() const {
-    return truth::catenary_angles(cable(), held_side, held_down);
+    return angles.empty() ? truth::catenary_angles(cable(), held_side, held_down) : angles;
   }
 };
 
