@@ -30,7 +30,7 @@ struct Film {
   truth::Camera camera;
   int links = 24, case_links = 24;
   double held_side = 1.2,
-         held_down = 2.0;  ///< m, of the end before its release: a tenth of the cable is slack
+         held_down = 2.0;      ///< m, of the end before its release: a tenth of the cable is slack
   std::vector<double> angles;  ///< rad, of the links
 
   truth::Cable cable() const {
