@@ -136,6 +136,13 @@ Vector Chain::middle_force(double t, Vector at, Vector velocity, Vector accelera
     if (std::abs(x) < 1) force.side += h.kick / 0.02 * 0.5 * (1 + std::cos(std::numbers::pi * x));
   }
   force.side += h.push / (1 + std::exp(-2 * (t - h.push_time) / 0.2));
+  constexpr double kRise = 0.05, kBegin = 1.5;  // s
+  const double since = t - kBegin;
+  if (h.shove != 0)
+    force.side += h.shove * std::exp(-std::max(0.0, since) / h.shove_fade) /
+                  (1 + std::exp(-2 * since / kRise));
+  if (h.shake != 0 && since > 0 && since < h.shake_period)
+    force.side += h.shake * std::sin(2 * std::numbers::pi * since / h.shake_period);
   for (int j = 0; h.gusts != 0 && j < 5; ++j)  // 0.3 to 2.3 Hz
     force.side += h.gusts * std::sin(2 * std::numbers::pi * (0.3 + 0.5 * j) * t +
                                      (j + 1) * (j + 1) * h.gusts_turn);

@@ -53,7 +53,10 @@ struct Hidden {
   double place_drag = 0;                    // kg/m, at mid-cable
   double magnet = 0, magnet_depth = 0.1;    // N m^2, m below the rest point
   double kick = 0, kick_time = 1.5;         // N s sideways at mid-cable, s
-  double push = 0, push_time = 1.5;       // N sideways at mid-cable, begins within 0.5 s of that, s
+  double push = 0, push_time = 1.5;    // N sideways at mid-cable, begins within 0.5 s of that, s
+  double shove = 0, shove_fade = 0.4;  // N sideways at mid-cable from 1.5 s on, s; fades
+  double shake = 0,
+         shake_period = 0.8;  // N sideways at mid-cable from 1.5 s on, s; one period of a sine
   double gusts = 0, gusts_turn = 0;       // N sideways at mid-cable, rad; five oscillations
   double stop = 0, stop_side = 0.3;       // N/m, m; pushes mid-cable back beyond it
   double string = 0, string_slack = 0.6;  // N/m, m; from mid-cable to a hook, taut when longer

@@ -94,6 +94,17 @@ std::vector<ChainVector> directions_around(bool in_space) {
   return directions;
 }
 
+/// Pieces of the time have one spacing and one beginning: those of the first.
+bool has_that_of_first(const LawTerm& term) {
+  return term.kind == TermKind::kTimePiece && term.knot > 0;
+}
+
+/// Where a piece has its value, in units of the half width, or s.
+double knot_of(const LawTerm& term) {
+  return term.kind == TermKind::kTimePiece ? term.moment + (term.knot + 1) * term.shape
+                                           : term.shape;
+}
+
 std::vector<int> all_of(Index count) {
   std::vector<int> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), 0);
@@ -161,10 +172,7 @@ void CandidateLaw::add_velocity_curves(double spread) {
 
 double CandidateLaw::constants(const std::vector<int>& form) const {
   double count = static_cast<double>(of_point()) + has_lag();
-  for (const int term : form) {
-    const LawTermText& text = text_of(grammar_.terms[static_cast<std::size_t>(term)].kind);
-    count += 1 + (text.shape != nullptr) + text.moment;
-  }
+  for (const int term : form) count += 1 + !shape_name(term).empty() + has_moment(term);
   return count;
 }
 
@@ -217,12 +225,14 @@ Index CandidateLaw::places() const {
 }
 
 std::string CandidateLaw::shape_name(int term) const {
-  const char* const name = text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).shape;
-  return name ? name : "";
+  const LawTerm& of = grammar_.terms[static_cast<std::size_t>(term)];
+  const char* const name = text_of(of.kind).shape;
+  return name && !has_that_of_first(of) ? name : "";
 }
 
 bool CandidateLaw::has_moment(int term) const {
-  return text_of(grammar_.terms[static_cast<std::size_t>(term)].kind).moment;
+  const LawTerm& of = grammar_.terms[static_cast<std::size_t>(term)];
+  return text_of(of.kind).moment && !has_that_of_first(of);
 }
 
 VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
@@ -233,8 +243,8 @@ VectorXd CandidateLaw::numbers(const std::vector<int>& form) const {
   if (has_lag()) numbers.push_back(numbers_.lag);
   for (const int place : form) {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(place)];
-    if (text_of(term.kind).shape) numbers.push_back(term.shape);
-    if (text_of(term.kind).moment) numbers.push_back(term.moment);
+    if (!shape_name(place).empty()) numbers.push_back(term.shape);
+    if (has_moment(place)) numbers.push_back(term.moment);
   }
   return VectorXd::Map(numbers.data(), static_cast<Index>(numbers.size()));
 }
@@ -265,13 +275,17 @@ std::optional<CandidateLaw> CandidateLaw::with(const std::vector<int>& form,
       (places() == 0 || (other.site_.arc_length > 0 && other.places() == places())) &&
       (site_.kind != SiteKind::kPair || other.site_.arc_length < other.site_.other_arc_length) &&
       (!has_lag() || other.numbers_.lag > kLeastLag);
-  for (const int term : form) {
-    if (shape_name(term).empty()) continue;
-    const double shape = numbers[next++];
-    other.grammar_.terms[static_cast<std::size_t>(term)].shape = shape;
-    possible = possible && (shape_name(term) == kEdge || shape > kLeastShape);
-    if (has_moment(term))
-      other.grammar_.terms[static_cast<std::size_t>(term)].moment = numbers[next++];
+  for (const int place : form) {
+    LawTerm& term = other.grammar_.terms[static_cast<std::size_t>(place)];
+    if (has_that_of_first(term)) {
+      const LawTerm& first = other.grammar_.terms[static_cast<std::size_t>(form.front())];
+      term.shape = first.shape;
+      term.moment = first.moment;
+    }
+    if (shape_name(place).empty()) continue;
+    term.shape = numbers[next++];
+    possible = possible && (shape_name(place) == kEdge || term.shape > kLeastShape);
+    if (has_moment(place)) term.moment = numbers[next++];
   }
   if (!possible) return std::nullopt;
   return other;
@@ -282,8 +296,8 @@ bool CandidateLaw::has_pieces(const std::vector<int>& form) const {
 }
 
 bool CandidateLaw::is_curve(const std::vector<int>& form) const {
-  return has_pieces(form) ||
-         grammar_.terms[static_cast<std::size_t>(form.back())].kind == TermKind::kBend;
+  const TermKind kind = grammar_.terms[static_cast<std::size_t>(form.back())].kind;
+  return has_pieces(form) || kind == TermKind::kBend || kind == TermKind::kTimePiece;
 }
 
 bool CandidateLaw::has_terms_of(const std::vector<int>& form, const CandidateLaw& other,
@@ -373,8 +387,8 @@ std::string CandidateLaw::energy_of(const LawTerm& term, const std::string& symb
   return filled(is_piece(term.kind)                ? piece_text(term)
                 : kind() == Formula::Kind::kTorque ? text.slope
                                                    : text.energy,
-                "", symbols, names_of(site_, variable_, chain_.in_space).squared,
-                letter_of(term.knot));
+                std::to_string(term.knot + 1), symbols,
+                names_of(site_, variable_, chain_.in_space).squared, letter_of(term.knot));
 }
 
 void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
@@ -400,22 +414,22 @@ void CandidateLaw::add_terms(Formula& formula, const std::vector<int>& form,
     const auto i = static_cast<Index>(j);
     formula.constants.push_back(amplitude(filled(text.amplitude, "", "", "", n), text.power,
                                           coefficients[i], deviations[i]));
-    if (!text.shape) continue;
+    if (shape_name(form[j]).empty()) continue;
     const double shape = term.shape * half_;
     const bool edge = shape_name(form[j]) == kEdge;
     formula.constants.push_back({text.shape, names.variable_unit, shape,
                                  half_ * deviations[number++], false,
                                  edge ? shape - 2 * half_ : shape / kMostShapeChange,
                                  edge ? shape + 2 * half_ : shape * kMostShapeChange});
-    if (!text.moment) continue;
+    if (!has_moment(form[j])) continue;
     const double reach = kMostShapeChange * shape;
     formula.constants.push_back({"moment", "s", term.moment, deviations[number++], false,
                                  term.moment - reach, term.moment + reach});
   }
-  if (has_pieces(form)) terms = pieces_in_words(form);
-  formula.text =
-      fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
-                  form.size() == 1 && !has_pieces(form) ? terms : fmt::format("({})", terms));
+  const bool pieces = has_pieces(form) || (has_time() && is_curve(form));
+  if (pieces) terms = pieces_in_words(form);
+  formula.text = fmt::format("{} = {}{}", names.force, has_time() ? "" : "-",
+                             form.size() == 1 && !pieces ? terms : fmt::format("({})", terms));
 }
 
 std::string CandidateLaw::pieces_in_words(const std::vector<int>& form) const {
@@ -425,10 +439,12 @@ std::string CandidateLaw::pieces_in_words(const std::vector<int>& form) const {
     const LawTerm& term = grammar_.terms[static_cast<std::size_t>(place)];
     words += fmt::format("{}{} at {}{:.3g} {}", words.empty() ? "" : ", ",
                          filled(text_of(term.kind).words, "", "", "", letter_of(term.knot)),
-                         term.kind == TermKind::kBackwardPiece ? "-" : "", term.shape * half_,
+                         term.kind == TermKind::kBackwardPiece ? "-" : "", knot_of(term) * half_,
                          names.variable_unit);
   }
-  return fmt::format("straight pieces of {} through 0 and {}", names.variable, words);
+  return fmt::format("straight pieces of {} through {}{}", names.variable,
+                     has_time() ? "" : "0 and ",
+                     words + (has_time() ? ", 0 before and after" : ""));
 }
 
 void CandidateLaw::add_fixed(Formula& formula, const std::vector<int>& form) const {

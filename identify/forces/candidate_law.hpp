@@ -148,7 +148,7 @@ class CandidateLaw {
                              const Eigen::MatrixXd& covariance) const;
   void add_terms(Formula& formula, const std::vector<int>& form,
                  const Eigen::VectorXd& coefficients, const Eigen::VectorXd& deviations) const;
-  /// A curve of pieces: through which values.
+  /// A curve of pieces, or against the time: through which values.
   std::string pieces_in_words(const std::vector<int>& form) const;
   /// Known constants that the energy names.
   void add_fixed(Formula& formula, const std::vector<int>& form) const;

@@ -150,7 +150,8 @@ class LawSearch {
   }
 
   /// What the chosen laws explain of the second part. Where a formula does not explain enough of it a curve is chosen, if
-  /// that does better: for the recorded force and for the random ones.
+  /// that does better: for the recorded force and for the random ones. Of the time a curve is chosen as a formula is: a
+  /// pulse in one direction explains much of any push in another.
   std::vector<double> confirm(const LawTrials& first, const LawTrials& second,
                               std::vector<ChosenLaw>& chosen) const {
     std::vector<ChosenLaw> curves = choose_law(candidates_, first, LawForms::kCurves);
@@ -160,6 +161,7 @@ class LawSearch {
       const double least =
           t == 0 ? left_by_force(FrameHalf::kSecond) : static_cast<double>(second.seen);
       const auto column = static_cast<Index>(t);
+      if (split_ == Split::kPoints && curves[t].score > chosen[t].score) chosen[t] = curves[t];
       double& explained =
           confirmed.emplace_back(explained_by_law(second, column, chosen[t], least));
       if (explained >= kLawThresholds.confirmed || curves[t].form.empty()) continue;

@@ -118,7 +118,7 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
     text += fmt::format("\n[[{}]]\nat = \"{}\"\n{}value = \"{}{}\"\n", table, where.at,
                         where.per_length ? "per = \"length\"\n" : "", gate, value);
   };
-  std::string force = formula.energy;
+  std::string force = fmt::format("({})", formula.energy);
   if (formula.kind == Kind::kRelaxing) {
     const std::string stretch = id + "_stretch";
     text += fmt::format(

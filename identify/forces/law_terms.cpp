@@ -15,6 +15,8 @@ namespace {
 constexpr double kSignWidth = 0.05, kEdgeWidth = 0.03;
 /// Of a corner of a piece, over the largest velocity: cosh of its inverse is a number, and of seven times that.
 constexpr double kPieceWidth = 0.01;
+/// Values of a curve against the time. With six one period of a sine is followed within some per cent.
+constexpr int kTimeValues = 6;
 
 /// max(y, 0), smooth: CATENA_POSITIVE_PART, the slope of CATENA_STOP. Few repetitions of y, for y is long in an effect.
 double positive_part(double y, double width) {
@@ -25,6 +27,11 @@ double positive_part(double y, double width) {
 #define CATENA_STOP(Y) "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/8"
 #define CATENA_POSITIVE_PART(Y) \
   "(" Y " + sqrt(" Y "^2 + edge_width^2))^2/(4*sqrt(" Y "^2 + edge_width^2))"
+/// Around a knot, over the spacing: the second difference of sizes that are smooth where they are 0.
+#define CATENA_SIZE(Y) "sqrt((" Y ")^2 + edge_width^2)"
+#define CATENA_HAT(Y)                  \
+  CATENA_SIZE(Y " + spacing_of_knots") \
+  " - 2*" CATENA_SIZE(Y) " + " CATENA_SIZE(Y " - spacing_of_knots")
 
 /// log(cosh(y)), also where cosh(y) is too large a number.
 double log_cosh(double y) {
@@ -77,7 +84,8 @@ void add_form(LawGrammar& grammar, const std::vector<LawTerm>& form) {
     while (place < static_cast<int>(grammar.terms.size()) &&
            (grammar.terms[static_cast<std::size_t>(place)].kind != term.kind ||
             grammar.terms[static_cast<std::size_t>(place)].shape != term.shape ||
-            grammar.terms[static_cast<std::size_t>(place)].moment != term.moment))
+            grammar.terms[static_cast<std::size_t>(place)].moment != term.moment ||
+            grammar.terms[static_cast<std::size_t>(place)].knot != term.knot))
       ++place;
     if (place == static_cast<int>(grammar.terms.size())) grammar.terms.push_back(term);
     places.push_back(place);
@@ -154,6 +162,12 @@ double value_of(const LawTerm& term, double u) {
       return -piece(term, -u);
     case TermKind::kPulse:
       return std::exp(-0.5 * std::pow((u - term.moment) / term.shape, 2));
+    case TermKind::kTimePiece: {
+      const auto size = [&](int knot) {
+        return std::hypot(u - term.moment - knot * term.shape, term.width);
+      };
+      return 0.5 * (size(term.knot) - 2 * size(term.knot + 1) + size(term.knot + 2)) / term.shape;
+    }
     case TermKind::kOnset:
       return 0.5 * (1 + std::tanh((u - term.moment) / term.shape));
   }
@@ -266,6 +280,10 @@ const LawTermText& text_of(TermKind kind) {
       {TermKind::kOnset,
        {"amplitude", "duration", 0, "amplitude x (1 + tanh((time - moment)/duration))/2",
         "amplitude*(1 + tanh((time - moment)/duration))/2", true}},
+      {TermKind::kTimePiece,
+       {"force_{n}", "spacing_of_knots", 0, "force_{n}",
+        "force_{n}*(" CATENA_HAT("time - moment - {x}*spacing_of_knots") ")/(2*spacing_of_knots)",
+        true}},
       {TermKind::kRelaxing, {"spring", nullptr, 1, "spring x {x}", ""}},
   };
   for (const auto& row : kTexts)
@@ -276,6 +294,8 @@ const LawTermText& text_of(TermKind kind) {
 #undef CATENA_UP_TO
 #undef CATENA_ONE_WAY_UP_TO
 #undef CATENA_STOP
+#undef CATENA_HAT
+#undef CATENA_SIZE
 #undef CATENA_POSITIVE_PART
 
 std::string filled(const std::string& text, const std::string& x, const std::string& z,
@@ -426,6 +446,18 @@ LawGrammar time_grammar(double begin, double end) {
     add(TermKind::kOnset, width, begin + 2 * width, end - 2 * width, std::max(width, span / 40));
     width *= 3;
   }
+  // Over half of the time at most: a slow force over all of it follows anything.
+  constexpr double kShortestSpacing = 0.05;  // s
+  constexpr int kSpacings = kTimeValues + 1;
+  for (double spacing = kShortestSpacing; kSpacings * spacing < span / 2; spacing *= kWidening)
+    for (double first = begin + spacing; first + kSpacings * spacing < end; first += spacing) {
+      std::vector<LawTerm>& curve = forms.emplace_back();
+      for (int knot = 0; knot < kTimeValues; ++knot) {
+        LawTerm& term = curve.emplace_back(LawTerm{TermKind::kTimePiece, spacing, first});
+        term.width = kEdgeWidth * spacing;
+        term.knot = knot;
+      }
+    }
   return grammar(forms);
 }
 

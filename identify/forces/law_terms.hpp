@@ -38,8 +38,9 @@ enum class TermKind {
   kInertia,
   kRelaxing,
   // against the time
-  kPulse,  ///< a bell as wide as the shape around the moment
-  kOnset,  ///< begins at the moment, over the shape
+  kPulse,      ///< a bell as wide as the shape around the moment
+  kOnset,      ///< begins at the moment, over the shape
+  kTimePiece,  ///< of a curve of straight pieces that begins at the moment and has a knot after each shape: 1 at its knot
 };
 
 /// One term of a law: a function of the variable's distance from a middle, in units of a half width,
@@ -50,12 +51,12 @@ struct LawTerm {
   double shape = 0;   ///< in units of the half width, s of the time; 0: it has none
   double moment = 0;  ///< s, of terms that have one
   double width = 0;   ///< of a step or an edge, in units of the half width
-  /// Of a piece: the knots beside it, where it is 0. Without one above it stays 1.
+  /// Of a piece against a velocity: the knots beside it, where it is 0. Without one above it stays 1.
   double below = 0, above = HUGE_VAL;
   int knot = 0;  ///< of a piece or a bend: which knot it is
 };
 
-/// Whether it is a piece of a curve against a velocity. Any of them may be missing in a curve.
+/// Whether it is a piece of a curve against a velocity. Any of them may be missing in such a curve.
 bool is_piece(TermKind kind);
 
 /// At u half widths from the middle.
@@ -77,7 +78,8 @@ std::string letter_of(int knot);
 
 /// What a formula is written with: names of the amplitude and of the shape (nullptr: none), the
 /// power of the variable's unit, words and energy, in which {x} is the variable in words, {z} in the language
-/// of effects from the middle, {q} its square and {n} the letter of a knot, also behind the amplitude's name.
+/// of effects from the middle, {q} its square and {n} the letter of a knot, also behind the amplitude's name; of the time
+/// {x} is the number of a knot.
 struct LawTermText {
   const char *amplitude, *shape;
   int power = 0;
@@ -112,7 +114,7 @@ void add_curve(LawGrammar& grammar, const std::vector<double>& knots);
 /// Adds a curve against a velocity or what relaxes: pieces from 0 between these knots, the same both ways or, where the
 /// variable has a sign, different ones. No piece makes energy where it is against that.
 void add_velocity_curve(LawGrammar& grammar, const std::vector<double>& knots, bool has_sign);
-/// Between these times, s.
+/// Between these times, s. A curve is 0 before and after some knots.
 LawGrammar time_grammar(double begin, double end);
 
 }  // namespace catena

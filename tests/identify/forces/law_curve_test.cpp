@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,15 @@ double curve_at(const CandidateLaw::Formula& formula, double x) {
     of[constant.name] = constant.value;
   for (const CandidateLaw::Constant& constant : formula.fixed) of[constant.name] = constant.value;
   const auto value = [&](const std::string& name) { return of.contains(name) ? of.at(name) : 0.0; };
+  if (of.contains("spacing_of_knots")) {  // 0 before the first and after the last
+    double sum = 0, knot = of.at("moment");
+    for (char n = 'a'; of.contains(std::string("force_") + n); ++n) {
+      knot += of.at("spacing_of_knots");
+      sum += of.at(std::string("force_") + n) *
+             std::max(0.0, 1 - std::abs(x - knot) / of.at("spacing_of_knots"));
+    }
+    return sum;
+  }
   if (of.contains("constant")) {  // its slope changes at knots
     double sum = of.at("constant") + of.at("linear") * x;
     for (char n = 'a'; of.contains(std::string("bend_") + n); ++n)
@@ -140,6 +150,19 @@ TEST_CASE(
   for (const truth::OutsideForces& at : found.truth) rates.push_back(at.tie.rate);
   CHECK(curve_error(found.formula, rates, [](double v) { return 5 * std::max(0.0, v); }) < 0.1);
   CHECK(std::abs(curve_at(found.formula, -0.2)) < 0.05 * curve_at(found.formula, 0.2));
+}
+
+TEST_CASE("a place that is shaken once: a curve against the time") {
+  truth::Hidden hidden;
+  hidden.shake = 0.2;  // N
+  const FoundCurve found = curve_found(curve_film(), hidden, "time");
+  CHECK(found.formula.text.starts_with("side force = (straight pieces of time through force_a"));
+  std::vector<double> times;
+  for (double t = 0; t < 5; t += 0.01) times.push_back(t);
+  CHECK(curve_error(found.formula, times, [&](double t) {
+          const double turn = (t - 1.5) / hidden.shake_period;  // truth/cable.cpp
+          return turn > 0 && turn < 1 ? hidden.shake * std::sin(2 * std::numbers::pi * turn) : 0.0;
+        }) < 0.1);
 }
 
 /// A force that grows to a limit and falls beyond.

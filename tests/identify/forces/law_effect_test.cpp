@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kLength = 0.4, kGravity = 9.81;  // m, m/s^2
 constexpr double kMass = 0.05, kLoad = 0.2;       // kg, of a link and of the load
-constexpr double kTime = 0.05;                    // s
+constexpr double kTime = 0.1;                     // s
 constexpr double kStretch = 0.3;                  // of everything that relaxes, m, rad or 1/m
 /// Inside of the last link of two links and of three. On the first link nothing moves along it; at a
 /// joint the effect is the mean of both links, whose directions differ.
@@ -92,7 +92,7 @@ struct MadeLaw {
 /// variable of each grammar with every kind of term. No coefficient gives energy.
 std::vector<MadeLaw> laws_of_all_pairs(bool in_space) {
   const LawChain chain = chain_of(2, in_space);
-  LawMotion visited{MatrixXd(2 * chain.coordinates, 4), {0, 0.2, 0.4, 0.6}};
+  LawMotion visited{MatrixXd(2 * chain.coordinates, 4), {0, 0.4, 0.8, 1.2}};
   Index node = 0;
   for (const double at : {-1.0, -0.4, 0.3, 0.9})
     visited.state.col(node++) = state_on(chain, at, -0.5 * at, 2 * at, -3 * at);
