@@ -152,17 +152,35 @@ TEST_CASE(
   CHECK(std::abs(curve_at(found.formula, -0.2)) < 0.05 * curve_at(found.formula, 0.2));
 }
 
-TEST_CASE("a place that is shaken once: a curve against the time") {
-  truth::Hidden hidden;
-  hidden.shake = 0.2;  // N
-  const FoundCurve found = curve_found(curve_film(), hidden, "time");
+/// The error of a curve against the time, of a push to the side.
+template <class True>
+double error_over_time(const truth::Hidden& hidden, std::uint64_t seed, const True& push) {
+  testing::Film film = curve_film();
+  film.camera.seed = seed;
+  const FoundCurve found = curve_found(film, hidden, "time");
   CHECK(found.formula.text.starts_with("side force = (straight pieces of time through force_a"));
   std::vector<double> times;
   for (int frame = 0; frame < 500; ++frame) times.push_back(0.01 * frame);  // s
-  CHECK(curve_error(found.formula, times, [&](double t) {
+  return curve_error(found.formula, times, push);
+}
+
+TEST_CASE("a place that is shaken once: a curve against the time") {
+  truth::Hidden hidden;
+  hidden.shake = 0.2;  // N
+  CHECK(error_over_time(hidden, 1, [&](double t) {
           const double turn = (t - 1.5) / hidden.shake_period;  // truth/cable.cpp
           return turn > 0 && turn < 1 ? hidden.shake * std::sin(2 * std::numbers::pi * turn) : 0.0;
         }) < 0.1);
+}
+
+TEST_CASE("a push that fades: a curve against the time, no pulse in another direction") {
+  truth::Hidden hidden;
+  hidden.shove = 0.4;  // N
+  CHECK(error_over_time(hidden, 4, [&](double t) {
+          const double since = t - 1.5;  // truth/cable.cpp
+          return hidden.shove * std::exp(-std::max(0.0, since) / hidden.shove_fade) /
+                 (1 + std::exp(-2 * since / 0.05));
+        }) < 0.15);
 }
 
 /// A force that grows to a limit and falls beyond.
