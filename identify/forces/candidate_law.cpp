@@ -376,8 +376,9 @@ void CandidateLaw::add_spring_about_rest(Formula& formula, const VectorXd& coeff
       (covariance(0, 0) - 2 * ratio * covariance(0, 1) + ratio * ratio * covariance(1, 1)) *
       by_ratio * by_ratio;
   const double rest = middle_ - half_ * ratio, deviation = std::sqrt(std::max(0.0, rest_variance));
-  formula.constants.push_back({"rest", names.variable_unit, rest, deviation, false,
-                               rest - kBound * deviation, rest + kBound * deviation});
+  const double reach = std::isfinite(deviation) ? kBound * deviation : kBound * half_;
+  formula.constants.push_back(
+      {"rest", names.variable_unit, rest, deviation, false, rest - reach, rest + reach});
   formula.text = fmt::format("{} = -linear x ({} - rest)", names.force, names.variable);
   formula.energy = energy_of({TermKind::kLinear}, fmt::format("{} - rest", names.symbols));
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "common/number_text.hpp"
@@ -79,7 +80,9 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
                         of.name, of.unit, shortest_number(of.lower), shortest_number(of.upper),
                         of.amplitude ? "neutral" : "default",
                         shortest_number(of.amplitude ? 0 : of.value));
-    text += fmt::format("description = \"Found: {:.6g} +- {:.2g}\"\n", of.value, of.deviation);
+    const std::string error =
+        std::isfinite(of.deviation) ? fmt::format("+- {:.2g}", of.deviation) : "(not determined)";
+    text += fmt::format("description = \"Found: {:.6g} {}\"\n", of.value, error);
   };
   for (const CandidateLaw::Constant& constant : formula.constants) parameter(constant);
   const LawSite& site = law.site;

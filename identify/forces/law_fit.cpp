@@ -2,6 +2,7 @@
 #include "identify/forces/law_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -117,6 +118,9 @@ FittedForm LawFit::fit(const FittedForm& begin, FrameHalf half) const {
       best.without = value.squaredNorm();
       best.freedom = static_cast<double>(part.seen - laws.cols());
       best.covariance = inverse(laws.transpose() * laws);
+      // What the data do not determine has no error bound.
+      if (!best.covariance.allFinite() || best.covariance.diagonal().minCoeff() < 0)
+        best.covariance = VectorXd::Constant(laws.cols(), HUGE_VAL).asDiagonal();
     }
     if (numbers == 0) continue;
     const VectorXd all = least_squares(laws, value);

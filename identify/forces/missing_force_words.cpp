@@ -107,13 +107,18 @@ void describe_everywhere(MissingForce& missing) {
 }
 
 /// "side force = -linear x (side position - rest), linear = 0.3 (0.296 to 0.304) N/m, ...": with
-/// intervals of 95 %, where there are any.
+/// intervals of 95 %, where the data determine them.
 std::string with_constants(const CandidateLaw::Formula& formula) {
   std::string words = formula.text;
-  for (const CandidateLaw::Constant& constant : formula.constants)
-    words += fmt::format(", {} = {:.3g} ({:.3g} to {:.3g}) {}", constant.name, constant.value,
-                         constant.value - kNormalQuantile95 * constant.deviation,
-                         constant.value + kNormalQuantile95 * constant.deviation, constant.unit);
+  for (const CandidateLaw::Constant& constant : formula.constants) {
+    const double half = kNormalQuantile95 * constant.deviation;
+    const std::string interval =
+        std::isfinite(half)
+            ? fmt::format("{:.3g} to {:.3g}", constant.value - half, constant.value + half)
+            : "not determined";
+    words += fmt::format(", {} = {:.3g} ({}) {}", constant.name, constant.value, interval,
+                         constant.unit);
+  }
   return words;
 }
 
