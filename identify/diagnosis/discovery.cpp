@@ -11,6 +11,7 @@
 #include "common/nearest_name.hpp"
 #include "identify/diagnosis/choice.hpp"
 #include "identify/diagnosis/explanation.hpp"
+#include "identify/diagnosis/links.hpp"
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/shares.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -26,6 +27,9 @@ constexpr const char* kDiscoveredLaw = "discovered_law";
 /// In space, where a link has six numbers at a frame, the work of a missing force grows with the cube of the
 /// links: some minutes for so many and 6 s, most of an hour for twice as many.
 constexpr int kMostLinksInSpace = 24;
+/// A law is sought with so many links where those of the case are too few: with these a missing force is estimated in
+/// half a minute.
+constexpr int kMostLinksForLaw = 24;
 
 /// "discovered_law", or "discovered_law_2" where a case has one already.
 std::string new_id(const DiagnosisContext& context) {
@@ -78,10 +82,12 @@ Explanation refitted_with(const DiagnosisState& state, const FittedModel& base,
   return explanation;
 }
 
-MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& model) {
+MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& model,
+                              int searches = 1) {
   state.context.begin("estimating the missing force");
-  MissingForce force = missing_force(*model.problem, model.x, levels(state.found.noise),
-                                     [&] { return !state.context.stopped(); });
+  MissingForce force = missing_force(
+      *model.problem, model.x, levels(state.found.noise), [&] { return !state.context.stopped(); },
+      searches);
   state.context.stop_if_asked();
   return force;
 }
@@ -166,19 +172,8 @@ double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& 
   return beside.log_probability - alone.log_probability - cost;
 }
 
-}  // namespace
-
-bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
-  const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival.model, found.noise);
-  const Decision decision =
-      ahead ? decide(law, rival.model, found.noise) : decide(rival.model, law, found.noise);
-  const bool against = ahead && decision.decided;
-  (against ? found.runners_up : found.alternatives)
-      .push_back({found.law, std::move(rival), decision});
-  return !against;
-}
-
-void discover(DiagnosisState& state, const Case& asked) {
+/// With as many links as the best model has.
+void discover_with_these_links(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
   const bool gap =
       found.verdict == DiagnosisVerdict::kUnexplained || found.verdict == DiagnosisVerdict::kPartly;
@@ -223,6 +218,42 @@ void discover(DiagnosisState& state, const Case& asked) {
     }
   }
   if (gap || nothing_taken) take_law(state, last, beside, asked);
+}
+
+/// Where more links would change the motion by more than the noise, a force makes up for them, too, and follows no law:
+/// the law is sought with more links.
+void discover_with_more_links(DiagnosisState& state, const Case& asked) {
+  Stage finer = last_without_effects(state.found.stages);
+  const int links = std::min(state.options.max_links, kMostLinksForLaw);
+  const bool worthwhile = finer.finer.predicted > finer.fit.noise;
+  if (!worthwhile || links <= finer.links || finer.model.problem->model().in_space()) return;
+  state.context.begin("fitting with more links");
+  finer.model =
+      refitted_with_links(finer.model, links, finer.effects, state.found.noise, state.context);
+  state.context.stop_if_asked();
+  if (!finer.model.ok) return;
+  finer.links = links;
+  const bool second = state.found.force && state.found.force->law;
+  take_law(state, finer, force_missing_in(state, finer.model, second ? 2 : 1), asked);
+}
+
+}  // namespace
+
+bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
+  const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival.model, found.noise);
+  const Decision decision =
+      ahead ? decide(law, rival.model, found.noise) : decide(rival.model, law, found.noise);
+  const bool against = ahead && decision.decided;
+  (against ? found.runners_up : found.alternatives)
+      .push_back({found.law, std::move(rival), decision});
+  return !against;
+}
+
+void discover(DiagnosisState& state, const Case& asked) {
+  discover_with_these_links(state, asked);
+  const DiagnosisVerdict verdict = state.found.verdict;
+  if (verdict == DiagnosisVerdict::kUnexplained || verdict == DiagnosisVerdict::kPartly)
+    discover_with_more_links(state, asked);
 }
 
 }  // namespace catena

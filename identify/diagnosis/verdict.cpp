@@ -137,8 +137,8 @@ std::string sentence_of_effects(const Diagnosis& found, const std::vector<std::s
 std::string sentence_of_law(const Diagnosis& found, bool is_closed) {
   const MissingForce& force = *found.force;
   std::string sentence =
-      fmt::format("Missing, and in no library: {}{} ({}).", force.law->formula.text,
-                  site_in_words(force.law->site), found.law);
+      fmt::format("Missing, and in no library: {}{} ({}){}.", force.law->formula.text,
+                  site_in_words(force.law->site), found.law, of_more_links(found));
   if (!found.shares.empty()) sentence += fmt::format(" {}.", shares_in_words(found, found.effects));
   return is_closed ? sentence
                    : sentence + fmt::format(" {} stays: {}.", in_percent(found.shares.left_fitted),

@@ -547,7 +547,7 @@ class LawSearch {
 }  // namespace
 
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const LawSites& sites) {
+                                     const LawSites& sites, int searches) {
   std::mt19937_64 numbers(kLawSeed);
   std::vector<NodeForces> random;
   for (const ForcePath& path : paths.paths())
@@ -564,7 +564,7 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
   const std::optional<LinearProblem> linear = paths.linearise(kFiner);
   if (!linear) return std::nullopt;
   const std::vector<LawMotion> visited = motions_of(paths);
-  const auto law_at = [&](const std::vector<LawSite>& of, Split split, int searches) {
+  const auto law_at = [&](const std::vector<LawSite>& of, Split split, int tried) {
     std::vector<CandidateLaw> candidates;
     for (const LawSite& site : of)
       for (CandidateLaw& candidate : split == Split::kPoints
@@ -574,7 +574,7 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
     ForceLaw law;
     for (int search = 0; search < kMostSearches && !candidates.empty(); ++search) {
       ForcePaths own = paths;  // which follow the law
-      LawSearch of_candidates(own, random, numbers, *linear, chain, candidates, split, searches);
+      LawSearch of_candidates(own, random, numbers, *linear, chain, candidates, split, tried);
       law = of_candidates.run();
       const std::optional<CandidateLaw>& astray = of_candidates.astray();
       if (!astray) break;
@@ -582,10 +582,10 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
     }
     return law;
   };
-  ForceLaw law = law_at(sites.first, Split::kFrames, 1);
+  ForceLaw law = law_at(sites.first, Split::kFrames, searches);
   if (law.found) return law;
-  ForceLaw second = sites.pushed ? law_at({*sites.pushed}, Split::kPoints, 2)
-                                 : law_at(sites.pairs, Split::kFrames, 2);
+  ForceLaw second = sites.pushed ? law_at({*sites.pushed}, Split::kPoints, 2 * searches)
+                                 : law_at(sites.pairs, Split::kFrames, 2 * searches);
   return second.found ? std::move(second) : std::move(law);
 }
 

@@ -73,8 +73,8 @@ struct LawSites {
 };
 
 /// `paths`: settled with forces; other patterns act on it afterwards.
-/// Nothing where the motion cannot be followed.
+/// `searches`: in these data with this one. Nothing where the motion cannot be followed.
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const LawSites& sites);
+                                     const LawSites& sites, int searches);
 
 }  // namespace catena
