@@ -11,7 +11,8 @@ namespace catena {
 /// effect of the library and either closes the gap or is certain beside what is left; the verdict is
 /// then `discovered`. Where effects were found, the same is tried without them first: a law that
 /// predicts the held-out part better than they do, beyond chance, takes their place. Else all stays
-/// as concluded, and a note says why. With `DiagnosisOptions::discover` all this is done where no gap
+/// as concluded, and a note says why. In the plane the same is tried with more links where these would change the motion by
+/// more than the noise. With `DiagnosisOptions::discover` all this is done where no gap
 /// is left, too. Formulas that the search did not tell from the law are fitted in its place: those that
 /// the data do not decide against become alternatives. `asked`: as for conclude(). Throws as conclude(), and
 /// Interrupted.
