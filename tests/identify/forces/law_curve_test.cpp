@@ -160,6 +160,7 @@ double error_over_time(const truth::Hidden& hidden, std::uint64_t seed, const Tr
   const FoundCurve found = curve_found(film, hidden, "time");
   CHECK(found.formula.text.starts_with("side force = (straight pieces of time through force_a"));
   std::vector<double> times;
+  times.reserve(500);
   for (int frame = 0; frame < 500; ++frame) times.push_back(0.01 * frame);  // s
   return curve_error(found.formula, times, push);
 }
