@@ -172,11 +172,15 @@ double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& 
   return beside.log_probability - alone.log_probability - cost;
 }
 
+bool leaves_gap(const Diagnosis& found) {
+  return found.verdict == DiagnosisVerdict::kUnexplained ||
+         found.verdict == DiagnosisVerdict::kPartly;
+}
+
 /// With as many links as the best model has.
 void discover_with_these_links(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
-  const bool gap =
-      found.verdict == DiagnosisVerdict::kUnexplained || found.verdict == DiagnosisVerdict::kPartly;
+  const bool gap = leaves_gap(found);
   // Where effects close the gap, one cause may have been taken for several of them only.
   if (!gap && found.effects.size() < 2 && !state.options.discover) return;
   const Stage last = state.last();
@@ -251,9 +255,7 @@ bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
 
 void discover(DiagnosisState& state, const Case& asked) {
   discover_with_these_links(state, asked);
-  const DiagnosisVerdict verdict = state.found.verdict;
-  if (verdict == DiagnosisVerdict::kUnexplained || verdict == DiagnosisVerdict::kPartly)
-    discover_with_more_links(state, asked);
+  if (leaves_gap(state.found)) discover_with_more_links(state, asked);
 }
 
 }  // namespace catena
