@@ -203,7 +203,7 @@ class LawSearch {
     MatrixXd columns(part.value.size(), terms + 1 + kRandomSeries);
     columns << part.forces.leftCols(terms), part.value, part.forces.rightCols(kRandomSeries);
     columns.topRightCorner(part.seen, kRandomSeries) += noise.topRows(part.seen);
-    columns = without_nuisance(part, columns);
+    columns = without_nuisance(part, std::move(columns));
     const auto responses = columns.leftCols(terms);
     const auto values = columns.rightCols(1 + kRandomSeries);
     LawTrials trials;

@@ -103,7 +103,7 @@ FittedForm LawFit::fit(const FittedForm& begin, FrameHalf half) const {
     const LawPart part = law_part(with_memory(law), forces_of(law, form, coefficients), half);
     MatrixXd columns(part.value.size(), part.forces.cols() + 1);
     columns << part.forces, part.value;
-    const MatrixXd left = without_nuisance(part, columns);
+    const MatrixXd left = without_nuisance(part, std::move(columns));
     const VectorXd value = left.rightCols(1);
     const MatrixXd laws = left.leftCols(part.forces.cols());
     coefficients = least_squares(MatrixXd(laws.leftCols(terms)), value);

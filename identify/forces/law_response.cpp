@@ -17,12 +17,6 @@ namespace {
 /// rad, rad/s: prior of the state at the beginning of the second part, relative to the motion found.
 constexpr double kSplitDeviation = 0.2;
 
-/// Rows of what is seen from node `first` on, before node `last`.
-struct SeenOfLaw {
-  MatrixXd by_parameter, by_start, by_force;
-  VectorXd value;  ///< measured, less what the path gives without any force
-};
-
 /// A force that goes straight from w at the beginning of a step to w at its end.
 struct StepForces {
   MatrixXd now, next;  // states x patterns: what the end of the step takes from w at both ends
@@ -57,71 +51,81 @@ struct StepForces {
   }
 };
 
-/// The response of the linearised chain to parameters, to the state at node `first` and to forces
-/// there. At node 0 the state comes from the parameters.
-SeenOfLaw law_response(const LinearRecording& recording, std::size_t first, std::size_t last,
-                       const NodeForces& forces) {
+/// Where the response of one recording goes in the whole problem: its first row and the first column of its own unknowns.
+struct Block {
+  Index row, column;
+};
+
+/// The nodes of a recording that a part has.
+struct Nodes {
+  std::size_t first, last;  ///< `last` is the first one beyond it
+  Nodes(const LinearRecording& recording, FrameHalf half)
+      : first(half == FrameHalf::kSecond ? recording.seen.size() / 2 : 0),
+        last(half == FrameHalf::kFirst ? recording.seen.size() / 2 : recording.seen.size()) {}
+  /// Coordinates of the state at the first of them, where it is an unknown. At node 0 it comes from the parameters.
+  Index free(const LinearRecording& recording) const {
+    return first > 0 ? recording.start_offset.size() : 0;
+  }
+};
+
+/// Writes the response of the linearised chain to parameters, to the state at the first node and to forces into rows of
+/// what is seen. `shared`: so many of the parameters are those of all recordings.
+void add_response(const LinearRecording& recording, const Nodes& nodes, const NodeForces& forces,
+                  Index shared, const Block& block, LawPart& part) {
   const Index states = recording.start_offset.size();
-  const Index parameters = recording.start_by_parameter.cols(), free = first > 0 ? states : 0;
-  const Index columns = forces.columns.front().cols(), all = parameters + free + columns + 1;
-  Index rows = 0;
-  for (std::size_t k = first; k < last; ++k) rows += recording.seen[k].value.size();
-  SeenOfLaw out{MatrixXd(rows, parameters), MatrixXd(rows, free), MatrixXd(rows, columns),
-                VectorXd(rows)};
-  MatrixXd y = MatrixXd::Zero(states, all);
-  if (first == 0) {
+  const Index parameters = recording.start_by_parameter.cols(), free = nodes.free(recording);
+  const Index unknowns = parameters + free, columns = part.forces.cols();
+  MatrixXd y = MatrixXd::Zero(states, unknowns + columns + 1);
+  if (free == 0) {
     y.leftCols(parameters) = recording.start_by_parameter;
     y.rightCols(1) = recording.start_offset;
   } else {
     y.middleCols(parameters, free).setIdentity();
   }
   const bool closed = !forces.by_state.empty();
-  Index row = 0;
-  for (std::size_t k = first; k < last; ++k) {
+  Index row = block.row;
+  for (std::size_t k = nodes.first; k < nodes.last; ++k) {
     const LinearRecording::Seen& seen = recording.seen[k];
     const Index count = seen.value.size();
-    MatrixXd now(count, all);
+    MatrixXd now(count, y.cols());
     now.noalias() = seen.by_state * y;
     now.leftCols(parameters) += seen.by_parameter;
-    out.by_parameter.middleRows(row, count) = now.leftCols(parameters);
-    out.by_start.middleRows(row, count) = now.middleCols(parameters, free);
-    out.by_force.middleRows(row, count) = now.middleCols(parameters + free, columns);
-    out.value.segment(row, count) = seen.value - now.rightCols(1);
+    part.nuisance.block(row, 0, count, shared) = now.leftCols(shared);
+    part.nuisance.block(row, block.column, count, unknowns - shared) =
+        now.middleCols(shared, unknowns - shared);
+    part.forces.middleRows(row, count) = now.middleCols(unknowns, columns);
+    part.value.segment(row, count) = seen.value - now.rightCols(1);
     row += count;
-    if (k + 1 == last) break;
+    if (k + 1 == nodes.last) break;
     const LinearRecording::Step& step = recording.steps[k];
     const StepForces by(step);
-    MatrixXd moved(states, all);
+    MatrixXd moved(states, y.cols());
     moved.noalias() = step.by_state * y;
     moved.leftCols(parameters) += step.by_parameter;
-    moved.middleCols(parameters + free, columns) +=
+    moved.middleCols(unknowns, columns) +=
         by.now * forces.columns[k] + by.next * forces.columns[k + 1];
     moved.rightCols(1) += step.offset;
     if (closed) by.follow(forces.by_state[k], forces.by_state[k + 1], y, moved);
     y = std::move(moved);
   }
-  return out;
 }
 
 }  // namespace
 
 LawPart law_part(const LinearProblem& linear, const std::vector<NodeForces>& forces,
                  FrameHalf half) {
-  std::vector<SeenOfLaw> responses;
-  Index rows = 0, unknowns = linear.shared_mean.size();
-  const Index shared = unknowns, columns = forces.front().columns.front().cols();
-  for (std::size_t r = 0; r < linear.recordings.size(); ++r) {
-    const LinearRecording& recording = linear.recordings[r];
-    const std::size_t nodes = recording.seen.size(), middle = nodes / 2;
-    responses.push_back(law_response(recording, half == FrameHalf::kSecond ? middle : 0,
-                                     half == FrameHalf::kFirst ? middle : nodes, forces[r]));
-    rows += responses.back().value.size();
-    unknowns += recording.own_mean.size() + responses.back().by_start.cols();
+  const Index shared = linear.shared_mean.size();
+  Index rows = 0, unknowns = shared;
+  for (const LinearRecording& recording : linear.recordings) {
+    const Nodes nodes(recording, half);
+    for (std::size_t k = nodes.first; k < nodes.last; ++k) rows += recording.seen[k].value.size();
+    unknowns += recording.own_mean.size() + nodes.free(recording);
   }
   LawPart part;
   part.seen = rows;
   part.nuisance.setZero(rows + unknowns, unknowns);
-  part.forces.setZero(rows + unknowns, columns);
+  part.forces.resize(rows + unknowns, forces.front().columns.front().cols());
+  part.forces.bottomRows(unknowns).setZero();
   part.value.setZero(rows + unknowns);
   const auto prior = [&](Index column, const VectorXd& mean, const VectorXd& deviation) {
     for (Index j = 0; j < mean.size(); ++j) {
@@ -130,20 +134,18 @@ LawPart law_part(const LinearProblem& linear, const std::vector<NodeForces>& for
     }
   };
   prior(0, linear.shared_mean, linear.shared_deviation);
-  Index row = 0, column = shared;
-  for (std::size_t r = 0; r < responses.size(); ++r) {
-    const SeenOfLaw& seen = responses[r];
-    const Index count = seen.value.size(), free = seen.by_start.cols();
-    const Index own = linear.recordings[r].own_mean.size();
-    part.nuisance.block(row, 0, count, shared) = seen.by_parameter.leftCols(shared);
-    part.nuisance.block(row, column, count, own) = seen.by_parameter.rightCols(own);
-    part.nuisance.block(row, column + own, count, free) = seen.by_start;
-    part.forces.middleRows(row, count) = seen.by_force;
-    part.value.segment(row, count) = seen.value;
-    prior(column, linear.recordings[r].own_mean, linear.recordings[r].own_deviation);
-    prior(column + own, VectorXd::Zero(free), VectorXd::Constant(free, kSplitDeviation));
-    row += count;
-    column += own + free;
+  Block block{0, shared};
+  for (std::size_t r = 0; r < linear.recordings.size(); ++r) {
+    const LinearRecording& recording = linear.recordings[r];
+    const Nodes nodes(recording, half);
+    add_response(recording, nodes, forces[r], shared, block, part);
+    for (std::size_t k = nodes.first; k < nodes.last; ++k)
+      block.row += recording.seen[k].value.size();
+    const Index free = nodes.free(recording);
+    prior(block.column, recording.own_mean, recording.own_deviation);
+    block.column += recording.own_mean.size();
+    prior(block.column, VectorXd::Zero(free), VectorXd::Constant(free, kSplitDeviation));
+    block.column += free;
   }
   return part;
 }
@@ -189,9 +191,11 @@ LinearProblem with_law(const LinearProblem& linear, const std::vector<NodeForces
   return out;
 }
 
-MatrixXd without_nuisance(const LawPart& part, const MatrixXd& columns) {
+MatrixXd without_nuisance(const LawPart& part, MatrixXd columns) {
   const MatrixXd basis = orthonormal_basis(part.nuisance, 1e-12);
-  return columns - basis * (basis.transpose() * columns);
+  const MatrixXd along = basis.transpose() * columns;
+  columns.noalias() -= basis * along;
+  return columns;
 }
 
 }  // namespace catena

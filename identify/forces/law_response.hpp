@@ -37,6 +37,6 @@ LinearProblem with_law(const LinearProblem& linear, const std::vector<NodeForces
                        const Eigen::VectorXd& deviation);
 
 /// Columns less what the unknowns imitate.
-Eigen::MatrixXd without_nuisance(const LawPart& part, const Eigen::MatrixXd& columns);
+Eigen::MatrixXd without_nuisance(const LawPart& part, Eigen::MatrixXd columns);
 
 }  // namespace catena
