@@ -2,6 +2,7 @@
 #include "identify/diagnosis/refits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/parallel.hpp"
 #include "common/special_values.hpp"
@@ -47,11 +48,17 @@ struct Refits {
 
   LeastSquares least_squares() const { return limits.within(search.context.least_squares); }
 
-  /// Whether a refit removed what the score promised: the linearised model is right, so that no other start
-  /// is tried.
+  /// What a refit removed beyond what the score promised, in noise levels squared.
+  double beyond_promise(const Explanation& explanation) const {
+    return squares - sum_of_squares(explanation.model, search.noise) - explanation.score.removed;
+  }
+
+  /// Whether a refit removed what the score promised, and no more than twice that: the linearised model is right, so
+  /// that no other start is tried.
   bool kept_promise(const Explanation& explanation) const {
-    return explanation.refitted &&
-           squares - sum_of_squares(explanation.model, search.noise) >= explanation.score.removed;
+    if (!explanation.refitted) return false;
+    const double beyond = beyond_promise(explanation);
+    return beyond >= 0 && beyond <= explanation.score.removed;
   }
 
   /// Of some starts the one that leaves least; the first where no simulation succeeds.
@@ -147,18 +154,18 @@ void refit_all(const CandidateSearch& search, std::vector<Explanation*> chosen, 
     refit(refits, *chosen[i], far);
     context.end_task();
   });
-  // What holds and slips, or is large, has more than one minimum: the best of those that still
-  // leave a gap are tried from elsewhere.
+  // What holds and slips, or is large, has more than one minimum. Of those that still leave a gap, those are tried
+  // from elsewhere of which the linearised model was most wrong.
   std::erase_if(chosen, [&](const Explanation* each) {
     return !each->refitted || !each->is_effect() || !each->fit.present ||
            candidate_of(search, *each).own_model || refits.kept_promise(*each);
   });
   std::stable_sort(chosen.begin(), chosen.end(), [&](const Explanation* a, const Explanation* b) {
-    return sum_of_squares(a->model, search.noise) < sum_of_squares(b->model, search.noise);
+    return std::abs(refits.beyond_promise(*a)) > std::abs(refits.beyond_promise(*b));
   });
   chosen.resize(std::min(chosen.size(), kThresholds.tried_elsewhere));
   if (chosen.empty()) return;
-  context.begin("refitting the best from elsewhere", chosen.size());
+  context.begin("refitting from elsewhere", chosen.size());
   in_parallel(chosen.size(), context.threads, [&](std::size_t i) {
     refit_from_elsewhere(refits, *chosen[i]);
     context.end_task();

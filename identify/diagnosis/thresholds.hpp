@@ -147,8 +147,8 @@ struct DiagnosisThresholds {
   double worth_a_step = 0.5;
   /// Effects with coordinates or states of their own that are refitted: each costs a model.
   int own_model_refits = 2;
-  /// The best refits that leave a gap, tried again from other starts: what sticks and slips has
-  /// more than one minimum.
+  /// Refits that leave a gap, tried again from other starts, those first of which the linearised model was most wrong:
+  /// what sticks and slips has more than one minimum.
   std::size_t tried_elsewhere = 3;
   /// The best explanations that are tried with twice the links, together.
   std::size_t tried_with_more_links = 3;
