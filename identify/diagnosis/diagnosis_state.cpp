@@ -50,6 +50,7 @@ void DiagnosisState::enter(FittedModel model, std::vector<std::string> effects,
   Stage next;
   next.effects = std::move(effects);
   next.added = added;
+  found.freer_start = found.freer_start || added == kStartShape;
   next.removed = removed;
   next.links = model.problem->the_case().links;
   next.fit = fit_gap(model, found.noise);

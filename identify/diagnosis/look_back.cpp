@@ -127,9 +127,9 @@ void sort_in(Diagnosis& found, const std::string& id, const Candidate& named,
   list.push_back({id, *weighed.explanation, weighed.decision});
 }
 
-/// Sorts the explanations that could stand in the place of `id`. Returns the id of the one that has
-/// a better claim to the name, after entering its model; else nothing.
-std::string weigh_alternatives(DiagnosisState& state, const std::string& id, const Stage& without) {
+/// Sorts the explanations that could stand in the place of `id`. Enters the model of the one that has a better claim to
+/// the place, an effect or a freer start; returns whether there is one.
+bool weigh_alternatives(DiagnosisState& state, const std::string& id, const Stage& without) {
   const Candidate& named = *state.context.find(id);
   const std::vector<NoiseModel>& noise = state.found.noise;
   const Explanation* successor = nullptr;
@@ -137,9 +137,9 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
     if (!explanation.refitted || explanation.id == id) continue;
     const Weighed weighed = weigh(state, id, without, explanation);
     const Model all = state.context.model_with_all(state.last().links);
-    const bool may_succeed = weighed.effect && !weighed.no_rival &&
-                             !state.reopens_gap(explanation.model) &&
-                             !state.had(with(without.effects, explanation.id));
+    const bool is_new = weighed.effect ? !state.had(with(without.effects, explanation.id))
+                                       : !state.found.freer_start;
+    const bool may_succeed = is_new && !weighed.no_rival && !state.reopens_gap(explanation.model);
     // What was held out may decide, too.
     if (may_succeed && !successor && acceptable(state, without.model, explanation) &&
         (predicts_better(explanation.model, state.last().model, noise) ||
@@ -151,17 +151,18 @@ std::string weigh_alternatives(DiagnosisState& state, const std::string& id, con
       successor = &explanation;
     // Of two that explain the same, one inside the other, the smaller has the name; of two laws of
     // one effect, the one that the other is declared a form of.
-    if (may_succeed && !successor && !weighed.decision.decided &&
+    if (may_succeed && weighed.effect && !successor && !weighed.decision.decided &&
         acceptable(state, without.model, explanation) &&
         (named.effect.form_of == weighed.effect->id ||
          is_special_case(*weighed.effect, named, all)))
       successor = &explanation;
     sort_in(state.found, id, named, weighed, all);
   }
-  if (!successor) return {};
-  state.enter(trim(successor->model, noise, state.context), with(without.effects, successor->id),
+  if (!successor) return false;
+  state.enter(trim(successor->model, noise, state.context),
+              successor->is_effect() ? with(without.effects, successor->id) : without.effects,
               successor->id, id);
-  return state.last().added;
+  return true;
 }
 
 /// A cable has no links, and their number needs no name: takes more links in the place of an effect where the data do
@@ -212,17 +213,13 @@ bool look_back(DiagnosisState& state) {
     }
     if (needless(state, without)) {
       state.enter(without.model, others, "", id);
-    } else {
-      const std::string better = weigh_alternatives(state, id, without);
-      if (!better.empty()) {
-        others.push_back(better);
-      } else if (!more_links_do_as_well(state, id, without)) {
-        ++i;
-        continue;
-      }
+    } else if (!weigh_alternatives(state, id, without) &&
+               !more_links_do_as_well(state, id, without)) {
+      ++i;
+      continue;
     }
     changed = true;
-    effects = others;
+    effects = state.last().effects;
     forget_alternatives(state.found);
     i = 0;
   }

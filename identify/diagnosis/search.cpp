@@ -35,10 +35,7 @@ bool take_explanation(DiagnosisState& state) {
   const Explanation* best = choose(state, state.last().explanations);
   if (!best) return add_with_more_links(state);
   std::vector<std::string> effects = state.last().effects;
-  if (best->is_effect())
-    effects.push_back(best->id);
-  else
-    state.found.freer_start = true;
+  if (best->is_effect()) effects.push_back(best->id);
   state.enter(trim(best->model, state.found.noise, state.context), effects, best->id);
   return true;
 }
