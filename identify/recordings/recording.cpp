@@ -282,10 +282,23 @@ Eigen::RowVectorXd convert(const ExperimentSpec& experiment, const PointSpec& po
   return out;
 }
 
+/// Standard deviation of what is not smooth in a series of at least three values, from its second differences.
+double scatter(const std::vector<double>& series) {
+  std::vector<double> sizes;
+  for (std::size_t k = 1; k + 1 < series.size(); ++k)
+    sizes.push_back(std::abs(series[k - 1] - 2 * series[k] + series[k + 1]));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  constexpr double kMedianOfNormal = 0.6745;  // of its size, in standard deviations
+  return *middle / (kMedianOfNormal * std::sqrt(6));
+}
+
 /// A cable neither stretches nor leaves its plane: the chord between neighbouring markers is what
-/// its bending leaves of the arc. Where it is much shorter for long, it points out of the plane.
+/// its bending leaves of the arc. Where it is much shorter for long, beyond noise, it points out of the plane.
 void warn_of_motion_out_of_plane(Recording& recording) {
   constexpr double kShort = 0.95, kOften = 0.2;
+  constexpr double kFull = 1.2816;    // quantile of 90 %, in standard deviations
+  constexpr double kBeyondNoise = 2;  // standard deviations; one frame of 40 is below by chance
   for (std::size_t p = 1; p + 1 < recording.points.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(2 * p);
     const auto& m = recording.measured;
@@ -302,9 +315,11 @@ void warn_of_motion_out_of_plane(Recording& recording) {
     if (straightened.size() < 5) continue;
     std::vector<double> sorted = straightened;
     std::sort(sorted.begin(), sorted.end());
-    const double full = sorted[sorted.size() * 9 / 10];
-    const auto shorter = std::count_if(sorted.begin(), sorted.end(),
-                                       [&](double chord) { return chord < kShort * full; });
+    const double noise = scatter(straightened);
+    const double full = sorted[sorted.size() * 9 / 10] - kFull * noise;
+    const auto shorter = std::count_if(sorted.begin(), sorted.end(), [&](double chord) {
+      return chord < kShort * full - kBeyondNoise * noise;
+    });
     if (static_cast<double>(shorter) > kOften * static_cast<double>(sorted.size()))
       recording.warnings.push_back(
           "the distance from " + recording.points[p - 1].name + " to " + recording.points[p].name +
