@@ -14,7 +14,6 @@ PLACES = {"link_centre": "middle_", "load": "load_"}
 NUMBERS = {"joint": ("joint_angle", "joint_rate", "steady_tension"), "chord": ("distance", "distance_rate")}
 STEP = 1e-5  # of differences, m, m/s, rad, rad/s
 GRAVITY = 9.81  # m/s^2, of make_recording
-LINK_ENDS = 2  # every so many-th marker is the end of a link
 SLIDES = 0.02  # rad/s: slower than this the truth rounds the sign of a rate (by 1 % there)
 
 
@@ -219,13 +218,14 @@ def curve_error(found, forces):
 
 def prediction_error(found, with_law, without_law, load, catena):
     """Root mean square of the found model's motion less the true one, over that of the truth without its law less the
-    true one. `with_law`, `without_law`: folders of films without noise, from rest."""
+    true one. `with_law`, `without_law`: folders of films without noise, from rest, with a marker at the end of every link."""
     truth = columns(with_law / "markers.csv")
-    ends = [0] + [n for n in range(LINK_ENDS, 1000, LINK_ENDS) if f"side_{n}_m" in truth]
+    case = (found / "diagnosed.toml").read_text()
+    links, markers = tomllib.loads(case)["model"]["links"], sum(name.startswith("side_") for name in truth)
+    ends = range(0, markers + 1, markers // links)
     first = {(axis, n): truth[f"{axis}_{n}_m"][0] if n else 0.0 for axis in ("side", "down") for n in ends}
     angles = [math.atan2(first["side", b] - first["side", a], first["down", b] - first["down", a])
               for a, b in zip(ends, ends[1:])]  # fmt: skip
-    case = (found / "diagnosed.toml").read_text()
     case = re.sub(r"(?ms)^\[experiment.initial\]\n.*?(?=^\[)", "", case)
     case = re.sub(r"(?ms)^\[initial\]\n.*?(?=^\[)", f'[initial]\nshape = "angles"\nangles = {angles}\n\n', case)
     case = re.sub(r"(?m)^load_mass = .*", f"load_mass = {load!r}", case, count=1)
