@@ -82,19 +82,19 @@ Explanation refitted_with(const DiagnosisState& state, const FittedModel& base,
   return explanation;
 }
 
-MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& model,
-                              int searches = 1) {
+MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& model) {
   state.context.begin("estimating the missing force");
-  MissingForce force = missing_force(
-      *model.problem, model.x, levels(state.found.noise), [&] { return !state.context.stopped(); },
-      searches);
+  MissingForce force = missing_force(*model.problem, model.x, levels(state.found.noise),
+                                     [&] { return !state.context.stopped(); });
   state.context.stop_if_asked();
   return force;
 }
 
-/// Fits the formulas that the linear equations did not tell from the law in its place, and sorts them.
-void weigh_rivals(DiagnosisState& state, const Stage& base, const std::vector<ForceLaw>& rivals) {
+/// Fits the formulas that the linear equations did not tell from the law, or hardly, in its place, and sorts them.
+void weigh_rivals(DiagnosisState& state, const Stage& base, const ForceLaw& law) {
   Diagnosis& found = state.found;
+  std::vector<ForceLaw> rivals = law.rivals;
+  rivals.insert(rivals.end(), law.nearly_rivals.begin(), law.nearly_rivals.end());
   std::vector<std::string> all = base.effects, undecided;
   std::vector<std::pair<std::string, std::string>> added;  // ids and words
   for (const ForceLaw& rival : rivals) {
@@ -147,7 +147,7 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
     }
     conclude(state, asked);
     if (found.verdict == DiagnosisVerdict::kDiscovered) {
-      weigh_rivals(state, base, found.force->law->rivals);
+      weigh_rivals(state, base, *found.force->law);
       return true;
     }
   }
@@ -158,17 +158,17 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
   return false;
 }
 
-/// Log odds of the effects, with the force that is missing beside them, against a force without any
+/// Log odds of the effects of `last`, with the force that is missing beside them, against a force without any
 /// of them (`alone`). A force of no known form can do what effects do; what they imitate of it, they
 /// only imitate. Unknowns count by the Bayesian information criterion.
-double log_odds_against_force_alone(const Diagnosis& found, const MissingForce& beside,
+double log_odds_against_force_alone(const Stage& last, const MissingForce& beside,
                                     const FittedModel& without, const MissingForce& alone) {
   if (!without.ok) return std::numeric_limits<double>::quiet_NaN();
   const auto unknowns = [](const FittedModel& model) {
     return static_cast<double>(model.problem->unknowns().size());
   };
-  const double added = unknowns(found.final) - unknowns(without);
-  const double cost = 0.5 * added * std::log(static_cast<double>(found.final_fit.count));
+  const double added = unknowns(last.model) - unknowns(without);
+  const double cost = 0.5 * added * std::log(static_cast<double>(last.fit.count));
   return beside.log_probability - alone.log_probability - cost;
 }
 
@@ -177,13 +177,47 @@ bool leaves_gap(const Diagnosis& found) {
          found.verdict == DiagnosisVerdict::kPartly;
 }
 
-/// With as many links as the best model has.
-void discover_with_these_links(DiagnosisState& state, const Case& asked) {
+/// Links of the model whose missing force is sought. Where more links would change the motion by as much as makes a gap, a
+/// force makes up for them, too: it follows no law then, or that of another force.
+int links_for_law(const DiagnosisState& state) {
+  const Stage& bare = last_without_effects(state.found.stages);
+  const int links = state.last().links;
+  const bool matter = bare.finer.predicted > kThresholds.gap_misfit * bare.fit.noise;
+  if (!matter || bare.model.problem->model().in_space()) return links;
+  return std::max(links, std::min(state.options.max_links, kMostLinksForLaw));
+}
+
+/// As it is where it cannot have so many links.
+Stage with_so_many_links(const DiagnosisState& state, Stage stage, int links) {
+  if (stage.links == links || !stage.model.ok) return stage;
+  state.context.begin("fitting with more links");
+  FittedModel model =
+      refitted_with_links(stage.model, links, stage.effects, state.found.noise, state.context);
+  state.context.stop_if_asked();
+  if (!model.ok) return stage;
+  stage.model = std::move(model);
+  stage.links = links;
+  return stage;
+}
+
+}  // namespace
+
+bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
+  const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival.model, found.noise);
+  const Decision decision =
+      ahead ? decide(law, rival.model, found.noise) : decide(rival.model, law, found.noise);
+  const bool against = ahead && decision.decided;
+  (against ? found.runners_up : found.alternatives)
+      .push_back({found.law, std::move(rival), decision});
+  return !against;
+}
+
+void discover(DiagnosisState& state, const Case& asked) {
   Diagnosis& found = state.found;
   const bool gap = leaves_gap(found);
   // Where effects close the gap, one cause may have been taken for several of them only.
   if (!gap && found.effects.size() < 2 && !state.options.discover) return;
-  const Stage last = state.last();
+  Stage last = state.last();
   if (found.final.problem->model().in_space() && last.links > kMostLinksInSpace) {
     if (gap)
       found.notes.push_back(fmt::format(
@@ -191,21 +225,23 @@ void discover_with_these_links(DiagnosisState& state, const Case& asked) {
           kMostLinksInSpace));
     return;
   }
-  const MissingForce beside = force_missing_in(state, found.final);
+  if (gap) last = with_so_many_links(state, std::move(last), links_for_law(state));
+  const MissingForce beside = force_missing_in(state, last.model);
   const bool nothing_taken = !gap && last.effects.empty();
   if (gap || nothing_taken) found.force = beside;
   if (!last.effects.empty()) {
     Stage bare = last_without_effects(found.stages);
-    if (bare.links != last.links) {
+    if (bare.links != state.last().links) {
       bare.model = fit_with_effects(state, {});
-      bare.links = last.links;
+      bare.links = state.last().links;
     }
+    bare = with_so_many_links(state, std::move(bare), last.links);
     const MissingForce alone = bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
     if (state.options.discover && !gap)
       for (const std::string& words : alone.words)
         found.notes.push_back(fmt::format("without {}: {}", listed(last.effects), words));
     if ((gap || state.options.discover) && take_law(state, bare, alone, asked)) return;
-    const double log_odds = log_odds_against_force_alone(found, beside, bare.model, alone);
+    const double log_odds = log_odds_against_force_alone(last, beside, bare.model, alone);
     const double decided = std::log(kThresholds.odds);
     if (alone.found && log_odds < (gap ? decided : -decided)) {
       if (!gap && !state.options.discover && take_law(state, bare, alone, asked)) return;
@@ -222,40 +258,6 @@ void discover_with_these_links(DiagnosisState& state, const Case& asked) {
     }
   }
   if (gap || nothing_taken) take_law(state, last, beside, asked);
-}
-
-/// Where more links would change the motion by more than the noise, a force makes up for them, too, and follows no law:
-/// the law is sought with more links.
-void discover_with_more_links(DiagnosisState& state, const Case& asked) {
-  Stage finer = last_without_effects(state.found.stages);
-  const int links = std::min(state.options.max_links, kMostLinksForLaw);
-  const bool worthwhile = finer.finer.predicted > finer.fit.noise;
-  if (!worthwhile || links <= finer.links || finer.model.problem->model().in_space()) return;
-  state.context.begin("fitting with more links");
-  finer.model =
-      refitted_with_links(finer.model, links, finer.effects, state.found.noise, state.context);
-  state.context.stop_if_asked();
-  if (!finer.model.ok) return;
-  finer.links = links;
-  const bool second = state.found.force && state.found.force->law;
-  take_law(state, finer, force_missing_in(state, finer.model, second ? 2 : 1), asked);
-}
-
-}  // namespace
-
-bool sort_rival(Diagnosis& found, const FittedModel& law, Explanation rival) {
-  const bool ahead = sum_of_squares(law, found.noise) <= sum_of_squares(rival.model, found.noise);
-  const Decision decision =
-      ahead ? decide(law, rival.model, found.noise) : decide(rival.model, law, found.noise);
-  const bool against = ahead && decision.decided;
-  (against ? found.runners_up : found.alternatives)
-      .push_back({found.law, std::move(rival), decision});
-  return !against;
-}
-
-void discover(DiagnosisState& state, const Case& asked) {
-  discover_with_these_links(state, asked);
-  if (leaves_gap(state.found)) discover_with_more_links(state, asked);
 }
 
 }  // namespace catena

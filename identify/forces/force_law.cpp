@@ -517,7 +517,27 @@ class LawSearch {
           all->criterion(fitted) < all->criterion(best) + kLawThresholds.undecided)
         take_law(fitted, all->inflation, law.rivals.emplace_back());
     }
+    take_nearly_rivals(*all, law);
     take_law(found, std::max(1.0, found.squares / found.freedom), law);
+  }
+
+  void take_nearly_rivals(const ComparedForms& all, ForceLaw& law) const {
+    const FittedForm& best = all.fits[all.best];
+    const double told = all.criterion(best) + kLawThresholds.undecided;
+    const double decided = told + std::pow(kLawThresholds.shared_error, 2) * best.freedom;
+    std::vector<const FittedForm*> nearly;
+    for (const FittedForm& fitted : all.fits)
+      if (!fitted.law.is_curve(fitted.form) && !fitted.law.same_pair(best.law) &&
+          all.criterion(fitted) >= told && all.criterion(fitted) < decided)
+        nearly.push_back(&fitted);
+    std::sort(nearly.begin(), nearly.end(), [&](const FittedForm* a, const FittedForm* b) {
+      return all.criterion(*a) < all.criterion(*b);
+    });
+    for (auto each = nearly.begin(); each != nearly.end(); ++each)
+      if (std::none_of(nearly.begin(), each, [&](const FittedForm* better) {
+            return (*each)->law.same_pair(better->law);
+          }))
+        take_law(**each, all.inflation, law.nearly_rivals.emplace_back());
   }
 
   void take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {
@@ -547,7 +567,7 @@ class LawSearch {
 }  // namespace
 
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const LawSites& sites, int searches) {
+                                     const LawSites& sites) {
   std::mt19937_64 numbers(kLawSeed);
   std::vector<NodeForces> random;
   for (const ForcePath& path : paths.paths())
@@ -582,10 +602,10 @@ std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
     }
     return law;
   };
-  ForceLaw law = law_at(sites.first, Split::kFrames, searches);
+  ForceLaw law = law_at(sites.first, Split::kFrames, 1);
   if (law.found) return law;
-  ForceLaw second = sites.pushed ? law_at({*sites.pushed}, Split::kPoints, 2 * searches)
-                                 : law_at(sites.pairs, Split::kFrames, 2 * searches);
+  ForceLaw second = sites.pushed ? law_at({*sites.pushed}, Split::kPoints, 2)
+                                 : law_at(sites.pairs, Split::kFrames, 2);
   return second.found ? std::move(second) : std::move(law);
 }
 

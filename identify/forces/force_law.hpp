@@ -31,8 +31,11 @@ struct LawThresholds {
   /// or over noise if that is more. What leaves more was right about a motion that it does not make: parameters that
   /// are far from their values can make a wrong law look so. Twice the residual. Chosen.
   double astray = 4;
-  /// Formulas that are not told apart from the law and are fitted exactly, most probable first. Each
-  /// costs a fit. Chosen.
+  /// Over noise: an error of the motion that two laws may share, as DiagnosisThresholds::shared_error says of two models.
+  /// By so much in every number that was measured, another law may be behind and be the right one.
+  double shared_error = 0.1;
+  /// Formulas that are fitted exactly in the law's place: those that are not told apart from it, then those that are
+  /// nearly so, most probable first. Each costs a fit. Chosen.
   int rivals = 3;
 };
 inline constexpr LawThresholds kLawThresholds;
@@ -62,6 +65,9 @@ struct ForceLaw {
   /// spectrum.
   double chance = 1;
   std::vector<ForceLaw> rivals;  ///< formulas that the data do not tell from it
+  /// Those of other pairs that a small error of the motion (LawThresholds::shared_error) may have put behind: most
+  /// probable first, one of each pair. Exact fits decide.
+  std::vector<ForceLaw> nearly_rivals;
   std::vector<std::string> words;
 };
 
@@ -72,9 +78,8 @@ struct LawSites {
   std::optional<LawSite> pushed;  ///< the one place of the force, where it may follow the time
 };
 
-/// `paths`: settled with forces; other patterns act on it afterwards.
-/// `searches`: in these data with this one. Nothing where the motion cannot be followed.
+/// `paths`: settled with forces; other patterns act on it afterwards. Nothing where the motion cannot be followed.
 std::optional<ForceLaw> law_of_force(ForcePaths& paths, const LawChain& chain,
-                                     const LawSites& sites, int searches);
+                                     const LawSites& sites);
 
 }  // namespace catena

@@ -166,7 +166,7 @@ double log_evidence_of(const Smoothed& smoothed, std::size_t fitted_numbers) {
 
 /// False where the equations cannot be followed.
 bool examine(const Problem& problem, const VectorXd& x, const std::vector<double>& sigmas,
-             const std::function<bool()>& keep_going, int searches, MissingForce& missing) {
+             const std::function<bool()>& keep_going, MissingForce& missing) {
   const LatentUnknowns unknowns(problem, x);
   ForcePaths paths(problem, unknowns, sigmas, x, keep_going);
   if (!paths.ok()) return false;
@@ -247,7 +247,7 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
   missing.law =
       law_of_force(missing.one_place ? paths : with_all,
                    {chain, problem.model().coordinates(), chain.gravity, chain.masses, chain.load},
-                   sites_of(missing, chain), searches);
+                   sites_of(missing, chain));
   return true;
 }
 
@@ -255,10 +255,10 @@ bool examine(const Problem& problem, const VectorXd& x, const std::vector<double
 
 MissingForce missing_force(const Problem& problem, const VectorXd& x,
                            const std::vector<double>& sigmas,
-                           const std::function<bool()>& keep_going, int searches) {
+                           const std::function<bool()>& keep_going) {
   const double begin = cpu_seconds();
   MissingForce missing;
-  if (examine(problem, x, sigmas, keep_going, searches, missing)) {
+  if (examine(problem, x, sigmas, keep_going, missing)) {
     describe(missing);
   } else {
     missing = {};

@@ -114,9 +114,9 @@ struct MissingForce {
 
 /// `x`: fitted values of the problem's unknowns without forces, from where parameters may go, as far
 /// as their prior lets them. `sigmas`: noise of every experiment, m or rad. `keep_going`: asked now
-/// and then; false ends it early, without a result. `searches`: for a law in these data with this one.
+/// and then; false ends it early, without a result.
 MissingForce missing_force(const Problem& problem, const Eigen::VectorXd& x,
                            const std::vector<double>& sigmas,
-                           const std::function<bool()>& keep_going = {}, int searches = 1);
+                           const std::function<bool()>& keep_going = {});
 
 }  // namespace catena
