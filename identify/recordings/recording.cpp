@@ -9,6 +9,7 @@
 
 #include "common/in_quotes.hpp"
 #include "common/input_error.hpp"
+#include "common/median.hpp"
 #include "common/nearest_name.hpp"
 #include "common/number_text.hpp"
 #include "identify/cases/time_limits.hpp"
@@ -287,10 +288,8 @@ double scatter(const std::vector<double>& series) {
   std::vector<double> sizes;
   for (std::size_t k = 1; k + 1 < series.size(); ++k)
     sizes.push_back(std::abs(series[k - 1] - 2 * series[k] + series[k + 1]));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
   constexpr double kMedianOfNormal = 0.6745;  // of its size, in standard deviations
-  return *middle / (kMedianOfNormal * std::sqrt(6));
+  return median(std::move(sizes)) / (kMedianOfNormal * std::sqrt(6));
 }
 
 /// A cable neither stretches nor leaves its plane: the chord between neighbouring markers is what
