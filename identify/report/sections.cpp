@@ -29,11 +29,11 @@ std::string length(double value, const std::string& unit) {
   const bool small = std::abs(value) < 1;
   if (unit == "m" && small) return for_people(1e3 * value) + "\u00a0mm";
   if (unit == "rad" && small) return for_people(1e3 * value) + "\u00a0mrad";
-  return unit == "1" || unit.empty() ? for_people(value) : for_people(value) + " " + unit;
+  return unit == "1" || unit.empty() ? for_people(value) : for_people(value) + "\u00a0" + unit;
 }
 
 std::string percent(double share) {
-  return std::isnan(share) ? "–" : for_people(100 * share, 3) + " %";
+  return std::isnan(share) ? "–" : for_people(100 * share, 3) + "\u00a0%";
 }
 
 Html experiments_table(const Result& result) {
