@@ -226,38 +226,40 @@ void discover(DiagnosisState& state, const Case& asked) {
     return;
   }
   if (gap) last = with_so_many_links(state, std::move(last), links_for_law(state));
-  const MissingForce beside = force_missing_in(state, last.model);
-  const bool nothing_taken = !gap && last.effects.empty();
-  if (gap || nothing_taken) found.force = beside;
-  if (!last.effects.empty()) {
-    Stage bare = last_without_effects(found.stages);
-    if (bare.links != state.last().links) {
-      bare.model = fit_with_effects(state, {});
-      bare.links = state.last().links;
-    }
-    bare = with_so_many_links(state, std::move(bare), last.links);
-    const MissingForce alone = bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
-    if (state.options.discover && !gap)
-      for (const std::string& words : alone.words)
-        found.notes.push_back(fmt::format("without {}: {}", listed(last.effects), words));
-    if ((gap || state.options.discover) && take_law(state, bare, alone, asked)) return;
-    const double log_odds = log_odds_against_force_alone(last, beside, bare.model, alone);
-    const double decided = std::log(kThresholds.odds);
-    if (alone.found && log_odds < (gap ? decided : -decided)) {
-      if (!gap && !state.options.discover && take_law(state, bare, alone, asked)) return;
-      found.force = beside;
-      doubt_effects(state, alone.words.front());
-      return;
-    }
-    if (alone.found && log_odds < decided) {
-      add_force_as_rival(state, alone.words.front());
-    } else if (alone.found && std::isfinite(log_odds)) {
-      found.notes.push_back(
-          fmt::format("a force of no known form instead of {} is ruled out by log odds of {:.3g}",
-                      listed(found.effects), log_odds));
-    }
+  if (last.effects.empty()) {
+    found.force = force_missing_in(state, last.model);
+    take_law(state, last, *found.force, asked);
+    return;
   }
-  if (gap || nothing_taken) take_law(state, last, beside, asked);
+  Stage bare = last_without_effects(found.stages);
+  if (bare.links != state.last().links) {
+    bare.model = fit_with_effects(state, {});
+    bare.links = state.last().links;
+  }
+  bare = with_so_many_links(state, std::move(bare), last.links);
+  const MissingForce alone = bare.model.ok ? force_missing_in(state, bare.model) : MissingForce{};
+  if (state.options.discover && !gap)
+    for (const std::string& words : alone.words)
+      found.notes.push_back(fmt::format("without {}: {}", listed(last.effects), words));
+  if ((gap || state.options.discover) && take_law(state, bare, alone, asked)) return;
+  const MissingForce beside = force_missing_in(state, last.model);
+  if (gap) found.force = beside;
+  const double log_odds = log_odds_against_force_alone(last, beside, bare.model, alone);
+  const double decided = std::log(kThresholds.odds);
+  if (alone.found && log_odds < (gap ? decided : -decided)) {
+    if (!gap && !state.options.discover && take_law(state, bare, alone, asked)) return;
+    found.force = beside;
+    doubt_effects(state, alone.words.front());
+    return;
+  }
+  if (alone.found && log_odds < decided) {
+    add_force_as_rival(state, alone.words.front());
+  } else if (alone.found && std::isfinite(log_odds)) {
+    found.notes.push_back(
+        fmt::format("a force of no known form instead of {} is ruled out by log odds of {:.3g}",
+                    listed(found.effects), log_odds));
+  }
+  if (gap) take_law(state, last, beside, asked);
 }
 
 }  // namespace catena
