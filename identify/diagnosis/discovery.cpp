@@ -228,7 +228,8 @@ void discover(DiagnosisState& state, const Case& asked) {
   if (gap) last = with_so_many_links(state, std::move(last), links_for_law(state));
   if (last.effects.empty()) {
     found.force = force_missing_in(state, last.model);
-    take_law(state, last, *found.force, asked);
+    // What is too small to be called missing is too small for a law: links are no cable, and their error follows one.
+    if (gap) take_law(state, last, *found.force, asked);
     return;
   }
   Stage bare = last_without_effects(found.stages);
