@@ -7,6 +7,7 @@
 #include "identify/diagnosis/predictive_accuracy.hpp"
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/fit/error.hpp"
+#include "identify/forces/force_law.hpp"
 
 namespace catena {
 
@@ -58,7 +59,7 @@ Decision decide(const FittedModel& better, const FittedModel& worse,
   const GapTest left = fit_gap(better, noise);
   const double count = static_cast<double>(left.count);
   const double shared =
-      std::max(kThresholds.shared_error, left.noise > 0 ? left.misfit / left.noise : 0.0);
+      std::max(kLawThresholds.shared_error, left.noise > 0 ? left.misfit / left.noise : 0.0);
   const double by_error =
       count * std::max(0.0, decision.difference * (2 * shared - decision.difference));
   const double autocorrelation = autocorrelation_factor(white_residuals(better, noise));

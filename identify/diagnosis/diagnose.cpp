@@ -38,9 +38,6 @@ Diagnosis examine(Case the_case, DiagnosisContext& context, const DiagnosisOptio
   const std::vector<Experiment>& experiments = state.last().model.problem->experiments();
   for (Candidate& known : doubted_knowns(the_case, experiments))
     if (!context.knows(known.id)) context.add(std::move(known));
-  for (const Experiment& experiment : experiments)
-    for (const std::string& warning : experiment.recording.warnings)
-      state.found.notes.push_back(experiment.spec.name + ": " + warning);
   look_ahead_and_back(state);
   // One after the other two effects may both be missed: neither is worth much alone, or a third
   // imitates both.

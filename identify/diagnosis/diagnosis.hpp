@@ -58,7 +58,7 @@ struct FinalParameter {
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNone;
   std::string sentence;                   ///< what the verdict says, one or two sentences
-  std::vector<std::string> notes;         ///< warnings
+  std::vector<std::string> notes;         ///< what a reader must know of how it was found
   std::vector<NoiseModel> noise;          ///< per experiment
   std::vector<Stage> stages;              ///< baseline first
   std::vector<std::string> effects;       ///< of the final model

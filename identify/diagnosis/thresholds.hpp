@@ -97,8 +97,6 @@ struct DiagnosisThresholds {
   /// Odds at which chance explains a lead, in what was fitted and in what was held out: one in a
   /// thousand comparisons of two models is decided by chance.
   double odds = 1000;
-  /// Over noise: the error that two models share at least, for no law is exact: as `law_error`.
-  double shared_error = 0.1;
 
   // What does a prediction leave? (prediction_errors.cpp)
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <tuple>
 #include <utility>
 
 #include "common/normal_quantile.hpp"
+#include "identify/forces/compared_forms.hpp"
 #include "identify/forces/law_choice.hpp"
 #include "identify/forces/law_fit.hpp"
 #include "identify/forces/law_response.hpp"
@@ -428,57 +428,6 @@ class LawSearch {
     return sum;
   }
 
-  /// Formulas that were fitted to the same linear equations.
-  struct ComparedForms {
-    std::vector<FittedForm> fits;
-    double inflation = 1;
-    std::size_t best = 0;
-
-    double criterion(const FittedForm& fitted) const {
-      return fitted.squares / inflation + fitted.constants() * std::log(fitted.freedom);
-    }
-  };
-  /// Whether a formula says nearly the same as one of the same pair that has its terms and more.
-  static bool says_nearly_the_same(const FittedForm& fewer, const FittedForm& more) {
-    const auto has = [&](int term) {
-      return std::find(more.form.begin(), more.form.end(), term) != more.form.end();
-    };
-    return fewer.form.size() < more.form.size() && fewer.law.same_pair(more.law) &&
-           std::all_of(fewer.form.begin(), fewer.form.end(), has) &&
-           fewer.squares - more.squares < kLawThresholds.worth * (more.without - more.squares);
-  }
-
-  /// Fits them, each from where it begins. The best is the simplest that the data do not decide against, less terms that
-  /// do hardly anything. Nothing where none makes a law.
-  std::optional<ComparedForms> compared(const std::vector<FittedForm>& begins) const {
-    ComparedForms all;
-    double least = HUGE_VAL, lowest = HUGE_VAL;
-    for (const FittedForm& begin : begins) {
-      FittedForm fitted = fits_.fit_without_drive(begin);
-      if (!std::isfinite(fitted.squares) || !fitted.law.admits(fitted.coefficients)) continue;
-      if (fitted.squares < least) {
-        least = fitted.squares;
-        all.inflation = std::max(1.0, fitted.squares / fitted.freedom);
-      }
-      all.fits.push_back(std::move(fitted));
-    }
-    if (all.fits.empty()) return std::nullopt;
-    for (const FittedForm& fitted : all.fits) lowest = std::min(lowest, all.criterion(fitted));
-    const auto rank = [&](const FittedForm& fitted) {
-      const bool decided_against = all.criterion(fitted) > lowest + kLawThresholds.undecided;
-      return std::tuple(decided_against, fitted.law.is_curve(fitted.form), fitted.constants(),
-                        all.criterion(fitted));
-    };
-    for (std::size_t i = 1; i < all.fits.size(); ++i)
-      if (rank(all.fits[i]) < rank(all.fits[all.best])) all.best = i;
-    const FittedForm best = all.fits[all.best];
-    for (std::size_t i = 0; i < all.fits.size(); ++i)
-      if (says_nearly_the_same(all.fits[i], best) &&
-          all.fits[i].constants() < all.fits[all.best].constants())
-        all.best = i;
-    return all;
-  }
-
   /// The best formula, and those that the data do not tell from it. The motion found follows the noise, which costs a
   /// formula with an edge more than one with many constants. So laws with a potential are compared again about the
   /// motion of the best, and curves with formulas. There a friction would gain by a second term that mends its smooth
@@ -488,7 +437,7 @@ class LawSearch {
     begins.reserve(close.size());
     for (const Close& of : close)
       begins.push_back({.law = candidates_[of.candidate], .form = of.form});
-    std::optional<ComparedForms> all = compared(begins);
+    std::optional<ComparedForms> all = compared_forms(fits_, begins);
     law.found = all.has_value();
     if (!law.found) return;
     FittedForm found = all->fits[all->best];
@@ -496,7 +445,7 @@ class LawSearch {
     if (!law.found) return;
     const bool formula = !found.law.is_curve(found.form);
     const std::optional<ComparedForms> again =
-        found.law.against() && formula ? std::nullopt : compared(all->fits);
+        found.law.against() && formula ? std::nullopt : compared_forms(fits_, all->fits);
     if (again) {
       const bool other = again->best != all->best || again->fits.size() != all->fits.size();
       all = again;
@@ -506,38 +455,12 @@ class LawSearch {
         if (!law.found) return;
       }
     }
-    const FittedForm& best = all->fits[all->best];
-    for (const FittedForm& fitted : all->fits) {
-      if (&fitted == &best) continue;
-      // In which direction a push acts is decided by exact fits: the steps in time of the linear equations are too long
-      // for a short one.
-      const bool other_direction =
-          best.law.has_time() && fitted.law.has_terms_of(fitted.form, best.law, best.form);
-      if (other_direction ||
-          all->criterion(fitted) < all->criterion(best) + kLawThresholds.undecided)
-        take_law(fitted, all->inflation, law.rivals.emplace_back());
-    }
-    take_nearly_rivals(*all, law);
+    const auto take = [&](const std::vector<const FittedForm*>& some, std::vector<ForceLaw>& as) {
+      for (const FittedForm* fitted : some) take_law(*fitted, all->inflation, as.emplace_back());
+    };
+    take(all->not_told_from_best(), law.rivals);
+    take(all->nearly_as_good(), law.nearly_rivals);
     take_law(found, std::max(1.0, found.squares / found.freedom), law);
-  }
-
-  void take_nearly_rivals(const ComparedForms& all, ForceLaw& law) const {
-    const FittedForm& best = all.fits[all.best];
-    const double told = all.criterion(best) + kLawThresholds.undecided;
-    const double decided = told + std::pow(kLawThresholds.shared_error, 2) * best.freedom;
-    std::vector<const FittedForm*> nearly;
-    for (const FittedForm& fitted : all.fits)
-      if (!fitted.law.is_curve(fitted.form) && !fitted.law.same_pair(best.law) &&
-          all.criterion(fitted) >= told && all.criterion(fitted) < decided)
-        nearly.push_back(&fitted);
-    std::sort(nearly.begin(), nearly.end(), [&](const FittedForm* a, const FittedForm* b) {
-      return all.criterion(*a) < all.criterion(*b);
-    });
-    for (auto each = nearly.begin(); each != nearly.end(); ++each)
-      if (std::none_of(nearly.begin(), each, [&](const FittedForm* better) {
-            return (*each)->law.same_pair(better->law);
-          }))
-        take_law(**each, all.inflation, law.nearly_rivals.emplace_back());
   }
 
   void take_law(const FittedForm& fitted, double inflation, ForceLaw& law) const {

@@ -31,8 +31,9 @@ struct LawThresholds {
   /// or over noise if that is more. What leaves more was right about a motion that it does not make: parameters that
   /// are far from their values can make a wrong law look so. Twice the residual. Chosen.
   double astray = 4;
-  /// Over noise: an error of the motion that two laws may share, as DiagnosisThresholds::shared_error says of two models.
-  /// By so much in every number that was measured, another law may be behind and be the right one.
+  /// Over noise: the error of the motion that two laws, or two models, share at least, for no law is exact. By so much in
+  /// every number that was measured, another one may be behind and be the right one (compared_forms.cpp, and
+  /// identify/diagnosis/compare.cpp). As DiagnosisThresholds::law_error.
   double shared_error = 0.1;
   /// Formulas that are fitted exactly in the law's place: those that are not told apart from it, then those that are
   /// nearly so, most probable first. Each costs a fit. Chosen.

@@ -182,9 +182,13 @@ void describe(MissingForce& missing) {
       "forces explain {:.0f} % of the squared residuals (log evidence {:.4g}); the data resolve {} "
       "of {} patterns",
       100 * missing.share, missing.log_evidence, resolved, missing.patterns.size()));
-  if (missing.law) describe_law(*missing.law);
-  if (missing.law && (missing.one_place || missing.law->found))
-    missing.words.insert(missing.words.end(), missing.law->words.begin(), missing.law->words.end());
+  if (!missing.law) {
+    missing.words.emplace_back(
+        "its law is not known: the motion cannot be followed in shorter steps");
+    return;
+  }
+  describe_law(*missing.law);
+  missing.words.insert(missing.words.end(), missing.law->words.begin(), missing.law->words.end());
 }
 
 }  // namespace catena

@@ -114,6 +114,9 @@ TEST_CASE("a force along the whole cable: its two lowest modes, with intervals t
     const MissingForce found = testing::force_in(filmed);
     REQUIRE(found.found);
     CHECK_FALSE(found.one_place);
+    CHECK(std::any_of(found.words.begin(), found.words.end(), [](const std::string& words) {
+      return words.starts_with("a force in time, no law");
+    }));
     const testing::Recovery modes = testing::recovery_of_modes(filmed, {}, found);
     CHECK(modes.error < 0.2);
     covered += modes.covered / kFilms;

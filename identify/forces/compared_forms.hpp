@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "identify/forces/law_fit.hpp"
+
+namespace catena {
+
+/// Formulas of laws that were fitted to the same linear equations, and which of them the data prefer.
+struct ComparedForms {
+  std::vector<FittedForm> fits;
+  double inflation = 1;  ///< of the noise's variance: what the closest formula leaves, where that is more than 1
+  std::size_t best = 0;
+
+  /// The Bayesian information criterion: less is better.
+  double criterion(const FittedForm& fitted) const;
+  /// Those that the data do not tell from the best (LawThresholds::undecided), and pushes in other directions.
+  std::vector<const FittedForm*> not_told_from_best() const;
+  /// Formulas of other pairs that a small error of the motion may have put behind it (LawThresholds::shared_error): most
+  /// probable first, one of each pair.
+  std::vector<const FittedForm*> nearly_as_good() const;
+};
+
+/// Fits each from where it begins. The best is the simplest that the data do not decide against, less terms that do
+/// hardly anything. Nothing where none makes a law.
+std::optional<ComparedForms> compared_forms(const LawFit& fits,
+                                            const std::vector<FittedForm>& begins);
+
+}  // namespace catena
