@@ -74,9 +74,8 @@ std::vector<const FittedForm*> ComparedForms::nearly_as_good() const {
   });
   std::vector<const FittedForm*> first_of_pairs;
   for (const FittedForm* fitted : behind)
-    if (std::none_of(first_of_pairs.begin(), first_of_pairs.end(), [&](const FittedForm* better) {
-          return fitted->law.same_pair(better->law);
-        }))
+    if (std::none_of(first_of_pairs.begin(), first_of_pairs.end(),
+                     [&](const FittedForm* better) { return fitted->law.same_pair(better->law); }))
       first_of_pairs.push_back(fitted);
   return first_of_pairs;
 }

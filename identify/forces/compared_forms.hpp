@@ -12,7 +12,8 @@ namespace catena {
 /// Formulas of laws that were fitted to the same linear equations, and which of them the data prefer.
 struct ComparedForms {
   std::vector<FittedForm> fits;
-  double inflation = 1;  ///< of the noise's variance: what the closest formula leaves, where that is more than 1
+  double inflation =
+      1;  ///< of the noise's variance: what the closest formula leaves, where that is more than 1
   std::size_t best = 0;
 
   /// The Bayesian information criterion: less is better.

@@ -15,6 +15,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kMostNewtonSteps = 12;
+/// Times the steps of an interval where Newton's iteration fails: a cable that snaps has accelerations that long steps do
+/// not follow.
+constexpr int kMostFiner = 8;
 /// Change of the middle rates, relative to 1 rad/s, at which Newton's iteration has converged.
 constexpr double kConverged = 1e-9;
 
@@ -72,14 +75,22 @@ IntervalIntegrator::IntervalIntegrator(const Model& model, const VectorXd& param
 std::optional<IntervalMap> IntervalIntegrator::operator()(double begin, double end,
                                                           const VectorXd& state,
                                                           const VectorXd& force) {
-  const Index ny = 2 * n_ + states_;
+  const int least = std::max(1, static_cast<int>(std::ceil((end - begin) / step_ - 1e-6)));
+  for (int finer = 1; finer <= kMostFiner; finer *= 2) {
+    begin_at(state);
+    if (step_through(begin, end, force, least * finer)) return map_of_steps();
+  }
+  return std::nullopt;
+}
+
+void IntervalIntegrator::begin_at(const VectorXd& state) {
   std::copy_n(state.data(), n_, q_.begin());
   std::copy_n(state.data() + n_, n_, v_.begin());
   std::copy_n(state.data() + 2 * n_, states_, z_.begin());
   std::fill(a_.begin(), a_.end(), 0.0);
   for (auto* columns : {&q_of_, &v_of_, &z_of_})
     for (auto& batch : *columns) std::fill(batch.begin(), batch.end(), DirectionBatch{});
-  for (Index j = 0; j < ny; ++j) {
+  for (Index j = 0; j < 2 * n_ + states_; ++j) {
     const auto b = static_cast<std::size_t>(j) / kWidth, k = static_cast<std::size_t>(j) % kWidth;
     if (j < n_)
       q_of_[b][static_cast<std::size_t>(j)].of[k] = 1;
@@ -88,19 +99,27 @@ std::optional<IntervalMap> IntervalIntegrator::operator()(double begin, double e
     else
       z_of_[b][static_cast<std::size_t>(j - 2 * n_)].of[k] = 1;
   }
-  const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / step_ - 1e-6)));
+}
+
+bool IntervalIntegrator::step_through(double begin, double end, const VectorXd& force, int steps) {
   const double step = (end - begin) / steps;
   for (int k = 0; k < steps; ++k) {
     const double since = (k + 0.5) * step;
-    if (!step_on(begin + since, step, force, since)) return std::nullopt;
+    if (!step_on(begin + since, step, force, since)) return false;
   }
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  };
+  return finite(q_) && finite(v_) && finite(z_);
+}
 
+IntervalMap IntervalIntegrator::map_of_steps() const {
+  const Index ny = 2 * n_ + states_;
   IntervalMap map;
   map.end.resize(ny);
   std::copy_n(q_.begin(), n_, map.end.data());
   std::copy_n(v_.begin(), n_, map.end.data() + n_);
   std::copy_n(z_.begin(), states_, map.end.data() + 2 * n_);
-  if (!map.end.allFinite()) return std::nullopt;
   MatrixXd all(ny, static_cast<Index>(batches_ * kWidth));
   for (std::size_t b = 0; b < batches_; ++b)
     for (std::size_t k = 0; k < kWidth; ++k) {

@@ -22,8 +22,8 @@ struct IntervalMap {
 };
 
 /// Integrates the equations of a model with forces over an interval by the implicit midpoint rule,
-/// with steps of at most `step` s, and differentiates what it does. Within the interval the forces
-/// go on straight, as they begin. They turn with the links as the
+/// with steps of at most `step` s, and shorter ones where these fail, and differentiates what it does.
+/// Within the interval the forces go on straight, as they begin. They turn with the links as the
 /// rates at the beginning of a step predict them at its middle: a difference of second order in the
 /// step, as the rule itself has.
 class IntervalIntegrator {
@@ -35,11 +35,15 @@ class IntervalIntegrator {
                      const std::vector<SensitivityDirection>& directions, double step);
 
   /// From `begin` to `end` (s). `state`: (q, v, z). `force`: (w, dw/dt) of each pattern. Nothing
-  /// where Newton's iteration fails.
+  /// where Newton's iteration fails with an eighth of the step, too.
   std::optional<IntervalMap> operator()(double begin, double end, const Eigen::VectorXd& state,
                                         const Eigen::VectorXd& force);
 
  private:
+  void begin_at(const Eigen::VectorXd& state);
+  /// False where a step fails.
+  bool step_through(double begin, double end, const Eigen::VectorXd& force, int steps);
+  IntervalMap map_of_steps() const;
   bool step_on(double t, double step, const Eigen::VectorXd& force, double since);
   void differentiate(double t, double gamma, double since);
   void turn_force();
