@@ -9,6 +9,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace catena;
 
@@ -82,4 +83,22 @@ TEST_CASE("what explains most of a misfit, and of what was held out, stands besi
   CHECK(found.shares.left_fitted.share > 0.01);
   CHECK(found.verdict == DiagnosisVerdict::kPartly);
   CHECK(found.certain == std::vector<std::string>{"load_drag"});
+}
+
+TEST_CASE("a warning of a recording stands at the recording, and not among the notes, too") {
+  const testing::TemporaryFolder folder;
+  Case the_case = testing::two_links_with({});
+  the_case = testing::measured(
+      the_case, folder,
+      testing::with_truth(the_case, Model::built_in(2),
+                          testing::empty_markers({0.25, 0.5, 0.75, 1.0}, 120, 1.0 / 60), 1e-3));
+  folder.write("markers.csv",
+               "time_ms" + testing::text_of(folder.path() / "markers.csv").substr(6));
+  DiagnosisContext context(the_case, {}, folder.path(), fit_least_squares,
+                           testing::provider_of_build());
+  const Diagnosis found = diagnose(the_case, context, {.max_effects = 0, .max_links = 2});
+  const std::vector<std::string> warnings = found.final.problem->warnings();
+  REQUIRE(!warnings.empty());
+  CHECK(warnings.front().starts_with("run: time_unit: "));
+  for (const std::string& note : found.notes) CHECK_FALSE(note.starts_with("run: "));
 }
