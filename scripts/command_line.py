@@ -13,13 +13,13 @@ def parser():
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
-def of_study(name, *rest, **how):
-    """`output`, which is made, `binaries`, and one thing more."""
+def of_study(name, more={}):
+    """`output`, which is made, `binaries`, and `more`: name of an argument -> how argparse is to take it."""
     said = parser()
     said.add_argument("output", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/{name}")
     said.add_argument("binaries", nargs="?", type=os.path.abspath, default=f"{ROOT}/build/release")
-    if rest:
-        said.add_argument(*rest, **how)
+    for argument, how in more.items():
+        said.add_argument(argument, **how)
     values = said.parse_args()
     if not os.path.exists(f"{values.binaries}/bin/catena"):
         said.error(f"no catena in {values.binaries}/bin; build it, or name the folder")

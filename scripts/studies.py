@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Common to the studies of the dissertation's chapters: runs of catena and tables."""
+"""Common to the studies: cases, runs of catena and tables."""
 import concurrent.futures
 import csv
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -20,6 +21,32 @@ def folders(study):
 
 class Failed(Exception):
     """Runs a command and returns its output; a failure ends the study."""
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+def write(path, text):
+    with open(path, "w") as file:
+        file.write(text)
+
+
+def sections(text):
+    """A file of TOML in pieces, each from one [table] or [[table]] to the next."""
+    return re.split(r"(?m)^(?=\[)", text)
+
+
+def copy_cases_of_recordings(output):
+    """scripts/recordings into OUTPUT/recordings, with the recordings of $CATENA_DATA, or of ../shared/data beside the checkout."""
+    data = os.environ.get("CATENA_DATA", os.path.join(os.path.dirname(ROOT), "shared", "data"))
+    if not os.path.isdir(data):
+        sys.exit(f"no recordings in {data}; CATENA_DATA names their folder")
+    shutil.copytree(f"{ROOT}/scripts/recordings", f"{output}/recordings", dirs_exist_ok=True)
+    for case in os.listdir(f"{output}/recordings"):
+        path = f"{output}/recordings/{case}"
+        write(path, read(path).replace('"../../../shared/data/', f'"{data}/'))
 
 
 def run(*command):
