@@ -51,6 +51,10 @@ double chance_of_any(const Comparison& comparison, int tried) {
   return std::min(1.0, std::pow(10, comparison.log10_p) * std::max(1, tried));
 }
 
+double error_shared(const GapTest& left) {
+  return std::max(kLawThresholds.shared_error, left.noise > 0 ? left.misfit / left.noise : 0.0);
+}
+
 Decision decide(const FittedModel& better, const FittedModel& worse,
                 const std::vector<NoiseModel>& noise) {
   Decision decision;
@@ -58,8 +62,7 @@ Decision decide(const FittedModel& better, const FittedModel& worse,
   decision.lead = sum_of_squares(worse, noise) - sum_of_squares(better, noise);
   const GapTest left = fit_gap(better, noise);
   const double count = static_cast<double>(left.count);
-  const double shared =
-      std::max(kLawThresholds.shared_error, left.noise > 0 ? left.misfit / left.noise : 0.0);
+  const double shared = error_shared(left);
   const double by_error =
       count * std::max(0.0, decision.difference * (2 * shared - decision.difference));
   const double autocorrelation = autocorrelation_factor(white_residuals(better, noise));

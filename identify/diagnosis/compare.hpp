@@ -31,9 +31,13 @@ Comparison compare(const FittedModel& base, const FittedModel& larger,
 /// from what it says, in its standard deviations.
 double sum_of_squares(const FittedModel& model, const std::vector<NoiseModel>& noise);
 
+/// Over the noise, rms: the error that models share, of which one left this. What even that leaves, and
+/// LawThresholds::shared_error at least.
+double error_shared(const GapTest& left);
+
 /// Whether the data decide between two models that stand for different explanations, `better` being
 /// the one with the smaller sum of squares. If the worse one were right but for an error of rms
-/// s noise that both share (what even the better one leaves, at least a tenth), that error could
+/// s noise that both share (error_shared of the better one), that error could
 /// put the better one ahead by N d (2 s - d), d the rms difference of the two predictions over the
 /// noise. The data decide if the lead exceeds this bound plus what chance gives at odds of one in a thousand, and if
 /// the better model also predicts the held-out part as well: a lead that is lost there shows freedom, not truth.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -90,29 +91,83 @@ MissingForce force_missing_in(const DiagnosisState& state, const FittedModel& mo
   return force;
 }
 
-/// Fits the formulas that the linear equations did not tell from the law, or hardly, in its place, and sorts them.
-void weigh_rivals(DiagnosisState& state, const Stage& base, const ForceLaw& law) {
-  Diagnosis& found = state.found;
-  std::vector<ForceLaw> rivals = law.rivals;
-  rivals.insert(rivals.end(), law.nearly_rivals.begin(), law.nearly_rivals.end());
-  std::vector<std::string> all = base.effects, undecided;
-  std::vector<std::pair<std::string, std::string>> added;  // ids and words
-  for (const ForceLaw& rival : rivals) {
-    if (added.size() == static_cast<std::size_t>(kLawThresholds.rivals)) break;
-    added.emplace_back(add_to_library(state.context, base.model, rival).id,
-                       rival.formula.text + site_in_words(rival.site));
-    all.push_back(added.back().first);
+/// A law as an effect, and what is left with it.
+struct FittedLaw {
+  ForceLaw law;
+  Explanation explanation;
+};
+
+FittedLaw fitted_law(DiagnosisState& state, const Stage& base, const MissingForce& force) {
+  state.context.begin("fitting the law of the missing force");
+  const Candidate& candidate = add_to_library(state.context, base.model, *force.law);
+  FittedLaw fitted{*force.law, refitted_with(state, base.model, force,
+                                             with(base.effects, candidate.id), candidate)};
+  fitted.explanation.title = fitted.law.formula.text + site_in_words(fitted.law.site);
+  state.context.stop_if_asked();
+  return fitted;
+}
+
+/// The formulas that the linear equations did not tell from the law, or that they put behind by no more than what the
+/// law itself leaves: they may err by so much.
+std::vector<FittedLaw> fitted_rivals(DiagnosisState& state, const Stage& base,
+                                     const MissingForce& force, const FittedLaw& of) {
+  const double error = error_shared(of.explanation.fit);
+  std::vector<ForceLaw> laws = of.law.rivals;
+  std::copy_if(of.law.behind.begin(), of.law.behind.end(), std::back_inserter(laws),
+               [&](const ForceLaw& law) { return law.left_more < error * error; });
+  const auto most = static_cast<std::size_t>(kLawThresholds.rivals);
+  if (laws.size() > most) laws.erase(laws.begin() + kLawThresholds.rivals, laws.end());
+  std::vector<std::string> all = base.effects, ids;
+  for (const ForceLaw& law : laws) {
+    ids.push_back(add_to_library(state.context, base.model, law).id);
+    all.push_back(ids.back());
   }
-  for (const auto& [id, words] : added) {
+  std::vector<FittedLaw> fitted;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
     state.context.begin("fitting a rival of the law");
-    const Candidate candidate = *state.context.find(id);
+    const Candidate candidate = *state.context.find(ids[i]);
     // One model has all rivals: those that the case does not have stay at zero.
-    Explanation explanation = refitted_with(state, base.model, *found.force, all, candidate);
+    Explanation explanation = refitted_with(state, base.model, force, all, candidate);
     state.context.stop_if_asked();
     if (!explanation.refitted) continue;
-    explanation.title = words;
-    if (sort_rival(found, state.last().model, std::move(explanation)))
-      undecided.push_back(fmt::format("{} ({})", words, id));
+    explanation.title = laws[i].formula.text + site_in_words(laws[i].site);
+    fitted.push_back({laws[i], std::move(explanation)});
+  }
+  return fitted;
+}
+
+/// Whether exact fits put `rival` in the place of `law`: the data decide for it, or it is a formula and they do not decide
+/// for the curve that the law is.
+bool takes_place(const FittedLaw& rival, const FittedLaw& law,
+                 const std::vector<NoiseModel>& noise) {
+  const FittedModel &of_rival = rival.explanation.model, &of_law = law.explanation.model;
+  const bool simpler = law.law.formula.curve && !rival.law.formula.curve;
+  return sum_of_squares(of_rival, noise) < sum_of_squares(of_law, noise)
+             ? simpler || decide(of_rival, of_law, noise).decided
+             : simpler && !decide(of_law, of_rival, noise).decided;
+}
+
+/// `rival` becomes the law. What was tried, and how well the first law was confirmed, stays.
+void exchange(FittedLaw& law, FittedLaw& rival, MissingForce& force) {
+  std::swap(law, rival);
+  const ForceLaw& first = rival.law;
+  law.law.found = true;
+  law.law.by_points = first.by_points;
+  law.law.candidates = first.candidates;
+  law.law.confirmed = first.confirmed;
+  law.law.chance = first.chance;
+  force.law = law.law;
+  force.words.push_back("fitted exactly, another one takes its place: " + law.explanation.title);
+}
+
+/// Lists those that the data do not decide against in the sentence.
+void sort_rivals(DiagnosisState& state, std::vector<FittedLaw> rivals) {
+  Diagnosis& found = state.found;
+  std::vector<std::string> undecided;
+  for (FittedLaw& rival : rivals) {
+    const std::string words = fmt::format("{} ({})", rival.explanation.title, rival.explanation.id);
+    if (sort_rival(found, state.last().model, std::move(rival.explanation)))
+      undecided.push_back(words);
   }
   found.sentence += undecided.empty() ? " No other formula that was tried does as well."
                                       : fmt::format(" These data do not decide against {} instead.",
@@ -126,28 +181,31 @@ bool take_law(DiagnosisState& state, const Stage& base, MissingForce force, cons
   const int most = std::max(state.options.max_effects, state.options.discover ? 1 : 0);
   if (!force.law || !force.law->found || static_cast<int>(base.effects.size()) >= most)
     return false;
-  state.context.begin("fitting the law of the missing force");
-  const Candidate& candidate = add_to_library(state.context, base.model, *force.law);
-  const std::string title = candidate.title;
-  const std::vector<std::string> effects = with(base.effects, candidate.id);
-  Explanation explanation = refitted_with(state, base.model, force, effects, candidate);
-  state.context.stop_if_asked();
   const bool replaces = base.effects.size() < state.last().effects.size();
+  const auto stands = [&](const FittedLaw& fitted) {
+    return acceptable(state, base.model, fitted.explanation) &&
+           (!replaces ||
+            predicts_better(fitted.explanation.model, state.last().model, found.noise));
+  };
+  FittedLaw law = fitted_law(state, base, force);
+  const std::string title = state.context.find(law.explanation.id)->title;
   Diagnosis before = found;
-  if (acceptable(state, base.model, explanation) &&
-      (!replaces || predicts_better(explanation.model, state.last().model, found.noise))) {
-    state.enter(std::move(explanation.model), effects, candidate.id,
-                replaces ? listed(state.last().effects) : "");
-    found.effects = effects;
-    found.law = candidate.id;
+  if (stands(law)) {
+    std::vector<FittedLaw> rivals = fitted_rivals(state, base, force, law);
+    for (FittedLaw& rival : rivals)
+      if (stands(rival) && takes_place(rival, law, found.noise)) exchange(law, rival, force);
+    found.law = law.explanation.id;
+    found.effects = with(base.effects, found.law);
     found.force = std::move(force);
+    state.enter(std::move(law.explanation.model), found.effects, found.law,
+                replaces ? listed(state.last().effects) : "");
     if (replaces) {
       found.alternatives.clear();
       found.forms.clear();
     }
     conclude(state, asked);
     if (found.verdict == DiagnosisVerdict::kDiscovered) {
-      weigh_rivals(state, base, *found.force->law);
+      sort_rivals(state, std::move(rivals));
       return true;
     }
   }

@@ -60,14 +60,19 @@ std::vector<const FittedForm*> ComparedForms::not_told_from_best() const {
   return some;
 }
 
-std::vector<const FittedForm*> ComparedForms::nearly_as_good() const {
+double ComparedForms::left_more(const FittedForm& fitted) const {
   const FittedForm& winner = fits[best];
-  const double told = criterion(winner) + kLawThresholds.undecided;
-  const double decided = told + std::pow(kLawThresholds.shared_error, 2) * winner.freedom;
+  return (criterion(fitted) - criterion(winner) - kLawThresholds.undecided) * inflation /
+         winner.freedom;
+}
+
+std::vector<const FittedForm*> ComparedForms::behind_best() const {
+  const FittedForm& winner = fits[best];
+  const bool curve = winner.law.is_curve(winner.form);
   std::vector<const FittedForm*> behind;
   for (const FittedForm& fitted : fits)
-    if (!fitted.law.is_curve(fitted.form) && !fitted.law.same_pair(winner.law) &&
-        criterion(fitted) >= told && criterion(fitted) < decided)
+    if (!fitted.law.is_curve(fitted.form) && (curve || !fitted.law.same_pair(winner.law)) &&
+        left_more(fitted) >= 0)
       behind.push_back(&fitted);
   std::sort(behind.begin(), behind.end(), [&](const FittedForm* a, const FittedForm* b) {
     return criterion(*a) < criterion(*b);

@@ -20,9 +20,10 @@ struct ComparedForms {
   double criterion(const FittedForm& fitted) const;
   /// Those that the data do not tell from the best (LawThresholds::undecided), and pushes in other directions.
   std::vector<const FittedForm*> not_told_from_best() const;
-  /// Formulas of other pairs that a small error of the motion may have put behind it (LawThresholds::shared_error): most
-  /// probable first, one of each pair.
-  std::vector<const FittedForm*> nearly_as_good() const;
+  /// Other formulas: most probable first, one of each pair. Of the best one's pair only if that is a curve.
+  std::vector<const FittedForm*> behind_best() const;
+  /// Of one of these: squared residuals, over the noise, beyond what would leave it undecided, in the mean.
+  double left_more(const FittedForm& fitted) const;
 };
 
 /// Fits each from where it begins. The best is the simplest that the data do not decide against, less terms that do

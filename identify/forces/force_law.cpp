@@ -456,10 +456,13 @@ class LawSearch {
       }
     }
     const auto take = [&](const std::vector<const FittedForm*>& some, std::vector<ForceLaw>& as) {
-      for (const FittedForm* fitted : some) take_law(*fitted, all->inflation, as.emplace_back());
+      for (const FittedForm* fitted : some) {
+        take_law(*fitted, all->inflation, as.emplace_back());
+        as.back().left_more = all->left_more(*fitted);
+      }
     };
     take(all->not_told_from_best(), law.rivals);
-    take(all->nearly_as_good(), law.nearly_rivals);
+    take(all->behind_best(), law.behind);
     take_law(found, std::max(1.0, found.squares / found.freedom), law);
   }
 

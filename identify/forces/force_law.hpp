@@ -32,11 +32,11 @@ struct LawThresholds {
   /// are far from their values can make a wrong law look so. Twice the residual. Chosen.
   double astray = 4;
   /// Over noise: the error of the motion that two laws, or two models, share at least, for no law is exact. By so much in
-  /// every number that was measured, another one may be behind and be the right one (compared_forms.cpp, and
-  /// identify/diagnosis/compare.cpp). As DiagnosisThresholds::law_error.
+  /// every number that was measured, another one may be behind and be the right one (identify/diagnosis/compare.cpp).
+  /// As DiagnosisThresholds::law_error.
   double shared_error = 0.1;
   /// Formulas that are fitted exactly in the law's place: those that are not told apart from it, then those that are
-  /// nearly so, most probable first. Each costs a fit. Chosen.
+  /// little behind, most probable first. Each costs a fit. Chosen.
   int rivals = 3;
 };
 inline constexpr LawThresholds kLawThresholds;
@@ -66,9 +66,11 @@ struct ForceLaw {
   /// spectrum.
   double chance = 1;
   std::vector<ForceLaw> rivals;  ///< formulas that the data do not tell from it
-  /// Those of other pairs that a small error of the motion (LawThresholds::shared_error) may have put behind: most
-  /// probable first, one of each pair. Exact fits decide.
-  std::vector<ForceLaw> nearly_rivals;
+  /// Those that are told from it by linear equations only, most probable first, one of each pair, of its own only if it is
+  /// a curve. As far as the equations err, exact fits decide.
+  std::vector<ForceLaw> behind;
+  double left_more =
+      0;  ///< of one of these: squared residuals, over the noise, beyond those of rivals, in the mean
   std::vector<std::string> words;
 };
 

@@ -54,13 +54,15 @@ std::string effect_of(const ForceLaw& law, const std::string& id, double length)
   const bool point = law.site.kind == SiteKind::kPlace && !load;
   const std::string title = fmt::format("{} against {}{}", law.force, law.variable,
                                         load ? " at the load" : site_in_words(law.site));
-  const std::string words = fmt::format(
-      "Found in recordings, declared by nobody: {}; {}. Chosen of {} pairs of a force and a "
-      "variable in {}, it explained {:.0f} % of what a force can explain in the second; of random "
-      "forces {:.2g} did "
-      "as well.",
-      title, formula.text, law.candidates, law.chosen_in(), 100 * law.share_confirmed(),
-      law.chance);
+  const std::string how =
+      law.found
+          ? fmt::format(
+                "Chosen of {} pairs of a force and a variable in {}, it explained {:.0f} % of "
+                "what a force can explain in the second; of random forces {:.2g} did as well.",
+                law.candidates, law.chosen_in(), 100 * law.share_confirmed(), law.chance)
+          : "Fitted in the place of the law that was chosen.";
+  const std::string words =
+      fmt::format("Found in recordings, declared by nobody: {}; {}. {}", title, formula.text, how);
   using Kind = CandidateLaw::Formula::Kind;
   std::string more;
   if (formula.curve)
