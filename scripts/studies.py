@@ -42,7 +42,8 @@ def copy_cases_of_recordings(output):
     """scripts/recordings into OUTPUT/recordings, with the recordings of $CATENA_DATA, or of ../shared/data beside the checkout."""
     data = os.environ.get("CATENA_DATA", os.path.join(os.path.dirname(ROOT), "shared", "data"))
     if not os.path.isdir(data):
-        sys.exit(f"no recordings in {data}; CATENA_DATA names their folder")
+        print(f"{sys.argv[0]}: no recordings in {data}; CATENA_DATA names their folder", file=sys.stderr)
+        sys.exit(2)
     shutil.copytree(f"{ROOT}/scripts/recordings", f"{output}/recordings", dirs_exist_ok=True)
     for case in os.listdir(f"{output}/recordings"):
         path = f"{output}/recordings/{case}"
