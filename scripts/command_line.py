@@ -23,6 +23,8 @@ def of_study(name, more={}):
     values = said.parse_args()
     if not os.path.exists(f"{values.binaries}/bin/catena"):
         said.error(f"no catena in {values.binaries}/bin; build it, or name the folder")
+    if os.path.exists(values.output) and not os.path.isdir(values.output):
+        said.error(f"{values.output} is no folder; name another one for the output")
     os.makedirs(values.output, exist_ok=True)
     return values
 
