@@ -13,9 +13,10 @@ namespace catena {
 /// predicts the held-out part better than they do, beyond chance, takes their place. Else all stays
 /// as concluded, and a note says why. In the plane the same is tried with more links where these would change the motion by
 /// more than the noise. With `DiagnosisOptions::discover` all this is done where no gap
-/// is left, too. Formulas that the search did not tell from the law are fitted in its place: those that
-/// the data do not decide against become alternatives. `asked`: as for conclude(). Throws as conclude(), and
-/// Interrupted.
+/// is left, too. Formulas that the search did not tell from the law are fitted in its place. One of them
+/// becomes the law where the data decide for it, or where the law is a curve and they do not decide against the
+/// formula. Of the others, those that the data do not decide against become alternatives. `asked`: as for
+/// conclude(). Throws as conclude(), and Interrupted.
 void discover(DiagnosisState& state, const Case& asked);
 
 /// Puts a formula that was fitted in the place of the law `found.law`, whose model is `law`, where the report looks
