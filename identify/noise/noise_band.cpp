@@ -23,6 +23,8 @@ constexpr double kMisfitElsewhere = 10;
 constexpr double kFewestFrequencies = 0.25;
 /// Squared coherence of channels, beyond chance: a third of their power is misfit.
 constexpr double kCoherent = 0.1;
+/// Or by so many standard deviations of what few channels and frames have by chance.
+constexpr double kCoherentBeyondChance = 3;
 /// Channels of a direction, from which on their coherence tells.
 constexpr Index kFewestCompared = 4;
 
@@ -70,8 +72,13 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
         products[static_cast<std::size_t>(j)] += y * y.adjoint();
       }
     // Independent values in five neighbouring frequencies.
-    const double count =
-        5 * segments.seen / static_cast<double>(sigma.size()) / (2 * static_cast<double>(bins - 1));
+    const double count = 5 * segments.values / static_cast<double>(sigma.size()) /
+                         (2 * static_cast<double>(bins - 1));
+    const auto pairs = static_cast<double>(n * (n - 1) / 2);
+    // By chance, and as the mean was taken out of so many.
+    const double without_mean = std::pow(static_cast<double>(n - 1), -2);
+    const double most = 1 / count + without_mean +
+                        std::max(kCoherent, kCoherentBeyondChance / (count * std::sqrt(pairs)));
     // From below: there is misfit beside the motion, and between the lobes of a smoothing what leaks.
     for (Index j = 2; j + 2 < bins; ++j) {
       if (!use[static_cast<std::size_t>(j)]) continue;
@@ -81,8 +88,7 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
       for (Index a = 0; a < n; ++a)
         for (Index b = 0; b < a; ++b)
           coherence += std::norm(sum(a, b)) / (sum(a, a).real() * sum(b, b).real());
-      coherence /= static_cast<double>(n * (n - 1) / 2);
-      if (coherence < 1 / count + kCoherent) break;
+      if (coherence / pairs < most) break;
       first = std::max(first, j + 1);
     }
   }
