@@ -31,7 +31,7 @@ constexpr int kRounds = 3;
 const NoiseShape kFirstShape = {1, {}};
 /// Standard deviations, from which on a common mode is believed.
 constexpr double kCommonSeen = 4;
-constexpr int kSplitRounds = 30;
+constexpr int kSplitRounds = 30;  // of expectation and maximisation
 
 /// Estimates of variances from `count` values each, drawn towards their mean as far as their scatter is that of
 /// such estimates; and so much larger that values over them have the mean square 1.
@@ -151,15 +151,21 @@ void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedP
 /// Shape, then sizes, of noise whose sizes were known roughly; the first time, not at all. False if
 /// the motion fills the band.
 bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& expected) {
-  const NoiseBand band = noise_band(segments, noise.direction);
+  NoiseBand band = noise_band(segments, noise.direction);
   noise.compared = band.compared;
   if (band.share == 0) return false;
   if (noise.sigma.size() == 0) {
     noise.sigma = band.sigma;
     noise.common = VectorXd::Zero(band.sigma.size());
   }
-  noise.shape =
-      fit_noise_shape(expected, whitened_power(segments, noise), band.use, segments.values);
+  const VectorXd power = whitened_power(segments, noise);
+  noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
+  // Few channels cannot show by their coherence that a vibration is a misfit.
+  while (!band.compared &&
+         leave_out_vibrations(power, expected(noise.shape), segments.values, band)) {
+    if (band.share == 0) return false;
+    noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
+  }
   find_sizes(segments, band, expected, noise);
   return true;
 }

@@ -270,8 +270,8 @@ NoiseShape fit_noise_shape(const ExpectedPower& expected, const VectorXd& power,
   double best_everywhere = std::numeric_limits<double>::infinity();
   for (const Fit& each : fits) {
     const double open = kLeftOpen - (each.criterion - chosen.criterion);
-    const bool white = chosen.shape.white() && each.shape.kernel != 0;  // no smoothing is seen
-    if (open < 0 || white) continue;
+    const bool unseen_smoothing = chosen.shape.white() && each.shape.kernel != 0;
+    if (open < 0 || unseen_smoothing) continue;
     NoiseShape furthest = each.shape;
     everywhere.minimise(furthest);
     const double slowest = std::max(kSlowestUnseen, kSlowerUnseen * power_of_slow(each.shape));

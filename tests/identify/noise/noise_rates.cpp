@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// noise_rates [--trials N] [--first SEED] [--misfit SIZE] [--markers M] [--frames F] [--recordings R]: how often a gap is found in noise of many
-// kinds, as it is left by a right model and by one that misses something smooth of SIZE times the
-// noise (default 0.55). Ends with status 1 if gaps are found where nothing is missing more often than
-// in one of 50 recordings, beyond chance, or not found in white noise where something is.
+// noise_rates [--trials N] [--first SEED] [--misfit SIZE] [--markers M] [--frames F] [--recordings R]: how
+// often a gap is found in noise of many kinds, as it is left by a right model and by one that misses something
+// smooth of SIZE times the noise (default 0.55). Ends with status 1 if gaps are found where nothing is missing
+// more often than in one of 50 recordings, beyond chance, or not found in white noise where something is.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
