@@ -8,19 +8,18 @@
 
 namespace catena {
 
-/// The spectra of tapered segments of the residuals and predictions of all windows of a recording, one by each
-/// taper (slepian_tapers).
+/// The spectra of tapered segments of the residuals and predictions of all windows of a recording.
 class Segments {
  public:
   /// Of each window a matrix, channels x frames on a grid; NaN: not seen, and filled in as for noise
-  /// of `shape`. Segments have the length of the tapers and overlap by half or more.
+  /// of `shape`. Segments have the length of the taper and overlap by two thirds.
   Segments(const std::vector<Eigen::MatrixXd>& residuals,
            const std::vector<Eigen::MatrixXd>& predictions, const NoiseShape& shape,
-           const Eigen::MatrixXd& tapers);
+           const Eigen::VectorXd& taper);
 
-  std::vector<Eigen::MatrixXcd> residual;  ///< per segment and taper, channels x frequencies
+  std::vector<Eigen::MatrixXcd> residual;  ///< per segment, channels x frequencies
   Eigen::MatrixXd motion_power;            ///< channels x frequencies
-  double values = 0;                       ///< independent residuals that stand behind them
+  double seen = 0;                         ///< residuals
 
   /// Mean power of the residuals, channels x frequencies.
   Eigen::MatrixXd power() const;
