@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<NoiseModel>& noise,
                  const std::vector<Index>& first) {
   GapTest test;
-  double noise2 = 0, rms2 = 0, lag1 = 0, lag1_count = 0;
+  double noise2 = 0, rms2 = 0, lag1 = 0, lag1_count = 0, along = 0, along_count = 0;
   double products = 0, pairs = 0, size = 0, count = 0;
   for (std::size_t e = 0; e < residuals.size(); ++e) {
     const MatrixXd& r = residuals[e];
@@ -34,8 +34,12 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<Noise
         rms2 += r(c, k) * r(c, k);
         size += z(c, k) * z(c, k) - 1;
         for (Index l = 1; l <= lags && k + l < r.cols(); ++l) products += product(c, k, c, k + l);
-        if (c + 2 < r.rows())
-          products += product(c, k, c + 2, k);  // side with side, down with down
+        if (c + 2 < r.rows()) {  // side with side, down with down
+          const double value = product(c, k, c + 2, k);
+          products += value;
+          along += variance * value;
+          along_count += 1;
+        }
         if (k + 1 < r.cols() && !std::isnan(z(c, k + 1))) {
           lag1 += variance * z(c, k) * z(c, k + 1);
           lag1_count += 1;
@@ -46,7 +50,10 @@ GapTest test_gap(const std::vector<MatrixXd>& residuals, const std::vector<Noise
   if (count == 0) return test;
   test.noise = std::sqrt(noise2 / count);
   test.rms = std::sqrt(rms2 / count);
-  test.misfit = lag1_count > 0 ? std::sqrt(std::max(0.0, lag1 / lag1_count)) : 0;
+  // A misfit is smooth in time, and alike in neighbouring channels.
+  const double in_time = lag1_count > 0 ? lag1 / lag1_count : 0;
+  const double in_neighbours = along_count > 0 ? along / along_count : 0;
+  test.misfit = std::sqrt(std::max({0.0, in_time, in_neighbours}));
   test.autocorrelation = pairs > 0 ? products / std::sqrt(pairs) : 0;
   // The noise is an estimate from the same residuals, about three times less sure than their
   // number.

@@ -10,7 +10,6 @@
 #include "identify/diagnosis/thresholds.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
-#include "identify/problem/evaluation.hpp"
 #include "linear_algebra/decompositions.hpp"
 
 namespace catena {
@@ -141,11 +140,20 @@ OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated
   return {as_large.fitted / (1 + kRandomSeries), as_large.held_out / (1 + kRandomSeries)};
 }
 
-Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise) {
-  const Problem& problem = *model.problem;
-  const Evaluation evaluation = evaluate(problem, model.x, true, true);
+Evaluation evaluated_with_derivatives(const FittedModel& model) {
+  Evaluation evaluation = evaluate(*model.problem, model.x, true, true);
   if (!evaluation.ok)
     throw std::runtime_error("what a model leaves cannot be tested: " + evaluation.message);
+  return evaluation;
+}
+
+Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise) {
+  return remainder_of(model, noise, evaluated_with_derivatives(model));
+}
+
+Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise,
+                       const Evaluation& evaluation) {
+  const Problem& problem = *model.problem;
   Remainder remainder;
   const auto split = [&](std::size_t e, const MatrixXd& residual, MatrixXd& fitted,
                          MatrixXd& held_out) {

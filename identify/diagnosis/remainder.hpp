@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identify/diagnosis/fitted_model.hpp"
+#include "identify/problem/evaluation.hpp"
 
 namespace catena {
 
@@ -44,7 +45,11 @@ OfParts excess(const Remainder& remainder);
 OfParts chance_of_remainder(const Remainder& remainder, const OfParts& tolerated);
 
 /// One simulation with derivatives of the whole recordings. Throws std::runtime_error where it fails.
+Evaluation evaluated_with_derivatives(const FittedModel& model);
 Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise);
+/// From that simulation.
+Remainder remainder_of(const FittedModel& model, const std::vector<NoiseModel>& noise,
+                       const Evaluation& evaluation);
 
 /// held_out_gap(), with `present`: more is left than errors of the unknowns, noise, and a misfit that is no
 /// gap where it is fitted explain, by chance in fewer than 1 of 100 (DiagnosisThresholds::chance).

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "common/parallel.hpp"
 #include "identify/diagnosis/diagnosis_state.hpp"
+#include "identify/diagnosis/redrawn_noise.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {
@@ -17,20 +19,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kNoises = 200;
+constexpr double kTail = 0.025;  // at each end of an interval
 constexpr int kResamples = 400;
+constexpr unsigned kSeedOfShares = 1;
 constexpr Index kScatterBlocks = 12;  // of a recording: fewer would say too little of their scatter
 // Half the width of an interval in standard deviations of the bootstrap: Student's t of eleven degrees
 // of freedom, times sqrt(12 / 11) for the mean that the blocks share. Percentiles of so few blocks
 // cover 83 to 88 % only.
-constexpr double kHalfWidth = 2.3;
+constexpr double kHalfWidthOfBlocks = 2.3;
 
 /// Of every frame of all recordings in which something was measured: the sum of the squares over the noise
-/// less the number of values, and that number.
+/// less that of noise, and the number of values.
 struct FrameSums {
   VectorXd excess, count;
 };
 
-FrameSums frame_sums(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas) {
+/// `noise`: its mean square that is taken off, 1 or 0.
+FrameSums frame_sums(const std::vector<MatrixXd>& residuals, const std::vector<double>& sigmas,
+                     double noise) {
   Index frames = 0;
   for (const MatrixXd& residual : residuals) frames += residual.cols();
   FrameSums sums{VectorXd::Zero(frames), VectorXd::Zero(frames)};
@@ -39,7 +46,7 @@ FrameSums frame_sums(const std::vector<MatrixXd>& residuals, const std::vector<d
     for (Index k = 0; k < residuals[e].cols(); ++k) {
       for (const double value : residuals[e].col(k)) {
         if (std::isnan(value)) continue;
-        sums.excess[frame] += value * value / (sigmas[e] * sigmas[e]) - 1;
+        sums.excess[frame] += value * value / (sigmas[e] * sigmas[e]) - noise;
         sums.count[frame] += 1;
       }
       if (sums.count[frame] > 0) ++frame;
@@ -50,7 +57,7 @@ FrameSums frame_sums(const std::vector<MatrixXd>& residuals, const std::vector<d
 }
 
 /// Mean over all orders of what each effect removes, then what is left, from the misfit with every
-/// subset; all over the misfit without effects.
+/// subset; all over the misfit without effects, if that is one.
 VectorXd shares(const VectorXd& misfit) {
   const auto subsets = static_cast<unsigned>(misfit.size());
   const int effects = std::countr_zero(subsets);
@@ -65,49 +72,91 @@ VectorXd shares(const VectorXd& misfit) {
       share[i] += orders * (misfit[subset] - misfit[subset | 1u << i]);
     }
   share[effects] = misfit[subsets - 1];
-  return share / misfit[0];
+  return share / (misfit[0] > 0 ? misfit[0] : std::numeric_limits<double>::quiet_NaN());
 }
 
-}  // namespace
-
-std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
-                                           const std::vector<double>& sigmas, unsigned seed) {
+std::vector<FrameSums> sums_of(const SubsetResiduals& residuals, const std::vector<double>& sigmas,
+                               double noise = 1) {
   std::vector<FrameSums> sums;
-  for (const auto& subset : residuals) sums.push_back(frame_sums(subset, sigmas));
-  const Index frames = sums.front().count.size();
-  const auto subsets = static_cast<Index>(sums.size());
-  const auto misfits = [&](const VectorXd& times) {
-    VectorXd misfit(subsets);
-    for (Index s = 0; s < subsets; ++s) {
-      const FrameSums& sum = sums[static_cast<std::size_t>(s)];
-      misfit[s] = std::max(0.0, sum.excess.dot(times) / sum.count.dot(times));
-    }
-    return misfit;
-  };
-  const VectorXd estimate = shares(misfits(VectorXd::Ones(frames)));
+  for (const auto& subset : residuals) sums.push_back(frame_sums(subset, sigmas, noise));
+  return sums;
+}
 
+/// With every subset; below 0 where less than noise is left. `times`: how often each frame counts.
+VectorXd misfits(const std::vector<FrameSums>& sums, const VectorXd& times) {
+  VectorXd misfit(static_cast<Index>(sums.size()));
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    misfit[static_cast<Index>(s)] = sums[s].excess.dot(times) / sums[s].count.dot(times);
+  return misfit;
+}
+
+VectorXd shares(const std::vector<FrameSums>& sums) {
+  return shares(misfits(sums, VectorXd::Ones(sums.front().count.size())));
+}
+
+/// Shares that were drawn, one more column for every draw; without a misfit there are none.
+class DrawnShares {
+ public:
+  void add(const VectorXd& share) {
+    ++drawn_;
+    if (!share.allFinite()) return;
+    shares_.conservativeResize(share.size(), shares_.cols() + 1);
+    shares_.rightCols(1) = share;
+  }
+  /// Whether fewer than half have a misfit.
+  bool few() const { return 2 * shares_.cols() <= drawn_; }
+  VectorXd deviations() const {
+    const VectorXd mean = shares_.rowwise().mean();
+    return (shares_.cwiseAbs2().rowwise().mean() - mean.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  }
+  /// The share of row i that this part of them does not reach.
+  double quantile(Index i, double part) const {
+    VectorXd sorted = shares_.row(i);
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[std::lround(part * static_cast<double>(sorted.size() - 1))];
+  }
+
+ private:
+  Index drawn_ = 0;
+  MatrixXd shares_;
+};
+
+/// In other stretches of motion.
+DrawnShares shares_of_blocks(const std::vector<FrameSums>& sums) {
+  const Index frames = sums.front().count.size();
   const Index length = std::max<Index>(1, frames / kScatterBlocks);
-  std::mt19937_64 random(seed);
-  VectorXd sum = VectorXd::Zero(estimate.size()), squares = sum;
-  int count = 0;
+  std::mt19937_64 random(kSeedOfShares);
+  DrawnShares drawn;
   for (int resample = 0; resample < kResamples; ++resample) {
     VectorXd times = VectorXd::Zero(frames);
     for (Index block = 0; block < kScatterBlocks; ++block) {
       const auto begin = static_cast<Index>(random() % static_cast<std::uint64_t>(frames));
       for (Index k = 0; k < length; ++k) times[(begin + k) % frames] += 1;
     }
-    const VectorXd share = shares(misfits(times));
-    if (!share.allFinite()) continue;
-    sum += share;
-    squares += share.cwiseAbs2();
-    ++count;
+    drawn.add(shares(misfits(sums, times)));
   }
-  if (count < kResamples / 2 || !estimate.allFinite()) return {};
-  const VectorXd mean = sum / count;
-  const VectorXd half = kHalfWidth * (squares / count - mean.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  return drawn;
+}
+
+}  // namespace
+
+std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
+                                           const DrawnResiduals& drawn,
+                                           const std::vector<double>& sigmas) {
+  const std::vector<FrameSums> sums = sums_of(residuals, sigmas);
+  const VectorXd estimate = shares(sums);
+  DrawnShares of_noise;
+  for (const SubsetResiduals& each : drawn.with_noise) of_noise.add(shares(sums_of(each, sigmas)));
+  const DrawnShares of_blocks = shares_of_blocks(sums);
+  if (of_noise.few() || of_blocks.few() || !estimate.allFinite()) return {};
+  const VectorXd least = estimate - kHalfWidthOfBlocks * of_blocks.deviations();
   std::vector<ShareInterval> intervals;
+  // Noise does to what is drawn what it did to the recording.
+  const VectorXd both = estimate + shares(sums_of(drawn.without_noise, sigmas, 0));
+  if (!both.allFinite()) return {};
   for (Index i = 0; i < estimate.size(); ++i)
-    intervals.push_back({estimate[i], estimate[i] - half[i], estimate[i] + half[i]});
+    intervals.push_back({estimate[i], both[i] - of_noise.quantile(i, 1 - kTail),
+                         both[i] - of_noise.quantile(i, kTail), least[i]});
   return intervals;
 }
 
@@ -174,15 +223,26 @@ Shares shares_of(DiagnosisState& state) {
     fitted[subset] = fits[subset].fit_residual;
     held_out[subset] = fits[subset].held_out_residual;
   }
-  constexpr unsigned kSeed = 1;
+  const RedrawnNoise noise(fits, state.found.noise);
+  RedrawnNoise::Residuals exact = noise.without_noise();
+  DrawnResiduals fitted_again{std::move(exact.fitted), std::vector<SubsetResiduals>(kNoises)};
+  DrawnResiduals held_out_again{std::move(exact.held_out), std::vector<SubsetResiduals>(kNoises)};
+  state.context.begin("drawing other noise", kNoises);
+  in_parallel(kNoises, state.context.threads, [&](std::size_t draw) {
+    RedrawnNoise::Residuals drawn = noise.draw(kSeedOfShares + draw);
+    fitted_again.with_noise[draw] = std::move(drawn.fitted);
+    held_out_again.with_noise[draw] = std::move(drawn.held_out);
+    state.context.end_task();
+  });
+  state.context.stop_if_asked();
+  const std::vector<double> sigmas = levels(state.found.noise);
   Shares result;
-  const std::vector<ShareInterval> in_fit =
-      share_intervals(fitted, levels(state.found.noise), kSeed);
+  const std::vector<ShareInterval> in_fit = share_intervals(fitted, fitted_again, sigmas);
   if (in_fit.empty()) return {};
   result.has_held_out = state.found.final_held_out.count > 0;
-  const std::vector<ShareInterval> later =
-      result.has_held_out ? share_intervals(held_out, levels(state.found.noise), kSeed)
-                          : std::vector<ShareInterval>(in_fit.size());
+  const std::vector<ShareInterval> later = result.has_held_out
+                                               ? share_intervals(held_out, held_out_again, sigmas)
+                                               : std::vector<ShareInterval>(in_fit.size());
   if (later.empty()) return {};
   for (std::size_t i = 0; i < effects.size(); ++i)
     result.effects.push_back({effects[i], in_fit[i], later[i]});

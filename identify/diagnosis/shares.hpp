@@ -11,9 +11,12 @@ namespace catena {
 
 class DiagnosisState;
 
-/// A share with its 95 % interval; 1 is the whole misfit of the model without effects.
+/// A share; 1 is the whole misfit of the model without effects.
 struct ShareInterval {
-  double share = 0, lower = 0, upper = 0;
+  double share = 0;
+  double lower = 0, upper = 0;  ///< 95 % interval of what it would be without noise
+  double least =
+      0;  ///< lower end of the 95 % interval of what it would be in an endless motion like this
 };
 
 /// What one effect takes away of the misfit.
@@ -29,9 +32,9 @@ struct EffectShare {
 /// An effect explains more or less by the order in which effects are added. Its share is the mean
 /// over all orders (Shapley value). That needs a fit with every subset of the effects.
 ///
-/// The intervals come from a moving-block bootstrap: blocks of frames are drawn again from the
-/// residuals of all these fits together. They say how much the shares depend on this stretch of
-/// motion. They do not say whether the effects are the right ones.
+/// The intervals are of the same motion with other noise (redrawn_noise.hpp). How much a share depends on this
+/// stretch of motion, `least` says: it comes from a moving-block bootstrap, in which blocks of frames are drawn again
+/// from the residuals of all these fits together. Neither says whether the effects are the right ones.
 struct Shares {
   std::vector<EffectShare> effects;          ///< in the order found
   ShareInterval left_fitted, left_held_out;  ///< what is left with all of them
@@ -51,9 +54,15 @@ FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::strin
 /// experiment, channels x frames; NaN where nothing was measured.
 using SubsetResiduals = std::vector<std::vector<Eigen::MatrixXd>>;
 
-/// One interval per effect, then that of what is left. `seed`: of the bootstrap. Empty where the
-/// model without effects leaves no misfit.
+/// Residuals that were drawn: without noise, and with noise several times.
+struct DrawnResiduals {
+  SubsetResiduals without_noise;
+  std::vector<SubsetResiduals> with_noise;
+};
+
+/// One interval per effect, then that of what is left. Empty where the model without effects leaves no misfit.
 std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
-                                           const std::vector<double>& sigmas, unsigned seed);
+                                           const DrawnResiduals& drawn,
+                                           const std::vector<double>& sigmas);
 
 }  // namespace catena

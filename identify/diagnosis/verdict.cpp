@@ -213,11 +213,11 @@ const Stage& last_without_effects(const std::vector<Stage>& stages) {
 std::vector<std::string> standing_effects(const Diagnosis& found) {
   std::vector<std::string> stand;
   for (const EffectShare& share : found.shares.effects) {
-    const bool predicts = !found.shares.has_held_out || share.held_out.lower > 0;
+    const bool predicts = !found.shares.has_held_out || share.held_out.least > 0;
     const double most = found.shares.has_held_out
-                            ? std::max(share.fitted.lower, share.held_out.lower)
-                            : share.fitted.lower;
-    if (predicts && share.fitted.lower > 0 && most > kThresholds.worthwhile &&
+                            ? std::max(share.fitted.least, share.held_out.least)
+                            : share.fitted.least;
+    if (predicts && share.fitted.least > 0 && most > kThresholds.worthwhile &&
         !needs_no_effect(found, share.effect))
       stand.push_back(share.effect);
   }

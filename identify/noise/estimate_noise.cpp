@@ -31,15 +31,17 @@ constexpr int kRounds = 3;
 const NoiseShape kFirstShape = {1, {}};
 /// Standard deviations, from which on a common mode is believed.
 constexpr double kCommonSeen = 4;
+constexpr int kSplitRounds = 30;  // of expectation and maximisation
 
-/// Towards their mean, as far as their scatter is that of estimates from `count` values each.
+/// Estimates of variances from `count` values each, drawn towards their mean as far as their scatter is that of
+/// such estimates; and so much larger that values over them have the mean square 1.
 VectorXd shrunk(const VectorXd& variances, double count) {
   const VectorXd logarithms = variances.array().log();
   const double mean = logarithms.mean(), error = 2 / count;
   const double scatter = (logarithms.array() - mean).square().sum() /
                          static_cast<double>(std::max<Index>(1, logarithms.size() - 1));
   const double real = std::max(0.0, 1 - error / scatter);
-  return (mean + real * (logarithms.array() - mean)).exp();
+  return (mean + real * (logarithms.array() - mean) + (1 + real) / count).exp();
 }
 
 /// Of every channel: what it shares with its direction, over its own noise.
@@ -70,6 +72,58 @@ VectorXd whitened_power(const Segments& segments, const NoiseModel& noise) {
   return sum / static_cast<double>(segments.residual.size());
 }
 
+/// What the channels of a direction are seen to share, from their covariance by `count` values: the mean of theirs by
+/// twos. 0: nothing beyond chance.
+double shared_variance(const MatrixXd& covariance, double count) {
+  double weights = 0, sum = 0;
+  for (Index a = 0; a < covariance.rows(); ++a)
+    for (Index b = 0; b < a; ++b) {
+      const double weight = 1 / (covariance(a, a) * covariance(b, b));
+      weights += weight;
+      sum += weight * covariance(a, b);
+    }
+  const double shared = weights > 0 ? sum / weights : 0;
+  return shared * std::sqrt(weights * count) > kCommonSeen ? shared : 0;
+}
+
+/// Per channel: variances of its own noise and of what its direction shares.
+struct Variances {
+  VectorXd own, shared;
+};
+
+/// The likeliest (factor analysis with one factor, by expectation and maximisation), with own variances shrunk().
+Variances split_common(const MatrixXd& covariance, double count,
+                       const std::vector<int>& direction) {
+  const VectorXd all = covariance.diagonal();
+  Variances variances{shrunk(all, count), VectorXd::Zero(all.size())};
+  std::vector<std::vector<Index>> sharing;
+  for (const int d : {0, 1}) {
+    std::vector<Index> group;
+    for (Index c = 0; c < all.size(); ++c)
+      if (direction[static_cast<std::size_t>(c)] == d) group.push_back(c);
+    const double shared = shared_variance(covariance(group, group), count);
+    if (shared == 0) continue;
+    variances.shared(group).setConstant(shared);
+    sharing.push_back(std::move(group));
+  }
+  for (int round = 0; round < kSplitRounds && !sharing.empty(); ++round) {
+    VectorXd own = all;
+    for (const std::vector<Index>& group : sharing) {
+      const MatrixXd among = covariance(group, group);
+      VectorXd weights = variances.own(group).cwiseInverse();
+      const double unknown = 1 / (1 / variances.shared[group.front()] + weights.sum());
+      weights *= unknown;
+      const VectorXd with_common = among * weights;
+      const double shared = unknown + weights.dot(with_common);
+      variances.shared(group).setConstant(shared);
+      own(group) =
+          among.diagonal() - 2 * with_common + VectorXd::Constant(own(group).size(), shared);
+    }
+    variances.own = shrunk(own, count);
+  }
+  return variances;
+}
+
 /// Of the shape of `noise`, by channel, and what the channels of a direction share.
 void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedPower& expected,
                 NoiseModel& noise) {
@@ -88,42 +142,30 @@ void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedP
       }
   covariance /= terms;
   // Real values that stand behind each variance.
-  const double count = band.share * segments.seen / static_cast<double>(channels);
-  VectorXd variance = covariance.diagonal();
-  noise.common.setZero();
-  for (const int d : {0, 1}) {
-    double weights = 0, sum = 0;
-    for (Index a = 0; a < channels; ++a)
-      for (Index b = 0; b < a; ++b) {
-        if (noise.direction[static_cast<std::size_t>(a)] != d ||
-            noise.direction[static_cast<std::size_t>(b)] != d)
-          continue;
-        const double weight = 1 / (covariance(a, a) * covariance(b, b));
-        weights += weight;
-        sum += weight * covariance(a, b);
-      }
-    const double shared = weights > 0 ? sum / weights : 0;
-    if (!(shared * std::sqrt(weights * count) > kCommonSeen)) continue;
-    for (Index c = 0; c < channels; ++c)
-      if (noise.direction[static_cast<std::size_t>(c)] == d) {
-        noise.common[c] = std::sqrt(shared);
-        variance[c] = std::max(variance[c] - shared, 0.05 * variance[c]);
-      }
-  }
-  noise.sigma = shrunk(variance, count).cwiseSqrt();
+  const double count = band.share * segments.values / static_cast<double>(channels);
+  const Variances variances = split_common(covariance, count, noise.direction);
+  noise.sigma = variances.own.cwiseSqrt();
+  noise.common = variances.shared.cwiseSqrt();
 }
 
 /// Shape, then sizes, of noise whose sizes were known roughly; the first time, not at all. False if
-/// the motion fills the band, or too few channels are there to compare: a misfit is smooth as
-/// smoothed noise is, but alike in neighbouring channels.
+/// the motion fills the band.
 bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& expected) {
-  const NoiseBand band = noise_band(segments, noise.direction);
-  if (band.share == 0 || !band.compared) return false;
+  NoiseBand band = noise_band(segments, noise.direction);
+  noise.compared = band.compared;
+  if (band.share == 0) return false;
   if (noise.sigma.size() == 0) {
     noise.sigma = band.sigma;
     noise.common = VectorXd::Zero(band.sigma.size());
   }
-  noise.shape = fit_noise_shape(expected, whitened_power(segments, noise), band.use, segments.seen);
+  const VectorXd power = whitened_power(segments, noise);
+  noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
+  // Few channels cannot show by their coherence that a vibration is a misfit.
+  while (!band.compared &&
+         leave_out_vibrations(power, expected(noise.shape), segments.values, band)) {
+    if (band.share == 0) return false;
+    noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
+  }
   find_sizes(segments, band, expected, noise);
   return true;
 }
@@ -183,7 +225,7 @@ std::vector<NoiseModel> estimate_noise(const std::vector<NoiseWindow>& windows,
     const ExpectedPower expected(length);
     noise.shape = kFirstShape;
     const auto segmented = [&] {
-      return Segments(residuals, predictions, noise.shape, expected.taper());
+      return Segments(residuals, predictions, noise.shape, expected.tapers());
     };
     for (int round = 0; round < kRounds && (round == 0 || noise.told); ++round)
       noise.told = improve(noise, segmented(), expected);

@@ -56,7 +56,7 @@ bool neighbours_refute(const Segments& segments, const VectorXd& sigma,
   const MatrixXd correlation =
       differences * sigma.cwiseAbs2().asDiagonal() * differences.transpose();
   const double apart = rows * rows / correlation.squaredNorm();
-  const double frames = segments.seen / static_cast<double>(sigma.size());
+  const double frames = segments.values / static_cast<double>(sigma.size());
   const double at_one = apart * frames / (2 * static_cast<double>(frequencies - 1));
 
   const Index used = frequencies - 1 - kFirst;

@@ -23,6 +23,10 @@ constexpr double kMisfitElsewhere = 10;
 constexpr double kFewestFrequencies = 0.25;
 /// Squared coherence of channels, beyond chance: a third of their power is misfit.
 constexpr double kCoherent = 0.1;
+/// Or by so many standard deviations of what few channels and frames have by chance.
+constexpr double kCoherentBeyondChance = 3;
+/// Standard deviations of the power at one frequency: noise has more in fewer than 1 of 1000.
+constexpr double kVibration = 5;
 /// Channels of a direction, from which on their coherence tells.
 constexpr Index kFewestCompared = 4;
 
@@ -70,8 +74,13 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
         products[static_cast<std::size_t>(j)] += y * y.adjoint();
       }
     // Independent values in five neighbouring frequencies.
-    const double count =
-        5 * segments.seen / static_cast<double>(sigma.size()) / (2 * static_cast<double>(bins - 1));
+    const double count = 5 * segments.values / static_cast<double>(sigma.size()) /
+                         (2 * static_cast<double>(bins - 1));
+    const auto pairs = static_cast<double>(n * (n - 1) / 2);
+    // By chance, and as the mean was taken out of so many.
+    const double without_mean = std::pow(static_cast<double>(n - 1), -2);
+    const double most = 1 / count + without_mean +
+                        std::max(kCoherent, kCoherentBeyondChance / (count * std::sqrt(pairs)));
     // From below: there is misfit beside the motion, and between the lobes of a smoothing what leaks.
     for (Index j = 2; j + 2 < bins; ++j) {
       if (!use[static_cast<std::size_t>(j)]) continue;
@@ -81,13 +90,20 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
       for (Index a = 0; a < n; ++a)
         for (Index b = 0; b < a; ++b)
           coherence += std::norm(sum(a, b)) / (sum(a, a).real() * sum(b, b).real());
-      coherence /= static_cast<double>(n * (n - 1) / 2);
-      if (coherence < 1 / count + kCoherent) break;
+      if (coherence / pairs < most) break;
       first = std::max(first, j + 1);
     }
   }
   for (Index j = 0; j < first; ++j) use[static_cast<std::size_t>(j)] = false;
   return compared;
+}
+
+/// Of all frequencies; 0: too few.
+double share_of(const std::vector<bool>& use) {
+  double used = 0;
+  for (const bool u : use) used += u;
+  const double share = used / static_cast<double>(use.size());
+  return share >= kFewestFrequencies ? share : 0;
 }
 
 }  // namespace
@@ -103,11 +119,23 @@ NoiseBand noise_band(const Segments& segments, const std::vector<int>& direction
   band.use = free_of_motion(power.transpose() * per_channel,
                             segments.motion_power.transpose() * per_channel);
   band.compared = leave_out_coherent(segments, band.sigma, direction, band.use);
-  double used = 0;
-  for (const bool u : band.use) used += u;
-  if (used >= kFewestFrequencies * static_cast<double>(bins))
-    band.share = used / static_cast<double>(bins);
+  band.share = share_of(band.use);
   return band;
+}
+
+bool leave_out_vibrations(const VectorXd& power, const VectorXd& expected, double values,
+                          NoiseBand& band) {
+  double sum = 0, used = 0;
+  for (Index j = 0; j < power.size(); ++j)
+    if (band.use[static_cast<std::size_t>(j)]) sum += power[j] / expected[j], used += 1;
+  const double complex_values = values / (2.0 * static_cast<double>(power.size() - 1));
+  const double most = sum / used * (1 + kVibration / std::sqrt(complex_values));
+  bool any = false;
+  for (Index j = 0; j < power.size(); ++j)
+    if (band.use[static_cast<std::size_t>(j)] && power[j] / expected[j] > most)
+      band.use[static_cast<std::size_t>(j)] = false, any = true;
+  band.share = share_of(band.use);
+  return any;
 }
 
 }  // namespace catena

@@ -27,8 +27,12 @@ std::vector<std::string> NoiseModel::words() const {
   std::vector<std::string> words;
   if (!told)
     words.emplace_back(
-        "fewer than 4 markers, motion at all frequencies that were recorded, or residuals that are "
-        "alike in neighbouring markers: noise cannot be told from what the model misses");
+        "motion at all frequencies that were recorded, or residuals that are alike in neighbouring "
+        "markers: noise cannot be told from what the model misses");
+  if (told && !compared)
+    words.emplace_back(
+        "with fewer than 4 markers all that is left at frequencies without motion is taken for "
+        "noise");
   const SmoothingKernel& smoothing = shape.smoothing();
   if (smoothing.frames() > 1)
     words.push_back(fmt::format("the tracks look smoothed over {} frames ({})", smoothing.frames(),

@@ -21,10 +21,12 @@ struct NoiseModel {
   Eigen::VectorXd sigma = {};
   Eigen::VectorXd common = {};  ///< per channel: of what its direction shares; 0: nothing
   NoiseShape shape = {};
-  /// Whether enough frequencies are free of motion, enough channels (4 of a direction) show that they
-  /// are, and what looks like noise is not alike in neighbouring channels. If not, the noise is taken as
-  /// white, with one size for all channels.
+  /// Whether enough frequencies are free of motion, and what looks like noise is not alike in neighbouring
+  /// channels. If not, the noise is taken as white, with one size for all channels.
   bool told = false;
+  /// Whether enough channels (4 of a direction) could show that the frequencies without motion are without
+  /// misfit, too.
+  bool compared = false;
   double excess_kurtosis = 0;  ///< 0: normally distributed; more: heavier tails
   long outliers = 0;           ///< in the whole recording
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "identify/noise/tapers.hpp"
+
 namespace catena {
 
 using Eigen::Index;
@@ -25,6 +27,14 @@ constexpr double kSlow = 0.5;
 /// Fall of twice the logarithm of the likelihood, up to which data do not decide: three standard
 /// deviations.
 constexpr double kLeftOpen = 9;
+/// The same where no autoregression explains them best, of the Bayesian information criterion: odds of 50. A gap that
+/// noise may explain with more probability than one in 50 is none.
+constexpr double kLeftOpenByWhite = 7.8;
+/// Largest power at frequency 0, over the mean, of noise that these frequencies do not show: that of an
+/// autocorrelation of 0.6. Slower noise looks like motion.
+constexpr double kSlowestUnseen = 4;
+/// Or so many times that of the noise that they show: from an autocorrelation of 0.65 to 0.8.
+constexpr double kSlowerUnseen = 2;
 
 VectorXd moving_average(int frames) { return VectorXd::Constant(frames, 1.0 / frames); }
 
@@ -130,15 +140,16 @@ VectorXd NoiseShape::autocorrelation(int lags) const {
   return correlation / correlation[0];
 }
 
-ExpectedPower::ExpectedPower(int length) : taper_(length), leakage_(length / 2 + 1, length + 1) {
-  for (int k = 0; k < length; ++k)  // leaks little
-    taper_[k] = std::pow(std::sin(std::numbers::pi * (k + 0.5) / length), 4);
-  taper_ /= taper_.norm();
-  // On a grid of half the spacing the sum over frequencies is exact: the taper ends.
+ExpectedPower::ExpectedPower(int length)
+    : tapers_(slepian_tapers(length)), leakage_(length / 2 + 1, length + 1) {
+  // On a grid of half the spacing the sum over frequencies is exact: the tapers end.
   for (int j = 0; j <= length / 2; ++j)
     for (int i = 0; i <= length; ++i) {
       const auto window = [&](int sign) {
-        return power_at(taper_, 2 * std::numbers::pi * (j - sign * i / 2.0) / length);
+        double power = 0;
+        for (const auto& taper : tapers_.colwise())
+          power += power_at(taper, 2 * std::numbers::pi * (j - sign * i / 2.0) / length);
+        return power / static_cast<double>(tapers_.cols());
       };
       leakage_(j, i) =
           (i == 0 || i == length ? window(1) : window(1) + window(-1)) / (2.0 * length);
@@ -153,6 +164,17 @@ VectorXd ExpectedPower::operator()(const NoiseShape& shape) const {
       smoothed.cwiseProduct(regressed_power(shape, static_cast<int>(smoothed.size()) - 1));
   return leakage_ * power / mean_power(power);
 }
+
+namespace {
+
+/// Of the autoregression: power at frequency 0 over the mean.
+double power_of_slow(const NoiseShape& shape) {
+  double power = 1;
+  for (const double p : shape.partial) power *= (1 + p) / (1 - p);
+  return power;
+}
+
+}  // namespace
 
 double NoiseShape::unpredictable() const { return 1 / mean_power(spectrum(*this).cwiseInverse()); }
 
@@ -239,7 +261,6 @@ NoiseShape fit_noise_shape(const ExpectedPower& expected, const VectorXd& power,
     shape = fits.back().shape;
   }
   const Fit chosen = *std::min_element(fits.begin(), fits.end(), better);
-  if (chosen.shape.partial.empty()) return chosen.shape;
   // The other frequencies are extrapolated to, from noise that is not the same at all of these. As far
   // as these leave it open, it is noise that explains what is at the others, and no misfit.
   std::vector<bool> all(use.size(), true);
@@ -249,17 +270,27 @@ NoiseShape fit_noise_shape(const ExpectedPower& expected, const VectorXd& power,
   double best_everywhere = std::numeric_limits<double>::infinity();
   for (const Fit& each : fits) {
     const double open = kLeftOpen - (each.criterion - chosen.criterion);
-    if (open < 0) continue;
-    NoiseShape target = each.shape, shape = each.shape;
-    everywhere.minimise(target);
-    for (double part = 1; part > 0.05; part -= 0.1) {
+    const bool unseen_smoothing = chosen.shape.white() && each.shape.kernel != 0;
+    if (open < 0 || unseen_smoothing) continue;
+    NoiseShape furthest = each.shape;
+    everywhere.minimise(furthest);
+    const double slowest = std::max(kSlowestUnseen, kSlowerUnseen * power_of_slow(each.shape));
+    const auto part_of = [&](double part) {
       NoiseShape between = each.shape;
       for (std::size_t p = 0; p < between.partial.size(); ++p)
-        between.partial[p] += part * (target.partial[p] - between.partial[p]);
-      if (whittle(between) - each.misfit > open) continue;
-      shape = between;
-      break;
+        between.partial[p] += part * (furthest.partial[p] - between.partial[p]);
+      return between;
+    };
+    double part = 1;
+    while (part > 0.05 && power_of_slow(part_of(part)) > slowest) part -= 0.1;
+    if (chosen.shape.partial.empty()) {  // all of it or nothing
+      if (whittle(part_of(part)) - each.misfit + each.criterion - chosen.criterion >
+          kLeftOpenByWhite)
+        continue;
+    } else {
+      while (part > 0.05 && whittle(part_of(part)) - each.misfit > open) part -= 0.1;
     }
+    const NoiseShape shape = part_of(std::max(0.0, part));
     const double value = everywhere(shape);
     if (value >= best_everywhere) continue;
     best_everywhere = value;

@@ -44,10 +44,10 @@ class ExpectedPower {
   explicit ExpectedPower(int length);
   /// At length / 2 + 1 frequencies.
   Eigen::VectorXd operator()(const NoiseShape& shape) const;
-  const Eigen::VectorXd& taper() const { return taper_; }
+  const Eigen::MatrixXd& tapers() const { return tapers_; }
 
  private:
-  Eigen::VectorXd taper_;                  // sum of squares: 1
+  Eigen::MatrixXd tapers_;
   Eigen::MatrixXd leakage_;                // frequencies x finer frequencies
   std::vector<Eigen::VectorXd> smoothed_;  // per kernel: power at the finer frequencies
 };

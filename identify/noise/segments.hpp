@@ -8,18 +8,19 @@
 
 namespace catena {
 
-/// The spectra of tapered segments of the residuals and predictions of all windows of a recording.
+/// The spectra of tapered segments of the residuals and predictions of all windows of a recording, one by each
+/// taper (slepian_tapers).
 class Segments {
  public:
   /// Of each window a matrix, channels x frames on a grid; NaN: not seen, and filled in as for noise
-  /// of `shape`. Segments have the length of the taper and overlap by two thirds.
+  /// of `shape`. Segments have the length of the tapers and overlap by half or more.
   Segments(const std::vector<Eigen::MatrixXd>& residuals,
            const std::vector<Eigen::MatrixXd>& predictions, const NoiseShape& shape,
-           const Eigen::VectorXd& taper);
+           const Eigen::MatrixXd& tapers);
 
-  std::vector<Eigen::MatrixXcd> residual;  ///< per segment, channels x frequencies
+  std::vector<Eigen::MatrixXcd> residual;  ///< per segment and taper, channels x frequencies
   Eigen::MatrixXd motion_power;            ///< channels x frequencies
-  double seen = 0;                         ///< residuals
+  double values = 0;                       ///< independent residuals that stand behind them
 
   /// Mean power of the residuals, channels x frequencies.
   Eigen::MatrixXd power() const;

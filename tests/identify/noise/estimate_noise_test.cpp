@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "identify/noise/drawn_noise.hpp"
+
 namespace {
 
 using catena::NoiseModel;
@@ -165,6 +167,46 @@ TEST_CASE("a camera that shakes is found, and taken out") {
   for (Index a = 0; a < 24; a += 2)
     for (Index b = 0; b < a; b += 2) between += z.row(a).dot(z.row(b)) / 240.0 / 66;
   CHECK(std::abs(between) < 0.03);
+}
+
+TEST_CASE("a short film does not make channels differ that are alike, nor those of a camera that shakes") {
+  for (unsigned seed = 20; seed < 30; ++seed) {
+    MatrixXd residual = white(24, 42, seed);
+    const MatrixXd shake = white(1, 42, seed + 100);
+    for (Index c = 0; c < 24; c += 2) residual.row(c) += shake;
+    const NoiseModel noise = estimated(residual);
+    REQUIRE(noise.told);
+    CHECK(noise.sigma.maxCoeff() < 2 * noise.sigma.minCoeff());
+    CHECK(noise.level < 1.6 * kSigma);
+  }
+}
+
+TEST_CASE("with one marker, too, correlated noise is told, and said to be all that is left") {
+  const NoiseModel noise = estimated(regressed(white(2, 600, 17), 0.6));
+  CHECK(noise.told);
+  CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.25));
+  CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.15));
+  CHECK(says(noise, "fewer than 4 markers"));
+  CHECK_FALSE(says(estimated(white(24, 240, 18)), "fewer than 4 markers"));
+}
+
+TEST_CASE("noise that is drawn is that of the model") {
+  NoiseModel model;
+  model.sigma = VectorXd::Constant(24, kSigma);
+  model.sigma[5] = 3 * kSigma;
+  model.common = VectorXd::Zero(24);
+  for (int c = 0; c < 24; ++c) {
+    model.direction.push_back(c % 2);
+    if (c % 2 == 0) model.common[c] = kSigma;
+  }
+  model.shape.partial = {0.6};
+  std::mt19937_64 random(19);
+  const NoiseModel noise = estimated(catena::drawn_noise(model, 24, 600, random));
+  CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.12));
+  CHECK(noise.sigma[5] == doctest::Approx(3 * kSigma).epsilon(0.2));
+  CHECK(noise.sigma[6] == doctest::Approx(kSigma).epsilon(0.2));
+  CHECK(noise.common[0] == doctest::Approx(kSigma).epsilon(0.3));
+  CHECK(noise.common[1] == 0);
 }
 
 TEST_CASE("values far off are left out and counted, heavy tails are seen") {
