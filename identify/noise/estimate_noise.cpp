@@ -149,7 +149,7 @@ void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedP
 }
 
 /// Shape, then sizes, of noise whose sizes were known roughly; the first time, not at all. False if
-/// the motion fills the band.
+/// the motion fills the band, or may be what looks like noise.
 bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& expected) {
   NoiseBand band = noise_band(segments, noise.direction);
   noise.compared = band.compared;
@@ -166,6 +166,9 @@ bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& e
     if (band.share == 0) return false;
     noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
   }
+  const std::vector<double>& partial = noise.shape.partial;
+  // Before a smoothing. Coherence would show that it is none.
+  if (!band.compared && !partial.empty() && partial.front() > kAsMotion) return false;
   find_sizes(segments, band, expected, noise);
   return true;
 }

@@ -12,13 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-/// Correlation of neighbouring frames from which on noise remembers ten frames, as motion does.
-constexpr double kAsMotion = 0.9;
-
-}  // namespace
-
 double NoiseModel::degrees_of_freedom() const {
   return excess_kurtosis > 0 ? 4 + 6 / excess_kurtosis : std::numeric_limits<double>::infinity();
 }
@@ -27,8 +20,9 @@ std::vector<std::string> NoiseModel::words() const {
   std::vector<std::string> words;
   if (!told)
     words.emplace_back(
-        "motion at all frequencies that were recorded, or residuals that are alike in neighbouring "
-        "markers: noise cannot be told from what the model misses");
+        "motion at all frequencies that were recorded, or residuals that are as slow as a motion "
+        "or "
+        "alike in neighbouring markers: noise cannot be told from what the model misses");
   if (told && !compared)
     words.emplace_back(
         "with fewer than 4 markers all that is left at frequencies without motion is taken for "
@@ -42,6 +36,7 @@ std::vector<std::string> NoiseModel::words() const {
     words.push_back(fmt::format(
         "the noise of neighbouring frames is correlated by {:.2g}{}", correlation,
         correlation > kAsMotion ? ": what is left may as well be a motion that the model lacks"
+        : correlation > 0       ? "; a misfit that looks like it is not found"
                                 : ""));
   if (sigma.size() > 0 && sigma.maxCoeff() > 1.5 * sigma.minCoeff())
     words.push_back(fmt::format("the noisiest channel has {:.2g} times the noise of the quietest",
