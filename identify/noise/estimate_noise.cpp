@@ -166,8 +166,8 @@ bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& e
     if (band.share == 0) return false;
     noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
   }
+  // Few channels cannot show by their coherence that this is no motion.
   const std::vector<double>& partial = noise.shape.partial;
-  // Before a smoothing. Coherence would show that it is none.
   if (!band.compared && !partial.empty() && partial.front() > kAsMotion) return false;
   find_sizes(segments, band, expected, noise);
   return true;

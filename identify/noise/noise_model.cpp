@@ -21,8 +21,7 @@ std::vector<std::string> NoiseModel::words() const {
   if (!told)
     words.emplace_back(
         "motion at all frequencies that were recorded, or residuals that are as slow as a motion "
-        "or "
-        "alike in neighbouring markers: noise cannot be told from what the model misses");
+        "or alike in neighbouring markers: noise cannot be told from what the model misses");
   if (told && !compared)
     words.emplace_back(
         "with fewer than 4 markers all that is left at frequencies without motion is taken for "
