@@ -149,26 +149,17 @@ void find_sizes(const Segments& segments, const NoiseBand& band, const ExpectedP
 }
 
 /// Shape, then sizes, of noise whose sizes were known roughly; the first time, not at all. False if
-/// the motion fills the band, or may be what looks like noise.
+/// the motion fills the band, or too few channels are there to compare: a misfit is smooth as
+/// smoothed noise is, but alike in neighbouring channels.
 bool improve(NoiseModel& noise, const Segments& segments, const ExpectedPower& expected) {
-  NoiseBand band = noise_band(segments, noise.direction);
-  noise.compared = band.compared;
-  if (band.share == 0) return false;
+  const NoiseBand band = noise_band(segments, noise.direction);
+  if (band.share == 0 || !band.compared) return false;
   if (noise.sigma.size() == 0) {
     noise.sigma = band.sigma;
     noise.common = VectorXd::Zero(band.sigma.size());
   }
-  const VectorXd power = whitened_power(segments, noise);
-  noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
-  // Few channels cannot show by their coherence that a vibration is a misfit.
-  while (!band.compared &&
-         leave_out_vibrations(power, expected(noise.shape), segments.values, band)) {
-    if (band.share == 0) return false;
-    noise.shape = fit_noise_shape(expected, power, band.use, segments.values);
-  }
-  // Few channels cannot show by their coherence that this is no motion.
-  const std::vector<double>& partial = noise.shape.partial;
-  if (!band.compared && !partial.empty() && partial.front() > kAsMotion) return false;
+  noise.shape =
+      fit_noise_shape(expected, whitened_power(segments, noise), band.use, segments.values);
   find_sizes(segments, band, expected, noise);
   return true;
 }

@@ -25,8 +25,6 @@ constexpr double kFewestFrequencies = 0.25;
 constexpr double kCoherent = 0.1;
 /// Or by so many standard deviations of what few channels and frames have by chance.
 constexpr double kCoherentBeyondChance = 3;
-/// Standard deviations of the power at one frequency: noise has more in fewer than 1 of 1000.
-constexpr double kVibration = 5;
 /// Channels of a direction, from which on their coherence tells.
 constexpr Index kFewestCompared = 4;
 
@@ -98,14 +96,6 @@ bool leave_out_coherent(const Segments& segments, const VectorXd& sigma,
   return compared;
 }
 
-/// Of all frequencies; 0: too few.
-double share_of(const std::vector<bool>& use) {
-  double used = 0;
-  for (const bool u : use) used += u;
-  const double share = used / static_cast<double>(use.size());
-  return share >= kFewestFrequencies ? share : 0;
-}
-
 }  // namespace
 
 NoiseBand noise_band(const Segments& segments, const std::vector<int>& direction) {
@@ -119,23 +109,11 @@ NoiseBand noise_band(const Segments& segments, const std::vector<int>& direction
   band.use = free_of_motion(power.transpose() * per_channel,
                             segments.motion_power.transpose() * per_channel);
   band.compared = leave_out_coherent(segments, band.sigma, direction, band.use);
-  band.share = share_of(band.use);
+  double used = 0;
+  for (const bool u : band.use) used += u;
+  if (used >= kFewestFrequencies * static_cast<double>(bins))
+    band.share = used / static_cast<double>(bins);
   return band;
-}
-
-bool leave_out_vibrations(const VectorXd& power, const VectorXd& expected, double values,
-                          NoiseBand& band) {
-  double sum = 0, used = 0;
-  for (Index j = 0; j < power.size(); ++j)
-    if (band.use[static_cast<std::size_t>(j)]) sum += power[j] / expected[j], used += 1;
-  const double complex_values = values / (2.0 * static_cast<double>(power.size() - 1));
-  const double most = sum / used * (1 + kVibration / std::sqrt(complex_values));
-  bool any = false;
-  for (Index j = 0; j < power.size(); ++j)
-    if (band.use[static_cast<std::size_t>(j)] && power[j] / expected[j] > most)
-      band.use[static_cast<std::size_t>(j)] = false, any = true;
-  band.share = share_of(band.use);
-  return any;
 }
 
 }  // namespace catena

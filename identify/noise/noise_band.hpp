@@ -18,9 +18,4 @@ struct NoiseBand {
 /// `direction` of each channel, as of estimate_noise().
 NoiseBand noise_band(const Segments& segments, const std::vector<int>& direction);
 
-/// Leaves out frequencies at which there is far more power than noise of this shape has by chance: a misfit that
-/// is a vibration. `power`: over the channels; `values`: that stand behind it. Returns whether any was left out.
-bool leave_out_vibrations(const Eigen::VectorXd& power, const Eigen::VectorXd& expected, double values,
-                          NoiseBand& band);
-
 }  // namespace catena

@@ -12,6 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+/// Correlation of neighbouring frames from which on noise remembers ten frames, as motion does.
+constexpr double kAsMotion = 0.9;
+
+}  // namespace
+
 double NoiseModel::degrees_of_freedom() const {
   return excess_kurtosis > 0 ? 4 + 6 / excess_kurtosis : std::numeric_limits<double>::infinity();
 }
@@ -20,12 +27,8 @@ std::vector<std::string> NoiseModel::words() const {
   std::vector<std::string> words;
   if (!told)
     words.emplace_back(
-        "motion at all frequencies that were recorded, or residuals that are as slow as a motion "
-        "or alike in neighbouring markers: noise cannot be told from what the model misses");
-  if (told && !compared)
-    words.emplace_back(
-        "with fewer than 4 markers all that is left at frequencies without motion is taken for "
-        "noise");
+        "fewer than 4 markers, motion at all frequencies that were recorded, or residuals that are "
+        "alike in neighbouring markers: noise cannot be told from what the model misses");
   const SmoothingKernel& smoothing = shape.smoothing();
   if (smoothing.frames() > 1)
     words.push_back(fmt::format("the tracks look smoothed over {} frames ({})", smoothing.frames(),

@@ -10,9 +10,6 @@
 
 namespace catena {
 
-/// Correlation of neighbouring frames, from which on noise remembers ten frames, as motion does.
-constexpr double kAsMotion = 0.9;
-
 /// The noise of one recording, as its residuals show it where the motion has no power.
 ///
 /// Every channel has noise of its own. All have the same spectrum. The channels of one direction may
@@ -24,13 +21,10 @@ struct NoiseModel {
   Eigen::VectorXd sigma = {};
   Eigen::VectorXd common = {};  ///< per channel: of what its direction shares; 0: nothing
   NoiseShape shape = {};
-  /// Whether enough frequencies are free of motion, and what looks like noise is not alike in neighbouring
-  /// channels, nor as slow as a motion in few channels. If not, the noise is taken as white, with one size for
-  /// all channels.
+  /// Whether enough frequencies are free of motion, enough channels (4 of a direction) show that they
+  /// are, and what looks like noise is not alike in neighbouring channels. If not, the noise is taken as
+  /// white, with one size for all channels.
   bool told = false;
-  /// Whether enough channels (4 of a direction) could show that the frequencies without motion are without
-  /// misfit, too.
-  bool compared = false;
   double excess_kurtosis = 0;  ///< 0: normally distributed; more: heavier tails
   long outliers = 0;           ///< in the whole recording
 

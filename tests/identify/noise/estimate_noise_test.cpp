@@ -181,15 +181,6 @@ TEST_CASE("a short film does not make channels differ that are alike, nor those 
   }
 }
 
-TEST_CASE("with one marker, too, correlated noise is told, and said to be all that is left") {
-  const NoiseModel noise = estimated(regressed(white(2, 600, 17), 0.6));
-  CHECK(noise.told);
-  CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.25));
-  CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.15));
-  CHECK(says(noise, "fewer than 4 markers"));
-  CHECK_FALSE(says(estimated(white(24, 240, 18)), "fewer than 4 markers"));
-}
-
 TEST_CASE("noise that is drawn is that of the model") {
   NoiseModel model;
   model.sigma = VectorXd::Constant(24, kSigma);
