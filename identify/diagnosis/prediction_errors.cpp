@@ -10,6 +10,7 @@
 #include "common/parallel.hpp"
 #include "common/special_values.hpp"
 #include "identify/diagnosis/bounded_fit.hpp"
+#include "identify/diagnosis/fitted_errors.hpp"
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/diagnosis/stacking.hpp"
 #include "identify/diagnosis/thresholds.hpp"
@@ -26,43 +27,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr std::uint64_t kSeedOfPredictions = 5;
-
-/// Errors like those that the model leaves where it was fitted, in one experiment, at all of its frames.
-class FittedErrors {
- public:
-  /// `left`: channels x frames of a fitted part; `stretch`: of the size, for what the unknowns took of it.
-  FittedErrors(const MatrixXd& left, Index frames, double stretch)
-      : frames_(frames), spectrum_(stretched(cosine_spectrum(left), frames)) {
-    double squares = 0, count = 0;
-    for (const double value : left.reshaped()) {
-      if (std::isnan(value)) continue;
-      squares += value * value;
-      count += 1;
-    }
-    const double size = std::sqrt(squares / std::max(1.0, count));
-    const double of_spectrum = spectrum_.norm() / std::sqrt(static_cast<double>(spectrum_.size()));
-    if (of_spectrum > 0) spectrum_ *= stretch * size / of_spectrum;
-  }
-  MatrixXd draw(std::mt19937_64& random) const { return random_series(spectrum_, frames_, random); }
-
- private:
-  Index frames_;
-  MatrixXd spectrum_;
-};
-
-/// Of every experiment. One without a fitted part errs by as many noise levels as the one that it errs like.
-std::vector<FittedErrors> fitted_errors(const FittedModel& model,
-                                        const std::vector<NoiseModel>& noise, double stretch) {
-  std::vector<FittedErrors> errors;
-  for (std::size_t e = 0; e < model.predicted.size(); ++e) {
-    const Index channels = model.predicted[e].rows();
-    const std::size_t other = errs_like(model.fit_residual, e, channels);
-    const double size = noise[e].level > 0 ? noise[e].level / noise[other].level : 1;
-    errors.emplace_back(channels_in_turn(model.fit_residual[other], channels),
-                        model.predicted[e].cols(), stretch * (other == e ? 1 : size));
-  }
-  return errors;
-}
 
 /// Sums of the squares of errors where something was measured, by part.
 struct Squares {

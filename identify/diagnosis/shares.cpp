@@ -9,7 +9,7 @@
 
 #include "common/parallel.hpp"
 #include "identify/diagnosis/diagnosis_state.hpp"
-#include "identify/diagnosis/redrawn_noise.hpp"
+#include "identify/diagnosis/redrawn_errors.hpp"
 #include "identify/diagnosis/variant.hpp"
 
 namespace catena {
@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kNoises = 200;
+constexpr int kDraws = 200;
 constexpr double kTail = 0.025;  // at each end of an interval
 constexpr int kResamples = 400;
 constexpr unsigned kSeedOfShares = 1;
@@ -105,9 +105,9 @@ class DrawnShares {
   }
   /// Whether fewer than half have a misfit.
   bool few() const { return 2 * shares_.cols() <= drawn_; }
+  VectorXd mean() const { return shares_.rowwise().mean(); }
   VectorXd deviations() const {
-    const VectorXd mean = shares_.rowwise().mean();
-    return (shares_.cwiseAbs2().rowwise().mean() - mean.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+    return (shares_.cwiseAbs2().rowwise().mean() - mean().cwiseAbs2()).cwiseMax(0).cwiseSqrt();
   }
   /// The share of row i that this part of them does not reach.
   double quantile(Index i, double part) const {
@@ -145,18 +145,19 @@ std::vector<ShareInterval> share_intervals(const SubsetResiduals& residuals,
                                            const std::vector<double>& sigmas) {
   const std::vector<FrameSums> sums = sums_of(residuals, sigmas);
   const VectorXd estimate = shares(sums);
-  DrawnShares of_noise;
-  for (const SubsetResiduals& each : drawn.with_noise) of_noise.add(shares(sums_of(each, sigmas)));
+  DrawnShares seen, exact;
+  for (const SubsetResiduals& each : drawn.with_noise) seen.add(shares(sums_of(each, sigmas)));
+  for (const SubsetResiduals& each : drawn.without_noise)
+    exact.add(shares(sums_of(each, sigmas, 0)));
   const DrawnShares of_blocks = shares_of_blocks(sums);
-  if (of_noise.few() || of_blocks.few() || !estimate.allFinite()) return {};
+  if (seen.few() || exact.few() || of_blocks.few() || !estimate.allFinite()) return {};
   const VectorXd least = estimate - kHalfWidthOfBlocks * of_blocks.deviations();
   std::vector<ShareInterval> intervals;
-  // Noise does to what is drawn what it did to the recording.
-  const VectorXd both = estimate + shares(sums_of(drawn.without_noise, sigmas, 0));
-  if (!both.allFinite()) return {};
+  // Errors do to what is drawn what they did to the recording.
+  const VectorXd both = estimate + exact.mean();
   for (Index i = 0; i < estimate.size(); ++i)
-    intervals.push_back({estimate[i], both[i] - of_noise.quantile(i, 1 - kTail),
-                         both[i] - of_noise.quantile(i, kTail), least[i]});
+    intervals.push_back({estimate[i], both[i] - seen.quantile(i, 1 - kTail),
+                         both[i] - seen.quantile(i, kTail), least[i]});
   return intervals;
 }
 
@@ -223,15 +224,15 @@ Shares shares_of(DiagnosisState& state) {
     fitted[subset] = fits[subset].fit_residual;
     held_out[subset] = fits[subset].held_out_residual;
   }
-  const RedrawnNoise noise(fits, state.found.noise);
-  RedrawnNoise::Residuals exact = noise.without_noise();
-  DrawnResiduals fitted_again{std::move(exact.fitted), std::vector<SubsetResiduals>(kNoises)};
-  DrawnResiduals held_out_again{std::move(exact.held_out), std::vector<SubsetResiduals>(kNoises)};
-  state.context.begin("drawing other noise", kNoises);
-  in_parallel(kNoises, state.context.threads, [&](std::size_t draw) {
-    RedrawnNoise::Residuals drawn = noise.draw(kSeedOfShares + draw);
-    fitted_again.with_noise[draw] = std::move(drawn.fitted);
-    held_out_again.with_noise[draw] = std::move(drawn.held_out);
+  const RedrawnErrors errors(fits, state.found.noise);
+  DrawnResiduals fitted_again(kDraws), held_out_again(kDraws);
+  state.context.begin("drawing other errors", kDraws);
+  in_parallel(kDraws, state.context.threads, [&](std::size_t draw) {
+    RedrawnErrors::Draw drawn = errors.draw(kSeedOfShares + draw);
+    fitted_again.with_noise[draw] = std::move(drawn.with_noise.fitted);
+    fitted_again.without_noise[draw] = std::move(drawn.without_noise.fitted);
+    held_out_again.with_noise[draw] = std::move(drawn.with_noise.held_out);
+    held_out_again.without_noise[draw] = std::move(drawn.without_noise.held_out);
     state.context.end_task();
   });
   state.context.stop_if_asked();

@@ -14,7 +14,9 @@ class DiagnosisState;
 /// A share; 1 is the whole misfit of the model without effects.
 struct ShareInterval {
   double share = 0;
-  double lower = 0, upper = 0;  ///< 95 % interval of what it would be without noise
+  double lower = 0,
+         upper =
+             0;  ///< 95 % interval of what it would be without noise and with other errors of laws
   double least =
       0;  ///< lower end of the 95 % interval of what it would be in an endless motion like this
 };
@@ -32,9 +34,10 @@ struct EffectShare {
 /// An effect explains more or less by the order in which effects are added. Its share is the mean
 /// over all orders (Shapley value). That needs a fit with every subset of the effects.
 ///
-/// The intervals are of the same motion with other noise (redrawn_noise.hpp). How much a share depends on this
-/// stretch of motion, `least` says: it comes from a moving-block bootstrap, in which blocks of frames are drawn again
-/// from the residuals of all these fits together. Neither says whether the effects are the right ones.
+/// The intervals are of the same motion with other errors: noise, and what laws get wrong (redrawn_errors.hpp). How
+/// much a share depends on this stretch of motion, `least` says: it comes from a moving-block bootstrap, in which
+/// blocks of frames are drawn again from the residuals of all these fits together. Neither says whether the effects
+/// are the right ones.
 struct Shares {
   std::vector<EffectShare> effects;          ///< in the order found
   ShareInterval left_fitted, left_held_out;  ///< what is left with all of them
@@ -54,10 +57,10 @@ FittedModel fit_with_effects(DiagnosisState& state, const std::vector<std::strin
 /// experiment, channels x frames; NaN where nothing was measured.
 using SubsetResiduals = std::vector<std::vector<Eigen::MatrixXd>>;
 
-/// Residuals that were drawn: without noise, and with noise several times.
+/// Residuals with errors that were drawn, with noise and without.
 struct DrawnResiduals {
-  SubsetResiduals without_noise;
-  std::vector<SubsetResiduals> with_noise;
+  explicit DrawnResiduals(std::size_t draws) : with_noise(draws), without_noise(draws) {}
+  std::vector<SubsetResiduals> with_noise, without_noise;
 };
 
 /// One interval per effect, then that of what is left. Empty where the model without effects leaves no misfit.
