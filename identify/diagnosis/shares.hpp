@@ -14,11 +14,10 @@ class DiagnosisState;
 /// A share; 1 is the whole misfit of the model without effects.
 struct ShareInterval {
   double share = 0;
-  double lower = 0,
-         upper =
-             0;  ///< 95 % interval of what it would be without noise and with other errors of laws
-  double least =
-      0;  ///< lower end of the 95 % interval of what it would be in an endless motion like this
+  /// 95 % interval of what it would be without noise and with other errors of the laws.
+  double lower = 0, upper = 0;
+  /// Lower end of the 95 % interval of what it would be in an endless motion like this.
+  double least = 0;
 };
 
 /// What one effect takes away of the misfit.
