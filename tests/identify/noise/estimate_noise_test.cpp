@@ -169,7 +169,9 @@ TEST_CASE("a camera that shakes is found, and taken out") {
   CHECK(std::abs(between) < 0.03);
 }
 
-TEST_CASE("a short film does not make channels differ that are alike, nor those of a camera that shakes") {
+TEST_CASE(
+    "a short film does not make channels differ that are alike, nor those of a camera that "
+    "shakes") {
   for (unsigned seed = 20; seed < 30; ++seed) {
     MatrixXd residual = white(24, 42, seed);
     const MatrixXd shake = white(1, 42, seed + 100);
