@@ -12,6 +12,7 @@
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/support/near.hpp"
 
 namespace testing {
 
@@ -54,8 +55,7 @@ inline void check_derivatives(const Model& model, const VectorXd& p, const State
   const auto gradient =
       simulate_with_gradient(model, p, initial, times, objective, tight(), signals);
   REQUIRE_MESSAGE(gradient.status == catena::Status::kSuccess, gradient.message);
-  CHECK(gradient.gradient.parameters[parameter] ==
-        doctest::Approx(change[slope.row]).epsilon(1e-5));
+  CHECK(gradient.gradient.parameters[parameter] == catena::near(change[slope.row], 1e-5));
 }
 
 }  // namespace testing

@@ -23,6 +23,7 @@
 #include "runtime/simulation.hpp"
 #include "tests/runtime/held_cable.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -217,7 +218,7 @@ void check_derivatives(const Model& model, const VectorXd& p, const State& start
     Eigen::Index index = 0;
     directions[j].parameters.maxCoeff(&index);
     CHECK(adjoint.gradient.parameters[index] ==
-          doctest::Approx(sensitive.sensitivity[j].q(4, 2)).epsilon(1e-5));
+          catena::near(sensitive.sensitivity[j].q(4, 2), 1e-5));
   }
 }
 
@@ -255,8 +256,8 @@ TEST_CASE("two links between two points swing as a pendulum") {
       std::cos(amplitude) * down / length, -std::cos(amplitude) * down / length,
       std::sin(amplitude) * down / length, -std::sin(amplitude) * down / length, 0, 0, 0;
   const auto motion = run(model, p, start, {0, period / 2, period}).trajectory;
-  CHECK(motion.q(4, 1) == doctest::Approx(-start.q[4]).epsilon(1e-8));
-  CHECK(motion.q(4, 2) == doctest::Approx(start.q[4]).epsilon(1e-8));
+  CHECK(motion.q(4, 1) == catena::near(-start.q[4], 1e-8));
+  CHECK(motion.q(4, 2) == catena::near(start.q[4], 1e-8));
   CHECK(std::abs(motion.v(4, 1)) < 1e-7);
 }
 
@@ -278,7 +279,7 @@ TEST_CASE("a cable between two points hangs as a catenary") {
     half -= (std::sinh(half) - chord / span * half) / (std::cosh(half) - chord / span);
   const double horizontal = 0.15 * kGravity * span / 2 / half;
   CHECK(std::hypot(forces.support.force(0, 0), forces.support.force(2, 0)) ==
-        doctest::Approx(horizontal).epsilon(1e-3));
+        catena::near(horizontal, 1e-3));
 }
 
 TEST_CASE("a slack cable whose end is above the support hangs in a loop") {
@@ -308,8 +309,8 @@ TEST_CASE("a rod that is pushed together bends as the elastica") {
   const State state = equilibrium(model, p);
   const catena::InternalForces forces = forces_at_rest(model, p, state);
   const double expected = std::pow(2 * K / length, 2) * bending;
-  CHECK(forces.held.back().reaction.force(0, 0) == doctest::Approx(-expected).epsilon(1e-3));
-  CHECK(forces.support.force(0, 0) == doctest::Approx(expected).epsilon(1e-3));
+  CHECK(forces.held.back().reaction.force(0, 0) == catena::near(-expected, 1e-3));
+  CHECK(forces.support.force(0, 0) == catena::near(expected, 1e-3));
   CHECK(std::abs(forces.support.force(1, 0)) < 1e-9 * expected);
 }
 
@@ -339,8 +340,8 @@ TEST_CASE("reactions of clamped ends balance the weight and its moment") {
   const double angle =
       std::acos(vector_of(state.q, n, n - 1).dot(Vector3d(std::sin(2.0), std::cos(2.0), 0)));
   CHECK(forces.held.back().reaction.moment.col(0).norm() ==
-        doctest::Approx(1.7 * 2 * 0.3 * angle).epsilon(1e-9));
-  CHECK(forces.support.moment.col(0).norm() == doctest::Approx(forces.moment(0, 0)).epsilon(1e-12));
+        catena::near(1.7 * 2 * 0.3 * angle, 1e-9));
+  CHECK(forces.support.moment.col(0).norm() == catena::near(forces.moment(0, 0), 1e-12));
 }
 
 TEST_CASE("clamped ends that move: energy, sensitivities and the adjoint") {

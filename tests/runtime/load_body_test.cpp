@@ -18,6 +18,7 @@
 #include "tests/runtime/check_derivatives.hpp"
 #include "tests/runtime/space_cable.hpp"
 #include "tests/runtime/vertical_plane.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -163,9 +164,9 @@ TEST_CASE("thrust across a load that swings ends where moments about the hinge b
   const auto motion = simulate(model, p, State::zero(model), {0, 80}, tight(), command(1.5));
   REQUIRE_MESSAGE(motion.status == catena::Status::kSuccess, motion.message);
   const double expected = std::asin(0.8 * 1.5 / (0.3 * kGravity));
-  CHECK(motion.trajectory.z(0, 1) == doctest::Approx(1.5).epsilon(1e-9));
-  CHECK(motion.trajectory.q(1, 1) == doctest::Approx(expected).epsilon(1e-8));
-  CHECK(motion.trajectory.q(0, 1) == doctest::Approx(expected).epsilon(1e-8));
+  CHECK(motion.trajectory.z(0, 1) == catena::near(1.5, 1e-9));
+  CHECK(motion.trajectory.q(1, 1) == catena::near(expected, 1e-8));
+  CHECK(motion.trajectory.q(0, 1) == catena::near(expected, 1e-8));
 }
 
 TEST_CASE("derivatives of a load with a coordinate and a state agree with differences") {
@@ -330,7 +331,7 @@ TEST_CASE("energy and damping of a body are those of its own axes") {
     const catena_energy& item = model.table().energy_item[k];
     if (std::string(item.name) != "load_body" || item.kind == CATENA_SUPPLIED) continue;
     const double expected = item.kind == CATENA_STORED ? stored : dissipated;
-    CHECK(energies[k] == doctest::Approx(expected).epsilon(1e-12));
+    CHECK(energies[k] == catena::near(expected, 1e-12));
     ++seen;
   }
   CHECK(seen == 2);
@@ -374,8 +375,8 @@ TEST_CASE("a body towed by a cable without drag hangs where drag and wet weight 
   for (Index i = 0; i < 5; ++i) {
     const double below = (0.3 - displaced + p[5] * (4.5 - static_cast<double>(i))) * kGravity;
     const double angle = std::atan2(drag * speed * speed, below);
-    CHECK(found.state.q[i] == doctest::Approx(std::sin(angle)).epsilon(1e-9));
-    CHECK(found.state.q[5 + i] == doctest::Approx(std::cos(angle)).epsilon(1e-9));
+    CHECK(found.state.q[i] == catena::near(std::sin(angle), 1e-9));
+    CHECK(found.state.q[5 + i] == catena::near(std::cos(angle), 1e-9));
     CHECK(std::abs(found.state.q[10 + i]) < 1e-9);
   }
 }
@@ -401,12 +402,11 @@ TEST_CASE("fins behind the centre of mass turn a towed body into the stream") {
   const VectorXd q = motion.trajectory.q.col(1);
   const Vector3d nose = attitude(q) * Vector3d::UnitX();
   // The moment of a quadratic drag vanishes with the square of the angle: the end is reached slowly.
-  CHECK(nose[0] == doctest::Approx(std::cos(azimuth)).epsilon(5e-3));
-  CHECK(nose[2] == doctest::Approx(std::sin(azimuth)).epsilon(5e-3));
+  CHECK(nose[0] == catena::near(std::cos(azimuth), 5e-3));
+  CHECK(nose[2] == catena::near(std::sin(azimuth), 5e-3));
   // The drag is then that along the body, and the cable slants by it.
   const double below = (0.3 - 0.1 + p[1] / 2) * kGravity;
-  CHECK(std::hypot(q[0], q[2]) / q[1] ==
-        doctest::Approx(0.1 * speed * speed / below).epsilon(1e-6));
+  CHECK(std::hypot(q[0], q[2]) / q[1] == catena::near(0.1 * speed * speed / below, 1e-4));
 }
 
 TEST_CASE("derivatives of a body in a current agree with differences") {

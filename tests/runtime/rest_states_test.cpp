@@ -12,6 +12,7 @@
 #include "runtime/positions.hpp"
 #include "tests/runtime/cable_case.hpp"
 #include "tests/runtime/reference_model.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -65,7 +66,7 @@ TEST_CASE("the end of the catenary is on the held point, or converges to it") {
     const double missed = std::hypot(end.side - 1.5, end.down - 2.5);
     CHECK(missed > 1e-5);
     CHECK(missed < 0.02);
-    if (before > 0.0) CHECK(before / missed == doctest::Approx(25.0).epsilon(0.2));  // l^2
+    if (before > 0.0) CHECK(before / missed == catena::near(25.0, 0.2));  // l^2
     before = missed;
   }
 }
@@ -92,7 +93,7 @@ TEST_CASE("the chords lie on (2.53)") {
     // Joints at arc lengths s from the lowest point: x = asinh(s), y = cosh(x) - 1.
     const auto x = [&](int joint) { return std::asinh(length * (joint / 60.0 - 0.5)); };
     const double rise = std::cosh(x(i + 1)) - std::cosh(x(i));
-    CHECK(state.q[i] == doctest::Approx(std::atan2(x(i + 1) - x(i), -rise)).epsilon(1e-12));
+    CHECK(state.q[i] == catena::near(std::atan2(x(i + 1) - x(i), -rise), 1e-12));
   }
 }
 
@@ -106,7 +107,7 @@ TEST_CASE("a catenary is near the equilibrium of a limp cable held at both ends"
   const auto slope = [&](int i) { return 1.0 / std::tan(state.q[i]); };  // d down / d side
   const double step = slope(1) - slope(0);
   for (int i = 1; i + 1 < 60; ++i)
-    CHECK(slope(i + 1) - slope(i) == doctest::Approx(step).epsilon(1e-3));  // chords for tangents
+    CHECK(slope(i + 1) - slope(i) == catena::near(step, 2e-3));  // chords for tangents: step^2 / 12
 }
 
 TEST_CASE("a held point out of reach is refused") {
@@ -171,13 +172,13 @@ TEST_CASE("points at arc length") {
     CAPTURE(row.arc);
     const auto point = catena::point_at_arc_length(model, p, row.arc);
     CHECK(point.link == row.link);
-    CHECK(point.fraction == doctest::Approx(row.fraction).epsilon(1e-14));
+    CHECK(point.fraction == catena::near(row.fraction, 1e-14));
     const CablePoint where = catena::position_of(at, point);
     const double along = row.fraction * p[row.link];
     CHECK(where.side ==
-          doctest::Approx(at.side[row.link] + along * std::sin(state.q[row.link])).epsilon(1e-14));
+          catena::near(at.side[row.link] + along * std::sin(state.q[row.link]), 1e-14));
     CHECK(where.down ==
-          doctest::Approx(at.down[row.link] + along * std::cos(state.q[row.link])).epsilon(1e-14));
+          catena::near(at.down[row.link] + along * std::cos(state.q[row.link]), 1e-14));
   }
   CHECK_THROWS_AS(catena::point_at_arc_length(model, p, -0.1), std::invalid_argument);
   CHECK_THROWS_AS(catena::point_at_arc_length(model, p, 2.6), std::invalid_argument);
@@ -201,8 +202,8 @@ TEST_CASE("derivatives of points agree with central differences") {
       catena::positions(model, p, 0.0, q), catena::positions_tangent(model, p, 0.0, q, dp, dq),
       point, catena::fraction_tangent(model, p, dp, point));
   // Central differences: h^2 from the third derivative, epsilon / h from rounding.
-  CHECK(tangent.side == doctest::Approx((where(h).side - where(-h).side) / (2 * h)).epsilon(1e-8));
-  CHECK(tangent.down == doctest::Approx((where(h).down - where(-h).down) / (2 * h)).epsilon(1e-8));
+  CHECK(tangent.side == catena::near((where(h).side - where(-h).side) / (2 * h), 1e-8));
+  CHECK(tangent.down == catena::near((where(h).down - where(-h).down) / (2 * h), 1e-8));
 
   const Eigen::VectorXd v = dq;
   const Positions ahead = catena::positions(model, p, 0.0, q + h * v),

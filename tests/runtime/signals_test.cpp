@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/near.hpp"
+
 namespace {
 
 using catena::Signals;
@@ -29,9 +31,9 @@ TEST_CASE("samples of a cubic are met exactly, with their derivatives, on uneven
     double u[3];
     signals.evaluate(time, u);
     // The spline is the cubic but for rounding.
-    CHECK(u[0] == doctest::Approx(cubic(time)).epsilon(1e-13));
-    CHECK(u[1] == doctest::Approx(-3.0 + time + 0.75 * time * time).epsilon(1e-12));
-    CHECK(u[2] == doctest::Approx(1.0 + 1.5 * time).epsilon(1e-12));
+    CHECK(u[0] == catena::near(cubic(time), 1e-13));
+    CHECK(u[1] == catena::near(-3.0 + time + 0.75 * time * time, 1e-12));
+    CHECK(u[2] == catena::near(1.0 + 1.5 * time, 1e-12));
   }
 }
 
@@ -43,7 +45,7 @@ TEST_CASE("two samples give a line, three a parabola") {
   double u[6];
   signals.evaluate(1.5, u);
   const double expected[] = {4.0, 2.0, 0.0, 2.25, 3.0, 2.0};
-  for (int i = 0; i < 6; ++i) CHECK(u[i] == doctest::Approx(expected[i]).epsilon(1e-14));
+  for (int i = 0; i < 6; ++i) CHECK(u[i] == catena::near(expected[i], 1e-14));
   CHECK(signals.last_time() == 2.0);  // where both are given
 }
 

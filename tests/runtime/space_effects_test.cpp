@@ -14,6 +14,7 @@
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
 #include "tests/runtime/vertical_plane.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -105,16 +106,15 @@ TEST_CASE(
   REQUIRE((kinetic >= 0 && dissipated >= 0));
   for (Eigen::Index k = 1; k < 4; ++k) {
     const double t = motion.time[static_cast<std::size_t>(k)];
-    CHECK(turning(k) ==
-          doctest::Approx(turning(0) * std::exp(-damping / inertia * t)).epsilon(1e-8));
+    CHECK(turning(k) == catena::near(turning(0) * std::exp(-damping / inertia * t), 1e-8));
   }
   // Power over kinetic energy, from what is dissipated in a short time.
   const double step = 1e-4;
   const auto shortly = run(model, p, initial, {0, step}).trajectory;
   const double power = (shortly.energy(dissipated, 1) - shortly.energy(dissipated, 0)) / step;
   const double mean = (shortly.energy(kinetic, 0) + shortly.energy(kinetic, 1)) / 2;
-  CHECK(power == doctest::Approx(2 * damping / inertia * mean).epsilon(1e-6));
-  CHECK(turning(0) != doctest::Approx(turning(3)).epsilon(0.01));
+  CHECK(power == catena::near(2 * damping / inertia * mean, 1e-6));
+  CHECK(turning(0) != catena::near(turning(3), 0.01));
 }
 
 TEST_CASE("in any vertical plane a cable in water moves as in the plane") {
@@ -204,8 +204,7 @@ TEST_CASE("all solvers agree on a cable in water") {
   };
   const auto gradient = simulate_with_gradient(model, p, initial, times, objective, tight());
   REQUIRE_MESSAGE(gradient.status == catena::Status::kSuccess, gradient.message);
-  CHECK(gradient.gradient.parameters[drag] ==
-        doctest::Approx(change[change.size() - 1]).epsilon(1e-5));
+  CHECK(gradient.gradient.parameters[drag] == catena::near(change[change.size() - 1], 1e-5));
 }
 
 TEST_CASE(

@@ -19,6 +19,7 @@
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
 #include "tests/runtime/vertical_plane.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -48,7 +49,7 @@ TEST_CASE("in any vertical plane the chain in space moves as the chain of the pl
       plane, cable(plane, 0.2, 2e-3), space, cable(space, 0.2, 2e-3), planar_start(plane, space));
   for (Eigen::Index k = 0; k < expected.energy.cols(); ++k)
     for (int item = 0; item < 4; ++item)  // kinetic, gravity, elastic, damping
-      CHECK(found.energy(item, k) == doctest::Approx(expected.energy(item, k)).epsilon(1e-7));
+      CHECK(found.energy(item, k) == catena::near(expected.energy(item, k), 1e-7));
 }
 
 TEST_CASE("energies balance in space, over 3 s, to 1e-9 of their size") {
@@ -61,8 +62,7 @@ TEST_CASE("energies balance in space, over 3 s, to 1e-9 of their size") {
   CHECK(result.trajectory.energy(3, 3) > 0.01 * size);  // damped
   // nothing pulls the vectors along the links
   for (int i = 0; i < 12; ++i)
-    CHECK(result.trajectory.q.col(3)(Eigen::seqN(i, 3, 12)).norm() ==
-          doctest::Approx(1).epsilon(1e-7));
+    CHECK(result.trajectory.q.col(3)(Eigen::seqN(i, 3, 12)).norm() == catena::near(1, 1e-7));
 }
 
 TEST_CASE("the motion does not depend on the lengths of the vectors along the links") {
@@ -81,7 +81,7 @@ TEST_CASE("the motion does not depend on the lengths of the vectors along the li
   CHECK(other.trajectory.q.col(1).norm() > 1.5 * one.trajectory.q.col(1).norm());
   catena::Trajectory normal = other.trajectory;
   normalise_directions(normal, model.links());
-  CHECK(normal.q.col(1).norm() == doctest::Approx(std::sqrt(12.0)).epsilon(1e-14));
+  CHECK(normal.q.col(1).norm() == catena::near(std::sqrt(12.0), 1e-14));
   CHECK(normal.q.col(1)(Eigen::seqN(3, 3, 12)).dot(normal.v.col(1)(Eigen::seqN(3, 3, 12))) ==
         doctest::Approx(0).epsilon(1e-12));
 }
@@ -95,11 +95,9 @@ TEST_CASE("a conical pendulum keeps its angle: omega^2 cos(angle) = g / l") {
   const catena::Simulation result = run(model, p, initial, {0, 1.5, 3});
   for (Eigen::Index k = 0; k < 3; ++k) {
     const double azimuth = 0.3 + omega * result.trajectory.time[static_cast<std::size_t>(k)];
-    CHECK(result.trajectory.q(0, k) ==
-          doctest::Approx(std::sin(angle) * std::cos(azimuth)).epsilon(1e-8));
-    CHECK(result.trajectory.q(1, k) == doctest::Approx(std::cos(angle)).epsilon(1e-8));
-    CHECK(result.trajectory.q(2, k) ==
-          doctest::Approx(std::sin(angle) * std::sin(azimuth)).epsilon(1e-8));
+    CHECK(result.trajectory.q(0, k) == catena::near(std::sin(angle) * std::cos(azimuth), 1e-8));
+    CHECK(result.trajectory.q(1, k) == catena::near(std::cos(angle), 1e-8));
+    CHECK(result.trajectory.q(2, k) == catena::near(std::sin(angle) * std::sin(azimuth), 1e-8));
   }
 }
 
@@ -128,8 +126,8 @@ TEST_CASE("a spherical pendulum precesses as its integrals say") {
   const State initial = from_directions(model, {one(angle), one(0), one(0), one(rate)});
   const catena::Simulation result = run(model, p, initial, {0, time, 2 * time});
   const auto q = result.trajectory.q;
-  CHECK(q(1, 1) == doctest::Approx(z2).epsilon(1e-8));
-  CHECK(q(1, 2) == doctest::Approx(z1).epsilon(1e-8));
+  CHECK(q(1, 1) == catena::near(z2, 1e-8));
+  CHECK(q(1, 2) == catena::near(z1, 1e-8));
   CHECK(std::abs(std::remainder(std::atan2(q(2, 2), q(0, 2)) - 2 * azimuth, 2 * std::numbers::pi)) <
         1e-8);
   CHECK(std::abs(2 * azimuth - std::numbers::pi) > 0.02);  // it does precess
@@ -160,7 +158,7 @@ TEST_CASE("a hanging chain swings with Bessel's frequencies, in two planes alike
     const double expected = zeros_of_bessel[mode] / 2 * std::sqrt(kGravity / 1.2);
     for (int plane = 0; plane < 2; ++plane) {
       const auto found = static_cast<double>(squares[model.links() + 2 * mode + plane]);
-      CHECK(std::sqrt(found) == doctest::Approx(expected).epsilon(0.01));
+      CHECK(std::sqrt(found) == catena::near(expected, 0.01));
     }
   }
 }
@@ -254,7 +252,7 @@ TEST_CASE("motions, sensitivities and gradients in space do not depend on the so
     const auto gradient = simulate_with_gradient(model, p, initial, times, objective, options);
     REQUIRE_MESSAGE(gradient.status == catena::Status::kSuccess, gradient.message);
     CHECK(gradient.gradient.parameters[stiffness] ==
-          doctest::Approx(change[model.coordinates() - 1]).epsilon(1e-6));
+          catena::near(change[model.coordinates() - 1], 1e-6));
   }
 }
 
@@ -306,7 +304,7 @@ TEST_CASE("a support that is accelerated in space is gravity in another directio
   }
   // and the support is where the hand is
   const catena::Positions there = positions(held, of_held, 1, found.trajectory.q.col(2), signals);
-  CHECK(there.across[0] == doctest::Approx(1.5).epsilon(1e-9));
+  CHECK(there.across[0] == catena::near(1.5, 1e-9));
 }
 
 TEST_CASE("without gravity a turned clamp turns the motion, whatever its length") {

@@ -12,6 +12,7 @@
 #include "tests/runtime/check_derivatives.hpp"
 #include "tests/runtime/space_cable.hpp"
 #include "tests/runtime/vertical_plane.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -73,10 +74,9 @@ TEST_CASE("a taut cable bears what hangs below less the pull of its tie") {
   const double within[] = {0.5, 1, 1, 0.75, 0};
   for (Index i = 0; i < 5; ++i) {
     const double weight = (0.3 + 0.15 * 0.24 * static_cast<double>(5 - i)) * testing::kGravity;
-    CHECK(forces.tension(i, 0) == doctest::Approx(weight - 1.5 * within[i]).epsilon(1e-5));
+    CHECK(forces.tension(i, 0) == catena::near(weight - 1.5 * within[i], 1e-5));
   }
-  CHECK(forces.support.force(1, 0) ==
-        doctest::Approx(-(0.3 + 0.15 * 1.2) * testing::kGravity).epsilon(1e-12));
+  CHECK(forces.support.force(1, 0) == catena::near(-(0.3 + 0.15 * 1.2) * testing::kGravity, 1e-12));
 }
 
 }  // namespace

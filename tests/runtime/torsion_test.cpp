@@ -15,6 +15,7 @@
 #include "runtime/sensitivity.hpp"
 #include "runtime/simulation.hpp"
 #include "tests/runtime/space_cable.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -111,8 +112,7 @@ TEST_CASE("the energy of a twisted cable balances, and derivatives are differenc
   const double twist = 1.5 + 3 * 0.5 + motion.trajectory.z(0, 2);
   for (int i = 0; i < model.energies(); ++i)
     if (std::string(model.table().energy_item[i].name) == "twists")
-      CHECK(motion.trajectory.energy(i, 2) ==
-            doctest::Approx(0.4 * twist * twist / 2 / 1.2).epsilon(1e-12));
+      CHECK(motion.trajectory.energy(i, 2) == catena::near(0.4 * twist * twist / 2 / 1.2, 1e-12));
 
   const auto directions = testing::directions_of(
       model, {"twists.torsion", "twists.roll", "twists.turn_across", "damping_3"});
@@ -143,9 +143,8 @@ TEST_CASE("the energy of a twisted cable balances, and derivatives are differenc
     const VectorXd expected = (above.q.col(2) - below.q.col(2)).head(links) / (2 * h);
     CHECK((found.q.col(2).head(links) - expected).cwiseAbs().maxCoeff() <
           1e-5 * expected.cwiseAbs().maxCoeff());
-    CHECK(found.z(0, 2) ==
-          doctest::Approx((above.z(0, 2) - below.z(0, 2)) / (2 * h)).epsilon(1e-4));
-    CHECK(adjoint.gradient.parameters[index] == doctest::Approx(found.q(4, 2)).epsilon(1e-5));
+    CHECK(found.z(0, 2) == catena::near((above.z(0, 2) - below.z(0, 2)) / (2 * h), 1e-4));
+    CHECK(adjoint.gradient.parameters[index] == catena::near(found.q(4, 2), 1e-5));
   }
 }
 
@@ -229,8 +228,7 @@ TEST_CASE("reactions of a twisted cable at rest balance the weight and its momen
   CHECK(moment.norm() < 1e-9);
   // About its axis the clamp of a straight end would exert GJ roll / L, and bending does not.
   const Vector3d axis = clamp(model, p, "twists.end_turn", 6, 0);
-  CHECK(forces.held.back().reaction.moment.col(0).dot(axis) ==
-        doctest::Approx(0.1 * 1.5 / 1.2).epsilon(1e-9));
+  CHECK(forces.held.back().reaction.moment.col(0).dot(axis) == catena::near(0.1 * 1.5 / 1.2, 1e-9));
 }
 
 namespace {
@@ -345,8 +343,8 @@ TEST_CASE("a twisted ring buckles at Michell's twist") {
   const double expected = 2 * kPi * std::sqrt(3.0);
   const double coarse = Ring(Model::load(TWISTED_12)).critical_twist(),
                fine = Ring(Model::load(TWISTED_24)).critical_twist();
-  CHECK(fine == doctest::Approx(expected).epsilon(0.02));
+  CHECK(fine == catena::near(expected, 0.02));
   // The error goes as the square of the length of a link, in rings of 11 and 23; then as its fourth power.
   const double ratio = 23.0 * 23.0 / (11.0 * 11.0);
-  CHECK((ratio * fine - coarse) / (ratio - 1) == doctest::Approx(expected).epsilon(0.003));
+  CHECK((ratio * fine - coarse) / (ratio - 1) == catena::near(expected, 0.003));
 }

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/support/near.hpp"
 #include "truth/cable.hpp"
 #include "truth/film_camera.hpp"
 #include "truth/kept_motion.hpp"
@@ -52,8 +53,8 @@ TEST_CASE("a single stiff rod with a load swings as a compound pendulum, exact p
       4 * std::comp_ellint_1(std::sin(amplitude / 2)) / std::sqrt(weight / inertia);
   const truth::Motion motion =
       truth::move(rod, {}, {amplitude}, {rod.length}, {0, period, 3 * period});
-  CHECK(motion.angle[1][0] == doctest::Approx(amplitude).epsilon(1e-5));
-  CHECK(motion.angle[2][0] == doctest::Approx(amplitude).epsilon(1e-5));
+  CHECK(motion.angle[1][0] == catena::near(amplitude, 1e-5));
+  CHECK(motion.angle[2][0] == catena::near(amplitude, 1e-5));
   const truth::Motion quarter = truth::move(rod, {}, {amplitude}, {rod.length}, {0, period / 4});
   CHECK(std::abs(quarter.angle[1][0]) < 1e-5);
 }
@@ -77,8 +78,8 @@ TEST_CASE("the catenary ends at the held point") {
     side += cable.length / cable.links * std::sin(a);
     down += cable.length / cable.links * std::cos(a);
   }
-  CHECK(side == doctest::Approx(1.2).epsilon(1e-3));
-  CHECK(down == doctest::Approx(2.0).epsilon(1e-3));
+  CHECK(side == catena::near(1.2, 1e-3));
+  CHECK(down == catena::near(2.0, 1e-3));
   CHECK_THROWS_AS(truth::catenary_angles(cable, 2.0, 2.0), std::invalid_argument);
 }
 
@@ -100,9 +101,9 @@ TEST_CASE("a small angle of a string of many links follows the first mode of a h
   }
   const double period = 2 * std::numbers::pi / (j01 / 2 * std::sqrt(cable.gravity / cable.length));
   const truth::Motion motion = truth::move(cable, {}, start, {0.5, 1.0}, {0, period / 2, period});
-  CHECK(motion.side[1][1] == doctest::Approx(-motion.side[0][1]).epsilon(0.01));
-  CHECK(motion.side[2][1] == doctest::Approx(motion.side[0][1]).epsilon(0.01));
-  CHECK(motion.side[2][0] == doctest::Approx(motion.side[0][0]).epsilon(0.02));
+  CHECK(motion.side[1][1] == catena::near(-motion.side[0][1], 0.01));
+  CHECK(motion.side[2][1] == catena::near(motion.side[0][1], 0.01));
+  CHECK(motion.side[2][0] == catena::near(motion.side[0][0], 0.02));
 }
 
 TEST_CASE("halving the step moves no marker by more than 0.05 mm") {
@@ -228,7 +229,7 @@ TEST_CASE("the camera's noise, loss and pixels are as asked, and the same for th
              std::pow(seen.down[i][k] - exact.down[i][k], 2);
       count += 2;
     }
-  CHECK(std::sqrt(sum / count) == doctest::Approx(1e-3).epsilon(0.05).scale(0));
+  CHECK(std::sqrt(sum / count) == catena::near(1e-3, 0.05));
   CHECK(missing > 0.02 * static_cast<double>(seen.time.size() * 12));
   CHECK(missing < 0.10 * static_cast<double>(seen.time.size() * 12));
   camera.pixel = 2e-3;
@@ -278,20 +279,20 @@ TEST_CASE("noise of other kinds is as asked") {
   };
   CHECK(truth::noise_of_kind(white, {}, 12) == white);
   const NoiseStatistics plain = of({});
-  CHECK(plain.fourth == doctest::Approx(3).epsilon(0.05));
+  CHECK(plain.fourth == catena::near(3, 0.05));
   const NoiseStatistics correlated = of({.autocorrelation = 0.6});
-  CHECK(correlated.deviation == doctest::Approx(1).epsilon(0.03));
-  CHECK(correlated.lag_one == doctest::Approx(0.6).epsilon(0.03));
+  CHECK(correlated.deviation == catena::near(1, 0.03));
+  CHECK(correlated.lag_one == catena::near(0.6, 0.03));
   const NoiseStatistics shaking = of({.shaking = 1});
-  CHECK(shaking.deviation == doctest::Approx(std::sqrt(2)).epsilon(0.05));
-  CHECK(shaking.shared == doctest::Approx(0.5).epsilon(0.1));
+  CHECK(shaking.deviation == catena::near(std::sqrt(2), 0.05));
+  CHECK(shaking.shared == catena::near(0.5, 0.1));
   const NoiseStatistics tails = of({.tails = 5});
-  CHECK(tails.deviation == doctest::Approx(1).epsilon(0.05));
+  CHECK(tails.deviation == catena::near(1, 0.05));
   CHECK(tails.fourth > 4.5);
   const NoiseStatistics smoothed = of({.smoothed = true});
-  CHECK(smoothed.deviation == doctest::Approx(std::sqrt(17.0 / 35)).epsilon(0.03));
+  CHECK(smoothed.deviation == catena::near(std::sqrt(17.0 / 35), 0.03));
   const NoiseStatistics outliers = of({.outliers = 0.001});
-  CHECK(outliers.deviation == doctest::Approx(std::sqrt(1 + 0.4)).epsilon(0.1));
+  CHECK(outliers.deviation == catena::near(std::sqrt(1 + 0.4), 0.1));
 
   const truth::NoiseTable noisy = truth::noise_of_kind(white, {.noisy_marker = 3}, 12);
   CHECK(noisy[17][0][1] == doctest::Approx(3 * white[17][0][1]));
@@ -368,14 +369,15 @@ TEST_CASE("what the hidden laws in no library do, where they act") {
   for (std::size_t i = 1; i < forces.size(); ++i) {
     const truth::OutsideForces& now = forces[i];
     CHECK(now.middle.force.side ==
-          doctest::Approx(-0.5 * (now.middle.position.side - hidden.wall_side)));
+          catena::near(-0.5 * (now.middle.position.side - hidden.wall_side), 1e-12));
     CHECK(now.middle.force.down == 0);
     // The load is where the motion has it, up to half a step.
     CHECK(std::abs(now.load.position.side - motion.side[i][0]) < 1e-3);
     const double share = now.joint_rate / hidden.brake_rate;
     const double play = std::max(0.0, std::abs(now.joint_angle) - hidden.joint_gap);
-    CHECK(now.joint_moment == doctest::Approx(-0.1 * now.joint_rate / (1 + share * share) -
-                                              std::copysign(play, now.joint_angle)));
+    CHECK(now.joint_moment == catena::near(-0.1 * now.joint_rate / (1 + share * share) -
+                                               std::copysign(play, now.joint_angle),
+                                           1e-12));
     work += (now.time - forces[i - 1].time) * dot(now.load.force, now.load.velocity);
     largest = std::max(largest, norm(now.load.force));
   }
@@ -384,8 +386,7 @@ TEST_CASE("what the hidden laws in no library do, where they act") {
     const double away = cable.length + hidden.magnet_depth - at.load.position.down;
     return -hidden.magnet / std::sqrt(std::pow(at.load.position.side, 2) + away * away + 1e-4);
   };
-  CHECK(work ==
-        doctest::Approx(potential(forces.front()) - potential(forces.back())).epsilon(0.01));
+  CHECK(work == catena::near(potential(forces.front()) - potential(forces.back()), 0.01));
   CHECK(largest > 0.1);
 }
 
@@ -408,8 +409,7 @@ TEST_CASE("dry friction in every joint, where it slides") {
   const truth::OutsideForces first = truth::outside_forces(cable, tension, start, time).front();
   for (std::size_t i = 0; i < 4; ++i)
     CHECK(first.joints[i].friction ==
-          doctest::Approx(0.003 * cable.gravity *
-                          (cable.load_mass + static_cast<double>(4 - i) * link) * std::cos(0.2))
-              .epsilon(0.01)
-              .scale(0));
+          catena::near(0.003 * cable.gravity *
+                           (cable.load_mass + static_cast<double>(4 - i) * link) * std::cos(0.2),
+                       0.01));
 }

@@ -9,6 +9,7 @@
 #include "common/toml_reader.hpp"
 #include "description/effect_reader.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using GiNaC::ex;
@@ -86,7 +87,7 @@ TEST_CASE("every function is the one it is called") {
     const ex value =
         parse_expression(written(std::string(row.first) + "(angle)"), context(), Unit());
     const ex number = value.subs(kAngle == numeric(3, 10)).evalf();
-    CHECK(GiNaC::ex_to<numeric>(number).to_double() == doctest::Approx(row.second).epsilon(1e-14));
+    CHECK(GiNaC::ex_to<numeric>(number).to_double() == catena::near(row.second, 1e-14));
   }
 }
 
@@ -202,7 +203,7 @@ TEST_CASE("a table is a broken line with rounded corners, constant beyond its en
       known.add(constant.name, exact_number(constant.text), Unit::parse(constant.unit));
     add_definition(effect.definitions.at(0), known);
     const ex value = parse_expression(written("speed"), known, Unit::parse("m/s")).evalf();
-    CHECK(GiNaC::ex_to<numeric>(value).to_double() == doctest::Approx(row.value).epsilon(1e-7));
+    CHECK(GiNaC::ex_to<numeric>(value).to_double() == catena::near(row.value, 1e-7));
   }
 }
 

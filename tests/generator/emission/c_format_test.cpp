@@ -13,6 +13,7 @@
 #include "chain_12.h"
 #include "chain_60.h"
 #include "generated/models.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -110,9 +111,9 @@ TEST_CASE("the C of a model computes what its C++ does") {
           along_state.q[i / CATENA_DIRECTIONS] * static_cast<double>(i % CATENA_DIRECTIONS + 1);
     c->newton_solves(c->context, work.data(), several.data());
     for (size_t i = 0; i < several.size(); ++i) {
-      CHECK(several[i] == doctest::Approx(x[i / CATENA_DIRECTIONS] *
-                                          static_cast<double>(i % CATENA_DIRECTIONS + 1))
-                              .epsilon(1e-9));
+      CHECK(several[i] ==
+            catena::near(x[i / CATENA_DIRECTIONS] * static_cast<double>(i % CATENA_DIRECTIONS + 1),
+                         1e-9));
     }
     x = y = along_state.v;
     c->newton_solve_transposed(c->context, work.data(), x.data());
@@ -131,5 +132,5 @@ TEST_CASE("one link: the physical pendulum") {
                T = state.p[5], mc = state.p[6], g = state.p[7];
   const double torque =
       T - k * state.q[0] - c * state.v[0] - (m / 2 + mc) * g * l * std::sin(state.q[0]);
-  CHECK(a == doctest::Approx(torque / (I + l * l * (m / 4 + mc))).epsilon(1e-14));
+  CHECK(a == catena::near(torque / (I + l * l * (m / 4 + mc)), 1e-14));
 }

@@ -9,6 +9,7 @@
 #include "identify/cases/case_reader.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -84,6 +85,6 @@ TEST_CASE("a baseline that loses the phase of a long motion is fitted over growi
   DiagnosisContext context({}, {}, folder.path(), fit_least_squares, {});
   const FittedModel model = fit_baseline(the_case, context);
   REQUIRE(model.ok);
-  CHECK(model.x[0] == doctest::Approx(0.4).epsilon(0.01));
+  CHECK(model.x[0] == catena::near(0.4, 0.01));
   CHECK(fit_gap(model, {{.level = noise}}).ratio() < 1.1);
 }

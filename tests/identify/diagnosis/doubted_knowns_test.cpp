@@ -10,6 +10,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -56,7 +57,7 @@ TEST_CASE("a mark that sits elsewhere is found, and the case says so when it is 
       std::find_if(again.parameters.begin(), again.parameters.end(),
                    [](const ParameterSpec& spec) { return spec.sets == "marker_places.marker 3"; });
   REQUIRE(place != again.parameters.end());
-  CHECK(place->value == doctest::Approx(8e-3).epsilon(0.05).scale(0));
+  CHECK(place->value == catena::near(8e-3, 0.05));
   CHECK(place->free);
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("a wrong length of the cable is no wrong mark, but a wrong length") {
       std::find_if(again.parameters.begin(), again.parameters.end(),
                    [](const ParameterSpec& spec) { return spec.sets == "cable.length"; });
   REQUIRE(length != again.parameters.end());
-  CHECK(length->value == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(length->value == catena::near(1.0, 2e-3));
 }
 
 TEST_CASE("drag is no wrong mark, and marks where they should be are not blamed") {
@@ -154,7 +155,7 @@ TEST_CASE("a parameter that the case calls doubtful is found to be off, and no p
   const Case again = read_case(folder.path() / "diagnosed.toml");
   REQUIRE(again.parameters.size() == 3);
   CHECK(again.parameters.back().sets == "pivot_rest_angle.rest");
-  CHECK(again.parameters.back().value == doctest::Approx(0.6).epsilon(0.1).scale(0));
+  CHECK(again.parameters.back().value == catena::near(0.6, 0.1));
 }
 
 TEST_CASE("only a parameter of the model that the case leaves at its default is doubtful") {

@@ -13,6 +13,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/noise/cosine_spectrum.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -90,9 +91,8 @@ TEST_CASE("an encoder that errs with its angle is named, with its harmonics") {
   CAPTURE(diagnosis_table(found, find_out(found)));
   CHECK(found.verdict == DiagnosisVerdict::kNamed);
   CHECK(found.effects == std::vector<std::string>{"encoder_error"});
-  CHECK(value_of(found, "encoder_error.sine") == doctest::Approx(0.01).epsilon(0.2).scale(0));
-  CHECK(value_of(found, "encoder_error.second_sine") ==
-        doctest::Approx(0.004).epsilon(0.2).scale(0));
+  CHECK(value_of(found, "encoder_error.sine") == catena::near(0.01, 0.2));
+  CHECK(value_of(found, "encoder_error.second_sine") == catena::near(0.004, 0.2));
 }
 
 TEST_CASE("dry friction of a pivot on encoders is not called an error of the encoder") {

@@ -9,6 +9,7 @@
 
 #include "identify/diagnosis/residual_frequencies.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -43,7 +44,7 @@ TEST_CASE("a gap that the case accepts is closed, in both parts") {
   for (const double good_enough : {std::nan(""), 3e-3, 4e-3}) {
     const FittedModel model = with_sine(1.0, good_enough);  // 3.5 mm RMS
     for (const GapTest& gap : {fit_gap(model, kNoise), held_out_gap(model, kNoise)}) {
-      CHECK(gap.rms == doctest::Approx(5e-3 / std::numbers::sqrt2).epsilon(0.02));
+      CHECK(gap.rms == catena::near(5e-3 / std::numbers::sqrt2, 0.02));
       CHECK(gap.good_enough == (good_enough == 4e-3));
       CHECK(gap.present == !gap.good_enough);
     }

@@ -7,6 +7,7 @@
 #include "identify/diagnosis/remainder.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -65,7 +66,7 @@ TEST_CASE(
   const std::vector<NoiseModel> noise(problem->experiments().size(), {.level = kNoise});
   const GapTest held_out = held_out_gap(found, noise);
   CHECK(held_out.count == 2 * (kFrames - kFitted));
-  CHECK(held_out.ratio() == doctest::Approx(1).epsilon(0.1));
+  CHECK(held_out.ratio() == catena::near(1, 0.1));
 
   Eigen::VectorXd wrong = found.x;
   wrong[0] *= 3;

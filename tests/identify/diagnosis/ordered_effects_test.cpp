@@ -11,6 +11,7 @@
 #include "identify/diagnosis/variant.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -71,8 +72,8 @@ TEST_CASE("drag along the cable is found to be no more than across it") {
 
   const Search possible(0.5, 0.1);
   REQUIRE(possible.found.refitted);
-  CHECK(possible.start_of(kNormal) == doctest::Approx(0.5).epsilon(0.3));
-  CHECK(possible.value_of(kNormal) == doctest::Approx(0.5).epsilon(0.1));
+  CHECK(possible.start_of(kNormal) == catena::near(0.5, 0.3));
+  CHECK(possible.value_of(kNormal) == catena::near(0.5, 0.1));
   CHECK(possible.value_of(kTangential) < 0.9 * possible.value_of(kNormal));
 }
 

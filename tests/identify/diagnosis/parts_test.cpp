@@ -13,6 +13,7 @@
 #include "identify/diagnosis/score.hpp"
 #include "identify/diagnosis/variant.hpp"
 #include "identify/noise/noise_level.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -44,11 +45,9 @@ MatrixXd smooth(int channels, int frames, double rms, double frequency, double r
 TEST_CASE("the noise level is found under a smooth misfit of ten times its size") {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const MatrixXd noise = white(24, 240, 1e-3, seed);
-    CHECK(catena::noise_level(noise, times(240, 60)) ==
-          doctest::Approx(1e-3).epsilon(0.05).scale(0));
+    CHECK(catena::noise_level(noise, times(240, 60)) == catena::near(1e-3, 0.05));
     const MatrixXd both = noise + smooth(24, 240, 1e-2, 1.5, 60);
-    CHECK(catena::noise_level(both, times(240, 60)) ==
-          doctest::Approx(1e-3).epsilon(0.05).scale(0));
+    CHECK(catena::noise_level(both, times(240, 60)) == catena::near(1e-3, 0.05));
   }
 }
 
@@ -56,7 +55,7 @@ TEST_CASE("lost markers do not disturb the noise level") {
   MatrixXd noise = white(24, 240, 1e-3, 6);
   for (int k = 0; k < 240; k += 13)
     for (int c = 0; c < 24; c += 5) noise(c, k) = std::nan("");
-  CHECK(catena::noise_level(noise, times(240, 60)) == doctest::Approx(1e-3).epsilon(0.06).scale(0));
+  CHECK(catena::noise_level(noise, times(240, 60)) == catena::near(1e-3, 0.06));
 }
 
 TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the noise is one") {
@@ -73,8 +72,8 @@ TEST_CASE("white noise is no gap in 200 recordings; a smooth misfit of half the 
 TEST_CASE("the misfit is the part that neighbouring frames share") {
   const MatrixXd both = white(24, 600, 1e-3, 3) + smooth(24, 600, 2e-3, 1, 60);
   const catena::GapTest gap = catena::test_gap({both}, {{.level = 1e-3}});
-  CHECK(gap.misfit == doctest::Approx(2e-3).epsilon(0.03).scale(0));
-  CHECK(gap.ratio() == doctest::Approx(std::sqrt(5.0)).epsilon(0.03));
+  CHECK(gap.misfit == catena::near(2e-3, 0.03));
+  CHECK(gap.ratio() == catena::near(std::sqrt(5.0), 0.03));
 }
 
 TEST_CASE("an effect predicts as well as the model without it up to a twentieth") {
@@ -96,9 +95,9 @@ TEST_CASE("the autocorrelation factor is one for white noise and grows with corr
 
 TEST_CASE("chi-square tails") {
   // values of the survival function: P(3.841 | 1) = P(5.991 | 2) = P(7.815 | 3) = 0.05
-  CHECK(catena::log10_chi_square_tail(3.841, 1) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
-  CHECK(catena::log10_chi_square_tail(5.991, 2) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
-  CHECK(catena::log10_chi_square_tail(7.815, 3) == doctest::Approx(std::log10(0.05)).epsilon(1e-3));
+  CHECK(catena::log10_chi_square_tail(3.841, 1) == catena::near(std::log10(0.05), 1e-3));
+  CHECK(catena::log10_chi_square_tail(5.991, 2) == catena::near(std::log10(0.05), 1e-3));
+  CHECK(catena::log10_chi_square_tail(7.815, 3) == catena::near(std::log10(0.05), 1e-3));
   // exp(-x/2) for two degrees, far out
   CHECK(catena::log10_chi_square_tail(2000, 2) == doctest::Approx(-1000 / std::numbers::ln10));
   CHECK(catena::log10_chi_square_tail(2000, 1) < -430);
@@ -113,9 +112,9 @@ TEST_CASE("the score finds the size of what is missing and what is left of it") 
   const int c = test.add({column, 0, 10});
   const catena::Score score = test.score({c});
   CHECK(score.admissible);
-  CHECK(score.estimate[0] == doctest::Approx(0.7).epsilon(0.02));
+  CHECK(score.estimate[0] == catena::near(0.7, 0.02));
   CHECK(score.share > 0.9);
-  CHECK(score.survives == doctest::Approx(1 / std::sqrt(26.0)).epsilon(0.15));
+  CHECK(score.survives == catena::near(1 / std::sqrt(26.0), 0.15));
   CHECK(test.residual_after({c}, score.estimate).norm() < 3);
 }
 

@@ -10,6 +10,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/diagnosis/predicted_films.hpp"
 #include "tests/identify/diagnosis/two_link_case.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -180,7 +181,7 @@ TEST_CASE("laws a tenth off explain more, in the part where they explain somethi
     CHECK(errors.held_out.explained == 0);
     // What is left is one shift to the side, against the other one.
     const double explained = std::sqrt(of_laws * (of_laws - 5e-3));
-    CHECK(errors.sealed.explained == doctest::Approx(explained).epsilon(0.05).scale(0));
+    CHECK(errors.sealed.explained == catena::near(explained, 0.05));
     CHECK(errors.sealed.high == errors_of(model).sealed.high);
     const bool enough = of_laws > 40e-3;
     CHECK((errors.sealed.observed <= errors.sealed.high_with_errors_of_laws()) == enough);

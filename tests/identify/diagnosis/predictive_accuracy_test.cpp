@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -50,7 +51,7 @@ TEST_CASE("a model that leaves less of what was held out predicts better, and no
   CHECK_FALSE(predicts_better(good, leaving(0.28e-3, 240, 1, 1), kNoise));
   // Few frames prove nothing.
   CHECK(chance_of_lead(leaving(0, 23, 1, 1), leaving(1e-3, 23, 1, 1), kNoise) == 1);
-  CHECK(chance_of_lead(good, bad, kNoise) == doctest::Approx(1.0 / 4096));
+  CHECK(chance_of_lead(good, bad, kNoise) == catena::near(1.0 / 4096, 1e-12));
 }
 
 TEST_CASE("a lead that grows is one from the beginning") {

@@ -9,6 +9,7 @@
 #include "identify/diagnosis/diagnose.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -74,9 +75,9 @@ TEST_CASE("nothing in a diagnosis sees the sealed part, but the number that is p
   CHECK(moved.final_held_out.count == 2 * (60 - kSealed));
   CHECK(moved.final_held_out.rms == quiet.final_held_out.rms);
   CHECK(moved.noise[0].level == quiet.noise[0].level);
-  CHECK(sealed_rms(quiet.final) == doctest::Approx(1e-3).epsilon(0.3).scale(0));
+  CHECK(sealed_rms(quiet.final) == catena::near(1e-3, 0.3));
   const double expected = std::sqrt((1e-6 + std::pow(kShift, 2) + 1e-6) / 2);
-  CHECK(sealed_rms(moved.final) == doctest::Approx(expected).epsilon(0.1).scale(0));
+  CHECK(sealed_rms(moved.final) == catena::near(expected, 0.1));
 }
 
 TEST_CASE("what is shown and written has no seal") {

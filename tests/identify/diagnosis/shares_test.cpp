@@ -9,6 +9,7 @@
 #include "identify/diagnosis/redrawn_errors.hpp"
 #include "identify/least_squares/least_squares.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using Eigen::Index;
@@ -62,8 +63,8 @@ TEST_CASE("the shares of effects that do not overlap are those of their squares"
   second.bottomRows(4).setConstant(1);  // 1 on the other half
   const auto shares = shares_of_one(two_effects(first, second, white(random)));
   REQUIRE(shares.size() == 3);
-  CHECK(shares[0].share == doctest::Approx(0.9).epsilon(0.05));
-  CHECK(shares[1].share == doctest::Approx(0.1).epsilon(0.3).scale(0));
+  CHECK(shares[0].share == catena::near(0.9, 0.05));
+  CHECK(shares[1].share == catena::near(0.1, 0.3));
   CHECK(std::abs(shares[2].share) < 0.05);
   CHECK(shares[0].share + shares[1].share + shares[2].share == doctest::Approx(1));
 }
@@ -75,7 +76,7 @@ TEST_CASE("effects that explain the same share it, whichever was found first") {
   const auto shares = shares_of_one(either);
   REQUIRE(shares.size() == 3);
   CHECK(shares[0].share == doctest::Approx(shares[1].share));
-  CHECK(shares[0].share == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(shares[0].share == catena::near(0.5, 0.05));
 }
 
 TEST_CASE("the noise of each recording is its own, and what was not measured counts for nothing") {

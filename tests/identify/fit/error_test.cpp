@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -41,16 +42,15 @@ TEST_CASE("the measures are what the text says, gaps left out") {
   };
   for (const Row& row : rows) {
     CAPTURE(static_cast<int>(row.measure));
-    CHECK(error(problem_with(row.measure, offsets)) ==
-          doctest::Approx(1e-3 * row.expected).epsilon(1e-9));
+    CHECK(error(problem_with(row.measure, offsets)) == catena::near(1e-3 * row.expected, 1e-9));
   }
   // marker 2 is not seen in the second frame: its 10 mm do not count, nor does it dilute the rest
   Eigen::MatrixXd hidden = offsets;
   hidden(2, 1) = hidden(3, 1) = NAN;
-  CHECK(error(problem_with(Measure::kMeanDistance, hidden)) == doctest::Approx(1e-3).epsilon(1e-9));
+  CHECK(error(problem_with(Measure::kMeanDistance, hidden)) == catena::near(1e-3, 1e-9));
   // each channel has one offset in three frames: its root mean square is that over sqrt(3)
   CHECK(error(problem_with(Measure::kLikelihood, offsets)) ==
-        doctest::Approx(1e-3 * std::pow(3.0 * 4 * 6 * 8, 0.25) / std::sqrt(3.0)).epsilon(1e-9));
+        catena::near(1e-3 * std::pow(3.0 * 4 * 6 * 8, 0.25) / std::sqrt(3.0), 1e-9));
   const Problem problem = problem_with(Measure::kLeastSquares, offsets);
   const std::vector<Gap> gaps = gaps_of(problem, evaluate(problem, problem.start(), true, false));
   REQUIRE(gaps.size() == 1);
@@ -79,7 +79,7 @@ TEST_CASE("gradients of the measures agree with differences") {
         return error_of(problem, evaluate(problem, y, false, false), Part::kFit);
       };
       const double h = 1e-4 * x[j];
-      CHECK(gradient[j] == doctest::Approx((moved(h) - moved(-h)) / (2 * h)).epsilon(1e-4));
+      CHECK(gradient[j] == catena::near((moved(h) - moved(-h)) / (2 * h), 1e-4));
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using Eigen::Index;
@@ -86,7 +87,7 @@ TEST_CASE("a fit that knows the noise errs much less, and by as much as it says"
     const FitResult plain = fitted_plainly(problem);
     const WeighedFit white = fit_with_noise(problem, plain, {}, fit_least_squares);
     REQUIRE(white.fit.status == FitStatus::kConverged);
-    CHECK(white.fit.error == doctest::Approx(1).epsilon(0.1));
+    CHECK(white.fit.error == catena::near(1, 0.1));
     CHECK(white.fit.evaluations > plain.evaluations);
     const Uncertainty uncertainty = uncertainty_of(*white.problem, white.fit.x);
     const Eigen::Vector2d truth(0.1, 0.005);
@@ -121,7 +122,7 @@ TEST_CASE("a prior and a loss need no stated noise where it is estimated") {
   const FitResult plain = fitted_plainly(held);
   CHECK(std::abs(plain.x[0] - 0.11) > 1e-3);  // neither counts in the first fit
   const WeighedFit found = fit_with_noise(held, plain, {}, fit_least_squares);
-  CHECK(found.fit.x[0] == doctest::Approx(0.11).epsilon(1e-4));
+  CHECK(found.fit.x[0] == catena::near(0.11, 1e-4));
   CHECK(found.problem->the_case().error.loss == Loss::kHuber);
   CHECK(noise_in_words(*found.problem).size() >= 3);  // correlated, a noisy marker, shaking
   CHECK(noise_in_words(*held).empty());

@@ -9,6 +9,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -50,8 +51,8 @@ TEST_CASE("every method finds the truth behind perfect data, in every measure") 
       const Problem problem = twin(row.method, measure, 0.1, 0.005);
       const FitResult result = fit(problem, {}, fit_least_squares);
       CHECK(result.error < 0.02 * result.start_error);
-      CHECK(result.x[0] == doctest::Approx(0.1).epsilon(row.tolerance));
-      CHECK(result.x[1] == doctest::Approx(0.005).epsilon(10 * row.tolerance));
+      CHECK(result.x[0] == catena::near(0.1, row.tolerance));
+      CHECK(result.x[1] == catena::near(0.005, 10 * row.tolerance));
       CHECK(result.failures == 0);
     }
 }
@@ -103,7 +104,7 @@ TEST_CASE("the noise of every channel is found with the physics and kept apart f
   const FitResult simplex =
       fit(with(FitMethod::kNelderMead, Measure::kLikelihood), {}, fit_least_squares);
   CHECK(found.error <= simplex.error * (1 + 1e-6));
-  CHECK(found.x[0] == doctest::Approx(simplex.x[0]).epsilon(1e-3));
+  CHECK(found.x[0] == catena::near(simplex.x[0], 1e-3));
   const Uncertainty uncertainty = uncertainty_of(weighed, found.x);
   const Residuals residuals =
       residuals_of(weighed, evaluate(weighed, found.x, false, false), Part::kFit);
@@ -152,11 +153,11 @@ TEST_CASE("rough simulations lead to a fit of the problem itself") {
   const auto error_at = [&](const Eigen::VectorXd& x) {
     return error_of(problem, evaluate(problem, x, false, false), Part::kFit);
   };
-  CHECK(result.start_error == doctest::Approx(error_at(problem.start())).epsilon(1e-12));
-  CHECK(result.error == doctest::Approx(error_at(result.x)).epsilon(1e-6));
+  CHECK(result.start_error == catena::near(error_at(problem.start()), 1e-12));
+  CHECK(result.error == catena::near(error_at(result.x), 1e-6));
   CHECK(static_cast<int>(result.history.size()) < result.evaluations);
   for (const HistoryEntry& entry : result.history)
-    CHECK(entry.error == doctest::Approx(error_at(entry.x)).epsilon(1e-6));
+    CHECK(entry.error == catena::near(error_at(entry.x), 1e-6));
   CHECK(result.history.front().error < 1.1 * result.error);  // there they led
 
   for (int limit = 1; limit < result.evaluations; ++limit) {
@@ -167,7 +168,7 @@ TEST_CASE("rough simulations lead to a fit of the problem itself") {
     const FitResult limited = fit(shorter, {}, fit_least_squares);
     CHECK(limited.status == FitStatus::kEvaluationLimit);
     CHECK(limited.evaluations <= limit);
-    CHECK(limited.error == doctest::Approx(error_at(limited.x)).epsilon(1e-6));
+    CHECK(limited.error == catena::near(error_at(limited.x), 1e-6));
   }
 }
 
@@ -231,7 +232,7 @@ held = { side = 1.5, down = 2.5 }
       const Estimate &expected = uncertainty.estimates[static_cast<std::size_t>(j)],
                      &actual = roughly.estimates[static_cast<std::size_t>(j)];
       CHECK(std::abs(result.x[j] - there.x[j]) < 0.2 * expected.standard_error);
-      CHECK(actual.standard_error == doctest::Approx(expected.standard_error).epsilon(0.01));
+      CHECK(actual.standard_error == catena::near(expected.standard_error, 0.01));
       CHECK(actual.verdict == expected.verdict);
     }
   }
@@ -250,7 +251,7 @@ TEST_CASE("a fit that is at its end after one step has left its start") {
   const FitResult result = fit(problem, options, fit_least_squares);
   CHECK(result.status == FitStatus::kConverged);
   CHECK(result.message == "");
-  CHECK(result.x[0] == doctest::Approx(0.1).epsilon(1e-6));
+  CHECK(result.x[0] == catena::near(0.1, 3e-6));
 }
 
 TEST_CASE("rough simulations are of fewer frames, spread over all") {
@@ -278,7 +279,7 @@ TEST_CASE("bounds hold") {
     the_case.parameters[0].upper = 0.07;
     const Problem bounded(the_case, problem.model(), {problem.experiments()[0].recording});
     const FitResult result = fit(bounded, {}, fit_least_squares);
-    CHECK(result.x[0] == doctest::Approx(0.07).epsilon(1e-6));
+    CHECK(result.x[0] == catena::near(0.07, 1e-6));
     CHECK(result.x[0] <= 0.07);
   }
 }
@@ -295,7 +296,7 @@ TEST_CASE("few steps lead to a bound, and to where the other unknowns are right 
     const Problem bounded(the_case, problem.model(), {problem.experiments()[0].recording});
     const FitResult result = fit(bounded, {}, fit_least_squares);
     const auto j = static_cast<Eigen::Index>(parameter);
-    CHECK(result.x[j] == doctest::Approx(lower).epsilon(1e-6));
+    CHECK(result.x[j] == catena::near(lower, 1e-6));
     return result.evaluations;
   };
   // 8 where the linearised problem has no bounds; 12, and 10, with steps of logarithms
@@ -339,8 +340,7 @@ TEST_CASE("a robust fit from far begins without its loss, whose slope is lost th
   for (const auto& [stiffness, damping] : {std::pair(0.001, 0.001), {0.5, 0.001}, {0.9, 0.9}}) {
     FitOptions options;
     options.start = Eigen::Vector2d(stiffness, damping);
-    CHECK(fit(robust, options, fit_least_squares).x[0] ==
-          doctest::Approx(0.1).epsilon(0.01).scale(0));
+    CHECK(fit(robust, options, fit_least_squares).x[0] == catena::near(0.1, 0.01));
   }
 }
 

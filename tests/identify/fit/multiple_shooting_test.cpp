@@ -9,6 +9,7 @@
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -96,14 +97,14 @@ TEST_CASE(
   const Problem joined = arms(0.5, true);
   CHECK(strategy_of(joined) == std::string("multiple shooting"));
   const FitResult found = fit(joined, {}, fit_least_squares);
-  CHECK(found.error == doctest::Approx(kNoise).epsilon(0.05));
+  CHECK(found.error == catena::near(kNoise, 0.05));
   const Evaluation evaluation = evaluate(joined, found.x, false, true);
   REQUIRE(evaluation.ok);
   const SoftConstraints defects = shooting_defects_of(joined, evaluation);
   CHECK(defects.value.size() == 15 * 4);
   CHECK(defects.value.cwiseAbs().maxCoeff() < 1e-5);  // one motion, not pieces
   const Uncertainty uncertainty = uncertainty_of(joined, found.x);
-  CHECK(uncertainty.noise == doctest::Approx(kNoise).epsilon(0.05));
+  CHECK(uncertainty.noise == catena::near(kNoise, 0.05));
   const double truth[] = {0.1, 1e-4};
   for (Eigen::Index j = 0; j < 2; ++j) {
     const double error = uncertainty.estimates[static_cast<std::size_t>(j)].standard_error;

@@ -9,6 +9,7 @@
 #include "identify/least_squares/least_squares.hpp"
 #include "identify/uncertainty/uncertainty.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -36,19 +37,18 @@ Problem problem(double standard_deviation, double measured = 1.2 * kTruth) {
 
 TEST_CASE(
     "what is known exactly stays, what is hardly known follows the data, in between by weight") {
-  const auto found = [](double standard_deviation) {
-    const Problem known = problem(standard_deviation);
+  const auto found = [](double standard_deviation, double measured = 1.2 * kTruth) {
+    const Problem known = problem(standard_deviation, measured);
     const FitResult result = fit_least_squares(known, {});
     return std::pair(result.x[0], uncertainty_of(known, result.x).estimates[0].standard_error);
   };
   const auto [free, error_of_data] = found(kNotGiven);
-  CHECK(free == doctest::Approx(kTruth).epsilon(0.05));
-  CHECK(found(1e-7).first == doctest::Approx(1.2 * kTruth).epsilon(1e-5));
-  CHECK(found(10).first == doctest::Approx(free).epsilon(1e-3));
-  // A prior as sure as the data: half-way, with an error smaller by the root of two.
-  const auto [between, error] = found(error_of_data);
-  CHECK(between == doctest::Approx((free + 1.2 * kTruth) / 2).epsilon(0.02));
-  CHECK(error == doctest::Approx(error_of_data / std::sqrt(2)).epsilon(0.05));
+  CHECK(free == catena::near(kTruth, 0.05));
+  CHECK(found(1e-7).first == catena::near(1.2 * kTruth, 1e-5));
+  CHECK(found(10).first == catena::near(free, 1e-3));
+  // A prior as sure as the data: half-way. Where it agrees with them, the error is smaller by the root of two.
+  CHECK(found(error_of_data).first == catena::near((free + 1.2 * kTruth) / 2, 0.02));
+  CHECK(found(error_of_data, free).second == catena::near(error_of_data / std::sqrt(2), 0.05));
 }
 
 TEST_CASE("where the case gives no bounds, those of the model hold") {
@@ -86,7 +86,7 @@ TEST_CASE("the gradient of the error counts the prior") {
   Eigen::VectorXd above = x, below = x;
   above[0] += step;
   below[0] -= step;
-  CHECK(gradient[0] == doctest::Approx((error(above) - error(below)) / (2 * step)).epsilon(1e-4));
+  CHECK(gradient[0] == catena::near((error(above) - error(below)) / (2 * step), 1e-4));
 }
 
 TEST_CASE("a case written at the fitted values keeps what was measured before") {

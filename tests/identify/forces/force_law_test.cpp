@@ -11,6 +11,7 @@
 
 #include "identify/forces/missing_force.hpp"
 #include "tests/identify/forces/hidden_force.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -38,7 +39,7 @@ TEST_CASE("the law of a spring to a wall: stiffness and rest position") {
   CHECK(found.law->found);
   CHECK(found.law->force == "side force");
   CHECK(found.law->variable == "side position");
-  CHECK(found.law->confirmed == doctest::Approx(1).epsilon(0.02));
+  CHECK(found.law->confirmed == catena::near(1, 0.02));
   CHECK(found.sensor->log_evidence < found.log_evidence);
   CHECK(std::abs(found.law->site.arc_length - testing::true_place(film)) <
         3 * found.law->place_deviation);
@@ -69,8 +70,8 @@ TEST_CASE("the law of a tie between two places: its stiffness and both places") 
   CHECK(law.place_deviation < 0.01 * length);
   CHECK(law.other_place_deviation < 0.01 * length);
   REQUIRE(law.formula.constants.size() == 2);
-  CHECK(law.formula.constants[0].value == doctest::Approx(5).epsilon(0.1));
-  CHECK(law.formula.constants[1].value == doctest::Approx(1).epsilon(0.02));
+  CHECK(law.formula.constants[0].value == catena::near(5, 0.1));
+  CHECK(law.formula.constants[1].value == catena::near(1, 0.02));
 }
 
 TEST_CASE("the law of drag at a place: along the velocity, with the square of the speed") {
@@ -137,7 +138,7 @@ TEST_CASE(
   check_constant(found.law->formula.constants[0], hidden.magnet, "N m^2");
   CHECK(std::abs(found.law->formula.constants[1].value) < 0.01);
   CHECK(found.law->formula.constants[2].value ==
-        doctest::Approx(film.cable().length + hidden.magnet_depth).epsilon(0.005));
+        catena::near(film.cable().length + hidden.magnet_depth, 0.005));
 }
 
 TEST_CASE("a force that follows the velocity and drives it is no law") {
@@ -246,7 +247,7 @@ TEST_CASE("a kick is a pulse in time: when, and with how much of an impulse") {
   const auto& constants = directions.at("side force").constants;
   REQUIRE(constants.size() == 3);
   CHECK(constants[1].name == "duration");
-  CHECK(constants[2].value == doctest::Approx(hidden.kick_time).epsilon(0.02));
+  CHECK(constants[2].value == catena::near(hidden.kick_time, 0.02));
   // The integral of a bell is sqrt(2 pi) amplitude width.
   const double impulse = std::sqrt(2 * std::numbers::pi) * constants[0].value * constants[1].value;
   CHECK(std::abs(impulse - hidden.kick) < 0.1 * hidden.kick);

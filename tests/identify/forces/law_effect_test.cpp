@@ -19,6 +19,7 @@
 #include "identify/forces/law_choice.hpp"
 #include "runtime/model.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -295,7 +296,7 @@ TEST_CASE(
       least_power = std::min(least_power, value_of(term, 1e-3 * k) * 1e-3 * k);
     CHECK(least_power > -1e-12);
     const double sign = term.kind == TermKind::kBackwardPiece ? -1 : 1;
-    CHECK(sign * value_of(term, sign * term.shape) == doctest::Approx(1).epsilon(0.05));
+    CHECK(sign * value_of(term, sign * term.shape) == catena::near(1, 0.05));
     if (term.below > 0) CHECK(std::abs(value_of(term, sign * term.below)) < 0.05);
     if (std::isfinite(term.above)) CHECK(std::abs(value_of(term, sign * term.above)) < 0.05);
     if (term.kind != TermKind::kPiece) CHECK(std::abs(value_of(term, -sign * 0.15)) < 1e-6);

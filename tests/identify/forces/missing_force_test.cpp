@@ -12,6 +12,7 @@
 #include "identify/forces/force_sizes.hpp"
 #include "identify/forces/forces_everywhere.hpp"
 #include "tests/identify/forces/hidden_force.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -63,7 +64,7 @@ TEST_CASE("the smoother's covariances between times are those of all numbers at 
       CAPTURE(i);
       CAPTURE(j);
       CHECK(at.at(static_cast<std::size_t>(j - i))(0, 0) ==
-            doctest::Approx(after(1 + 2 * i, 1 + 2 * j)).epsilon(1e-9).scale(0));
+            catena::near(after(1 + 2 * i, 1 + 2 * j), 1e-9));
     }
 }
 
@@ -97,7 +98,7 @@ TEST_CASE("a hidden spring to a wall is found: its place, its force over time, i
   CHECK(found.at_best.at(0).rows == std::vector<std::string>{"side"});
   // The fit without the force has made EI three times as large.
   CHECK(found.parameters.at(0).name == "EI");
-  CHECK(found.parameters.at(0).value == doctest::Approx(0.014).epsilon(0.1).scale(0));
+  CHECK(found.parameters.at(0).value == catena::near(0.014, 0.1));
   REQUIRE(found.words.size() >= 2);
   CHECK(found.words[0].starts_with("a side force at arc length 1."));
 }
@@ -141,7 +142,7 @@ TEST_CASE("a force of no known form is expected to be no stronger than the weigh
   for (const MissingForce::Pattern& pattern : found.patterns)
     if (pattern.unit == "N/m") largest = std::max(largest, pattern.prior_deviation);
   CHECK(largest == doctest::Approx(weight / cable.length));
-  CHECK(found.best->arc_length == doctest::Approx(testing::true_place(film)).epsilon(0.05));
+  CHECK(found.best->arc_length == catena::near(testing::true_place(film), 0.05));
 
   const FittedModel baseline = filmed.baseline();
   ChainMeasures chain(*baseline.problem, baseline.x, 0);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/near.hpp"
+
 using namespace catena;
 
 namespace {
@@ -78,11 +80,10 @@ TEST_CASE("gradient and curvature are those of the smoothed sum") {
       const Vector2d step = h * Vector2d::Unit(j);
       const double slope =
           (sum.value(here + step, width) - sum.value(here - step, width)) / (2 * h);
-      CHECK(sum.gradient(here, width)[j] == doctest::Approx(slope).epsilon(1e-7));
+      CHECK(sum.gradient(here, width)[j] == catena::near(slope, 1e-7));
       const VectorXd change =
           (sum.gradient(here + step, width) - sum.gradient(here - step, width)) / (2 * h);
-      for (int i = 0; i < 2; ++i)
-        CHECK(curvature(i, j) == doctest::Approx(change[i]).epsilon(1e-7));
+      for (int i = 0; i < 2; ++i) CHECK(curvature(i, j) == catena::near(change[i], 1e-7));
     }
   }
 }

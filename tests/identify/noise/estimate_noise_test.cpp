@@ -9,6 +9,7 @@
 #include <random>
 
 #include "identify/noise/drawn_noise.hpp"
+#include "tests/support/near.hpp"
 
 namespace {
 
@@ -69,9 +70,9 @@ bool says(const NoiseModel& noise, const std::string& what) {
 TEST_CASE("the noise level is found under a smooth misfit of ten times its size") {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const MatrixXd noise = white(24, 240, seed);
-    CHECK(estimated(noise).level == doctest::Approx(kSigma).epsilon(0.05));
+    CHECK(estimated(noise).level == catena::near(kSigma, 0.05));
     const NoiseModel under = estimated(noise + swing(24, 240, 1e-2, 1.5));
-    CHECK(under.level == doctest::Approx(kSigma).epsilon(0.05));
+    CHECK(under.level == catena::near(kSigma, 0.05));
     CHECK(under.shape.white());
     CHECK(under.words().empty());
   }
@@ -81,7 +82,7 @@ TEST_CASE("lost markers do not disturb the noise level") {
   MatrixXd noise = white(24, 240, 6);
   for (Index k = 0; k < 240; k += 13)
     for (Index c = 0; c < 24; c += 5) noise(c, k) = kNan;
-  CHECK(estimated(noise).level == doctest::Approx(kSigma).epsilon(0.06));
+  CHECK(estimated(noise).level == catena::near(kSigma, 0.06));
 }
 
 TEST_CASE("smoothed tracks are told from white noise, and over how many frames") {
@@ -99,13 +100,13 @@ TEST_CASE("correlated noise is found and made white, with missing frames too") {
     for (double& value : residual.reshaped())
       if (uniform(random) < lost) value = kNan;
     const NoiseModel noise = estimated(residual);
-    CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.08));
-    CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.12));
+    CHECK(noise.level == catena::near(kSigma, 0.08));
+    CHECK(noise.shape.autocorrelation(1)[1] == catena::near(0.6, 0.12));
     const MatrixXd z = noise.whitened(residual);
     double squares = 0, count = 0;
     for (const double value : z.reshaped())
       if (!std::isnan(value)) squares += value * value, count += 1;
-    CHECK(squares / count == doctest::Approx(1).epsilon(0.05));
+    CHECK(squares / count == catena::near(1, 0.05));
     for (const Index lag : {1, 2, 3}) {
       double products = 0, pairs = 0;
       for (Index c = 0; c < z.rows(); ++c)
@@ -149,8 +150,8 @@ TEST_CASE("every channel has noise of its own") {
   MatrixXd residual = white(24, 240, 9);
   residual.row(5) *= 3;
   const NoiseModel noise = estimated(residual);
-  CHECK(noise.sigma[5] == doctest::Approx(3e-3).epsilon(0.15).scale(0));
-  CHECK(noise.sigma[6] == doctest::Approx(1e-3).epsilon(0.15).scale(0));
+  CHECK(noise.sigma[5] == catena::near(3e-3, 0.15));
+  CHECK(noise.sigma[6] == catena::near(1e-3, 0.15));
   CHECK(says(noise, "the noisiest channel"));
 }
 
@@ -159,9 +160,9 @@ TEST_CASE("a camera that shakes is found, and taken out") {
   const MatrixXd shake = white(1, 240, 11);
   for (Index c = 0; c < 24; c += 2) residual.row(c) += shake;
   const NoiseModel noise = estimated(residual);
-  CHECK(noise.common[0] == doctest::Approx(kSigma).epsilon(0.2));
+  CHECK(noise.common[0] == catena::near(kSigma, 0.2));
   CHECK(noise.common[1] == 0);
-  CHECK(noise.sigma[0] == doctest::Approx(kSigma).epsilon(0.15));
+  CHECK(noise.sigma[0] == catena::near(kSigma, 0.15));
   const MatrixXd z = noise.whitened(residual);
   double between = 0;
   for (Index a = 0; a < 24; a += 2)
@@ -195,10 +196,10 @@ TEST_CASE("noise that is drawn is that of the model") {
   model.shape.partial = {0.6};
   std::mt19937_64 random(19);
   const NoiseModel noise = estimated(catena::drawn_noise(model, 24, 600, random));
-  CHECK(noise.shape.autocorrelation(1)[1] == doctest::Approx(0.6).epsilon(0.12));
-  CHECK(noise.sigma[5] == doctest::Approx(3 * kSigma).epsilon(0.2));
-  CHECK(noise.sigma[6] == doctest::Approx(kSigma).epsilon(0.2));
-  CHECK(noise.common[0] == doctest::Approx(kSigma).epsilon(0.3));
+  CHECK(noise.shape.autocorrelation(1)[1] == catena::near(0.6, 0.12));
+  CHECK(noise.sigma[5] == catena::near(3 * kSigma, 0.2));
+  CHECK(noise.sigma[6] == catena::near(kSigma, 0.2));
+  CHECK(noise.common[0] == catena::near(kSigma, 0.3));
   CHECK(noise.common[1] == 0);
 }
 
@@ -208,7 +209,7 @@ TEST_CASE("values far off are left out and counted, heavy tails are seen") {
   const NoiseModel noise = estimated(residual);
   CHECK(noise.outliers == 4);
   CHECK(std::isnan(noise.whitened(residual)(7, 90)));
-  CHECK(noise.level == doctest::Approx(kSigma).epsilon(0.05));
+  CHECK(noise.level == catena::near(kSigma, 0.05));
   CHECK(noise.excess_kurtosis == 0);
   std::mt19937_64 random(13);
   std::student_t_distribution<double> student(5);

@@ -20,6 +20,7 @@
 #include "tests/identify/problem/prediction_difference.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using Eigen::Index;
@@ -118,14 +119,14 @@ TEST_CASE("what a camera sees is what closed forms say") {
   // Not turned: similar triangles.
   const VectorXd straight = array_of(with, {0.5, 0.25, -3, 0, 0, 0, 1000, 0});
   const Vector2d seen = camera.picture(straight, {0.8, 0.75, 1});
-  CHECK(seen[0] == doctest::Approx(1000 * 0.3 / 4).epsilon(1e-14));
-  CHECK(seen[1] == doctest::Approx(1000 * 0.5 / 4).epsilon(1e-14));
+  CHECK(seen[0] == catena::near(1000 * 0.3 / 4, 1e-14));
+  CHECK(seen[1] == catena::near(1000 * 0.5 / 4, 1e-14));
   // Behind it nothing is seen.
   CHECK(camera.picture(straight, {0.8, 0.75, -3.1}).hasNaN());
   // A barrel of k1 = -1/3 shows nothing farther from the axis than 1 at 1 ahead.
   const VectorXd barrel = array_of(with, {0, 0, 0, 0, 0, 0, 900, -1.0 / 3});
   CHECK(camera.picture(barrel, {0.99, 0, 1})[0] ==
-        doctest::Approx(900 * (0.99 - 0.99 * 0.99 * 0.99 / 3)).epsilon(1e-14));
+        catena::near(900 * (0.99 - 0.99 * 0.99 * 0.99 / 3), 1e-14));
   CHECK(camera.picture(barrel, {1.01, 0, 1}).hasNaN());
   CHECK(camera.ray(barrel, {650, 0}).isApprox(Vector3d(1, 0, 1).normalized()));  // beyond: its edge
 
@@ -418,7 +419,7 @@ Fitted fitted(const Case& truth, Case the_case, const std::vector<std::string>& 
 void check_found(const Fitted& found, Case truth) {
   CHECK(found.result.status == FitStatus::kConverged);
   for (const Gap& gap : found.gaps)  // fitted and held out
-    CHECK(gap.rms == doctest::Approx(0.3 * kMetresPerPixel).epsilon(0.1));
+    CHECK(gap.rms == catena::near(0.3 * kMetresPerPixel, 0.1));
   for (std::size_t j = 0; j < found.problem.unknowns().size(); ++j) {
     const Unknown& unknown = found.problem.unknowns()[j];
     if (unknown.parameter < 0) continue;

@@ -5,6 +5,7 @@
 
 #include "common/input_error.hpp"
 #include "tests/identify/recordings.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -61,15 +62,15 @@ TEST_CASE("what is given stays; beyond a right angle too; nothing seen is an err
   initial.shape = Shape::kAngles;
   Recording recording = moving({0.5, 1.0}, lengths, a, Eigen::Vector2d::Zero());
   complete_from_data(initial, recording, lengths);
-  CHECK(initial.coefficients[0] == doctest::Approx(2.8).epsilon(1e-3));
-  CHECK(initial.coefficients[1] == doctest::Approx(3.0).epsilon(1e-3));
+  CHECK(initial.coefficients[0] == catena::near(2.8, 1e-3));
+  CHECK(initial.coefficients[1] == catena::near(3.0, 1e-3));
 
   initial.coefficients = {2.8, 3.0};
   initial.at_rest = false;
   initial.velocity_shape = Shape::kAngles;
   complete_from_data(initial, moving({0.5, 1.0}, lengths, a, b), lengths);
   CHECK(initial.coefficients == std::vector<double>{2.8, 3.0});
-  CHECK(initial.velocity_coefficients[0] == doctest::Approx(0.3).epsilon(1e-2));
+  CHECK(initial.velocity_coefficients[0] == catena::near(0.3, 1e-2));
 
   initial = {};
   initial.shape = Shape::kSmooth;

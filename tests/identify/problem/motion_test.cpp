@@ -12,6 +12,7 @@
 #include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -85,8 +86,8 @@ TEST_CASE("the chain that is laid over a measurement runs through what the senso
       };
       const auto row = static_cast<Index>(2 * p);
       for (Index k = 0; k < kFrames; ++k) {
-        CHECK(drawn(seen.side, k) == doctest::Approx(predicted(row, k)).epsilon(1e-9));
-        CHECK(drawn(seen.down, k) == doctest::Approx(predicted(row + 1, k)).epsilon(1e-9));
+        CHECK(drawn(seen.side, k) == catena::near(predicted(row, k), 1e-9));
+        CHECK(drawn(seen.down, k) == catena::near(predicted(row + 1, k), 1e-9));
         const double cable =
             (1 - at.fraction) * motion.side(at.link, k) + at.fraction * motion.side(at.link + 1, k);
         apart = std::max(apart, std::abs(cable - predicted(row, k)));
@@ -102,7 +103,7 @@ TEST_CASE("the chain that is laid over a measurement runs through what the senso
     for (Index link = 0; link < kLinks; ++link)
       CHECK(std::atan2(seen.side(link + 1, k) - seen.side(link, k),
                        seen.down(link + 1, k) - seen.down(link, k)) ==
-            doctest::Approx(predicted(link, k)).epsilon(1e-9));
+            catena::near(predicted(link, k), 1e-9));
 }
 
 TEST_CASE("derivatives of what is seen of a chain whose support moves") {

@@ -10,6 +10,7 @@
 #include "identify/cases/case_reader.hpp"
 #include "tests/identify/differences.hpp"
 #include "tests/runtime/reference_model.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 
@@ -56,7 +57,7 @@ TEST_CASE("names, families, ranges, factors and physical quantities set what the
       {"torque_2", 0.25},          {"load_mass", 0.5},  {"gravity", 9.81}};
   for (const Row& row : rows) {
     CAPTURE(row.name);
-    CHECK(value(row.name) == doctest::Approx(row.expected).epsilon(1e-14));
+    CHECK(value(row.name) == catena::near(row.expected, 1e-14));
   }
 }
 
@@ -110,8 +111,8 @@ TEST_CASE("bounds over a factor are within the model's after rounding, too") {
     const double at_upper = factor * (factor > 0 ? range.upper : range.lower);
     CHECK(at_lower >= -0.1);
     CHECK(at_upper <= 0.7);
-    CHECK(at_lower == doctest::Approx(-0.1).epsilon(1e-15));
-    CHECK(at_upper == doctest::Approx(0.7).epsilon(1e-15));
+    CHECK(at_lower == catena::near(-0.1, 1e-15));
+    CHECK(at_upper == catena::near(0.7, 1e-15));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "tests/identify/differences.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using testing::sections;
@@ -135,8 +136,8 @@ TEST_CASE("experiments share the physics and have starts of their own") {
   for (const Unknown& unknown : problem.unknowns()) names.push_back(unknown.name);
   CHECK(names == std::vector<std::string>{"EI", "damping", "first: angle 1", "second: angle 1"});
   // the starts were found from the first frames, that of the unseen one too
-  CHECK(problem.unknowns()[2].start == doctest::Approx(0.3).epsilon(1e-3));
-  CHECK(problem.unknowns()[3].start == doctest::Approx(0.6).epsilon(1e-3));
+  CHECK(problem.unknowns()[2].start == catena::near(0.3, 1e-3));
+  CHECK(problem.unknowns()[3].start == catena::near(0.6, 1e-3));
   const Evaluation evaluation = evaluate(problem, problem.start(), true, true);
   CHECK(evaluation.ok);
   CHECK(error_of(problem, evaluation, Part::kFit) < 1e-3);

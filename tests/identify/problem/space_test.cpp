@@ -19,6 +19,7 @@
 #include "tests/identify/problem/prediction_difference.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -343,12 +344,12 @@ TEST_CASE("stiffness, damping and the whole start are found, in their intervals"
   const double expected[] = {0.1, 0.005};
   for (std::size_t j = 0; j < 2; ++j) {
     const Estimate& estimate = uncertainty.estimates[j];
-    CHECK(result.x[static_cast<Eigen::Index>(j)] == doctest::Approx(expected[j]).epsilon(0.05));
+    CHECK(result.x[static_cast<Eigen::Index>(j)] == catena::near(expected[j], 0.05));
     CHECK(estimate.lower < expected[j]);
     CHECK(estimate.upper > expected[j]);
   }
   for (const Gap& gap : gaps_of(problem, evaluate(problem, result.x, true, false)))
-    CHECK(gap.rms == doctest::Approx(1e-3).epsilon(0.1).scale(0));  // fitted and held out
+    CHECK(gap.rms == catena::near(1e-3, 0.1));  // fitted and held out
   const Case fitted = problem.with(result.x);
   const Problem again(fitted, model(), {recording});
   CHECK((again.start() - result.x).cwiseAbs().maxCoeff() == 0);

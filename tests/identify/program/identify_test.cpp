@@ -11,6 +11,7 @@
 #include "identify/cases/case.hpp"
 #include "identify/cases/case_reader.hpp"
 #include "tests/identify/program/catena_program.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using testing::run_catena;
@@ -49,8 +50,8 @@ TEST_CASE("identify finds the truth, writes it, and the fitted case confirms it"
     for (const char* word : {"identified", "fit", "validate", "RMS before", "RMS after", "mm"})
       CHECK(run.output.find(word) != std::string::npos);
     const Case fitted = read_case(out / "fitted.toml");
-    CHECK(fitted.parameters[0].value == doctest::Approx(0.1).epsilon(1e-3));
-    CHECK(fitted.parameters[1].value == doctest::Approx(0.005).epsilon(1e-3).scale(0));
+    CHECK(fitted.parameters[0].value == catena::near(0.1, 1e-3));
+    CHECK(fitted.parameters[1].value == catena::near(0.005, 1e-3));
     const ProcessResult again =
         run_catena({"simulate", out / "fitted.toml", "--output", out / "again"});
     CHECK_MESSAGE(again.exit_status == 0, again.output);
@@ -206,8 +207,7 @@ TEST_CASE("a study of the number of links refits, tells how the numbers converge
   for (const auto& row : json["links_study"]) {
     CHECK(row["error"].get<double>() < last);
     last = row["error"];
-    if (row["links"] == 24)
-      CHECK(row["parameters"]["k"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+    if (row["links"] == 24) CHECK(row["parameters"]["k"].get<double>() == catena::near(0.1, 1e-3));
   }
   const ProcessResult wide = run_catena(
       {"identify", the_case, "--links-study", "2,4", "--output", out, "--error-budget", "1000"});
@@ -246,8 +246,8 @@ TEST_CASE("a cable in space is identified, and its report is drawn") {
   REQUIRE_MESSAGE(run.exit_status == 0, run.output);
   CHECK(run.output.find("and 8 numbers of the initial state") != std::string::npos);
   const Case fitted = read_case(out / "fitted.toml");
-  CHECK(fitted.parameters[0].value == doctest::Approx(0.1).epsilon(1e-3));
-  CHECK(fitted.parameters[1].value == doctest::Approx(0.005).epsilon(1e-3).scale(0));
+  CHECK(fitted.parameters[0].value == catena::near(0.1, 1e-3));
+  CHECK(fitted.parameters[1].value == catena::near(0.005, 1e-3));
   const ProcessResult again =
       run_catena({"simulate", out / "fitted.toml", "--output", out / "again"});
   CHECK_MESSAGE(again.exit_status == 0, again.output);

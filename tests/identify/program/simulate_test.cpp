@@ -6,6 +6,7 @@
 #include "identify/recordings/recording.hpp"
 #include "identify/recordings/table.hpp"
 #include "tests/identify/program/catena_program.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using testing::run_catena;
@@ -30,28 +31,27 @@ TEST_CASE("simulate writes what it says, the same every time") {
   const Table positions = read_table(std::filesystem::path(first) / "positions.csv");
   CHECK(positions.rows() == 51);
   CHECK(positions.column("time_s").back() == 1.0);
-  CHECK(positions.column("side_1_m").front() ==
-        doctest::Approx(0.5 * std::sin(0.6)).epsilon(1e-15));
-  CHECK(positions.column("down_2_m").front() == doctest::Approx(std::cos(0.6)).epsilon(1e-15));
+  CHECK(positions.column("side_1_m").front() == catena::near(0.5 * std::sin(0.6), 1e-15));
+  CHECK(positions.column("down_2_m").front() == catena::near(std::cos(0.6), 1e-15));
   CHECK(read_table(std::filesystem::path(first) / "angles.csv").column("theta_2_rad").front() ==
         0.6);
   // Two links askew, held still: joint 1 is bent by 0.6 over half a link of 0.5 m, joint 2 is not.
   const Table forces = read_table(std::filesystem::path(first) / "forces.csv");
   CHECK(forces.names.size() == 1 + 3 * 2 + 3);
   CHECK(forces.rows() == 51);
-  CHECK(forces.column("moment_1_N_m").front() == doctest::Approx(-0.1 * 0.6).epsilon(1e-15));
+  CHECK(forces.column("moment_1_N_m").front() == catena::near(-0.1 * 0.6, 1e-15));
   CHECK(forces.column("moment_2_N_m").front() == 0.0);
-  CHECK(forces.column("curvature_1_rad_m").front() == doctest::Approx(0.6 / 0.25).epsilon(1e-15));
+  CHECK(forces.column("curvature_1_rad_m").front() == catena::near(0.6 / 0.25, 1e-15));
   CHECK(forces.column("curvature_2_rad_m").front() == 0.0);
   // All points begin to move across the links: along them each carries the weight below its end.
   const double along = 9.81 * std::cos(0.6);
-  CHECK(forces.column("tension_1_N").front() == doctest::Approx(0.5 * along).epsilon(1e-12));
-  CHECK(forces.column("tension_2_N").front() == doctest::Approx(0.35 * along).epsilon(1e-12));
+  CHECK(forces.column("tension_1_N").front() == catena::near(0.5 * along, 1e-12));
+  CHECK(forces.column("tension_2_N").front() == catena::near(0.35 * along, 1e-12));
   // The support pulls as the first link does, and bends it back.
   CHECK(std::sin(0.6) * forces.column("support_force_side_N").front() +
             std::cos(0.6) * forces.column("support_force_down_N").front() ==
-        doctest::Approx(-0.5 * along).epsilon(1e-12));
-  CHECK(forces.column("support_moment_N_m").front() == doctest::Approx(-0.1 * 0.6).epsilon(1e-12));
+        catena::near(-0.5 * along, 1e-12));
+  CHECK(forces.column("support_moment_N_m").front() == catena::near(-0.1 * 0.6, 1e-12));
   const ProcessResult json = run_catena({"simulate", the_case, "--output", second, "--json"});
   CHECK(json.output == testing::text_of(std::filesystem::path(first) / "result.json"));
   CHECK(json.output.find("The Lagrangian is") != std::string::npos);
@@ -75,12 +75,10 @@ TEST_CASE("a case of a model in space starts in azimuths and has a third compone
   const Table positions = read_table(std::filesystem::path(output) / "positions.csv");
   const Table directions = read_table(std::filesystem::path(output) / "angles.csv");
   const double sine = std::sin(0.6);
-  CHECK(positions.column("side_1_m").front() ==
-        doctest::Approx(0.5 * sine * std::cos(0.4)).epsilon(1e-14));
-  CHECK(positions.column("across_2_m").front() ==
-        doctest::Approx(sine * std::sin(0.4)).epsilon(1e-14));
+  CHECK(positions.column("side_1_m").front() == catena::near(0.5 * sine * std::cos(0.4), 1e-14));
+  CHECK(positions.column("across_2_m").front() == catena::near(sine * std::sin(0.4), 1e-14));
   CHECK(directions.column("direction_across_2_rate_1_s").front() ==
-        doctest::Approx(3 * sine * std::cos(0.4)).epsilon(1e-14));
+        catena::near(3 * sine * std::cos(0.4), 1e-14));
   CHECK(positions.column("across_load_m").back() != doctest::Approx(sine * std::sin(0.4)));
   const auto refused = [&](const std::string& text, const std::string& said) {
     const ProcessResult result =

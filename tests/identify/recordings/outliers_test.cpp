@@ -8,6 +8,7 @@
 
 #include "identify/recordings/table.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -65,8 +66,8 @@ TEST_CASE("points beside the motion are found, named and measured; nothing else 
   CHECK(found[0].frame == 0);
   CHECK((found[1].point == 2 && found[1].frame == 60));
   CHECK((found[2].point == 3 && found[2].frame == 139));
-  CHECK(found[1].size == doctest::Approx(0.060).epsilon(0.1).scale(0));
-  CHECK(found[2].size == doctest::Approx(0.085).epsilon(0.1).scale(0));
+  CHECK(found[1].size == catena::near(0.060, 0.1));
+  CHECK(found[2].size == catena::near(0.085, 0.1));
 }
 
 TEST_CASE("two in a row, and two markers that were exchanged in one frame") {

@@ -7,6 +7,7 @@
 
 #include "identify/recordings/recording.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace catena;
@@ -76,7 +77,7 @@ TEST_CASE("units come from the names, or from steps and distances") {
   const RecognisedRecording film = recognised(style, known);
   CHECK(film.spec.time_unit == "frames");
   CHECK(film.spec.length_unit == "px");
-  CHECK(film.spec.metres_per_pixel == doctest::Approx(1.0 / 400).epsilon(0.01));
+  CHECK(film.spec.metres_per_pixel == catena::near(1.0 / 400, 0.01));
   CHECK(film.estimated == std::vector<std::string>{"metres_per_pixel"});
 }
 
@@ -84,9 +85,9 @@ TEST_CASE("where down is, where the support is, when the cable is let go") {
   Style style{.length = 400, .support = {320, 700}, .down = -1, .held = 0.5};
   RecognisedRecording found = recognised(style);
   CHECK(found.spec.upward);
-  CHECK(found.spec.origin[0] == doctest::Approx(320).epsilon(0.01));
-  CHECK(found.spec.origin[1] == doctest::Approx(700).epsilon(0.01));
-  CHECK(found.spec.from == doctest::Approx(0.5).epsilon(0.2));
+  CHECK(found.spec.origin[0] == catena::near(320, 0.01));
+  CHECK(found.spec.origin[1] == catena::near(700, 0.01));
+  CHECK(found.spec.from == catena::near(0.5, 0.2));
   CHECK(found.at_rest);
   KnownOfRecording known;
   known.origin = {318, 702};

@@ -19,6 +19,7 @@
 #include "identify/results/result_file.hpp"
 #include "tests/identify/report/made_results.hpp"
 #include "tests/support/failure.hpp"
+#include "tests/support/near.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
 
@@ -452,7 +453,7 @@ TEST_CASE(
   for (std::size_t t = 0; t < flat.time.size(); ++t) {
     CHECK(turned.across[3][t] == doctest::Approx(0.5 * flat.side[3][t]));
     CHECK(turned.size[3][t] == doctest::Approx(flat.size[3][t]));
-    CHECK(turned.radial[3][t] == doctest::Approx(flat.radial[3][t]).epsilon(1e-9));
+    CHECK(turned.radial[3][t] == catena::near(flat.radial[3][t], 1e-9));
   }
   const auto figures = report_figures(space);
   std::vector<std::string> views;
@@ -500,10 +501,9 @@ TEST_CASE("autocorrelation and quantiles are those of the noise in the fitted pa
   REQUIRE(figures.size() == 2);
   const Series& correlation = figures[0].figure.series.front();
   CHECK(correlation.y[0] == 1);
-  CHECK(correlation.y[1] == doctest::Approx(0.6).epsilon(0.05));
-  CHECK(correlation.y[2] == doctest::Approx(0.36).epsilon(0.15));
-  CHECK(figures[0].figure.rules.back().at ==
-        doctest::Approx(1.96 / std::sqrt(kFitted)).epsilon(1e-3));
+  CHECK(correlation.y[1] == catena::near(0.6, 0.05));
+  CHECK(correlation.y[2] == catena::near(0.36, 0.15));
+  CHECK(figures[0].figure.rules.back().at == catena::near(1.96 / std::sqrt(kFitted), 1e-3));
   const Series& quantiles = figures[1].figure.series.back();
   for (std::size_t i = 10; i + 10 < quantiles.x.size(); ++i)  // in mrad, of deviation 1
     CHECK(quantiles.y[i] == doctest::Approx(quantiles.x[i]).epsilon(0.1).scale(1));

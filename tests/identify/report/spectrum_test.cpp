@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "identify/results/result.hpp"
+#include "tests/support/near.hpp"
 
 namespace catena::report {
 namespace {
@@ -25,7 +26,7 @@ TEST_CASE("a sine's amplitude and frequency are seen, at any offset, across a ga
   }
   const Spectrum spectrum = amplitude_spectrum(time, value);
   const auto largest = std::max_element(spectrum.amplitude.begin(), spectrum.amplitude.end());
-  CHECK(*largest == doctest::Approx(3).epsilon(0.01));
+  CHECK(*largest == catena::near(3, 0.01));
   CHECK(spectrum.frequency[static_cast<std::size_t>(largest - spectrum.amplitude.begin())] ==
         doctest::Approx(2.5));
   CHECK(spectrum.frequency.back() == doctest::Approx(50));

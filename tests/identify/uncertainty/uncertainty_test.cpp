@@ -13,6 +13,7 @@
 #include "identify/uncertainty/profile.hpp"
 #include "tests/identify/recordings.hpp"
 #include "tests/identify/uncertainty/coverage.hpp"
+#include "tests/support/near.hpp"
 
 using namespace catena;
 using testing::kCable;
@@ -153,7 +154,7 @@ TEST_CASE("profiles and bootstrap agree with the intervals where all is well") {
   const Problem problem = noisy(perfect(), 0, 5);
   const FitResult result = fit_least_squares(problem, {});
   const Uncertainty uncertainty = uncertainty_of(problem, result.x);
-  CHECK(uncertainty.noise == doctest::Approx(2e-3).epsilon(0.1).scale(0));
+  CHECK(uncertainty.noise == catena::near(2e-3, 0.1));
   CHECK(!uncertainty.autocorrelated);
   const std::vector<Profile> profiles =
       profiles_of(problem, result, uncertainty, fit_least_squares, 2);
@@ -165,16 +166,15 @@ TEST_CASE("profiles and bootstrap agree with the intervals where all is well") {
       const Estimate& estimate = uncertainty.estimates[static_cast<std::size_t>(profile.unknown)];
       const double z = std::log(profile.value[i] / result.x[profile.unknown]) /
                        (estimate.standard_error / result.x[profile.unknown]);
-      CHECK(profile.cost[i] == doctest::Approx(z * z).epsilon(0.15));
+      CHECK(profile.cost[i] == catena::near(z * z, 0.15));
     }
   }
   const Eigen::MatrixXd rows = bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 2);
   for (Eigen::Index j = 0; j < rows.cols(); ++j) {
     const Eigen::VectorXd off = rows.col(j).array() - rows.col(j).mean();
     const double deviation = std::sqrt(off.squaredNorm() / 59);
-    CHECK(
-        deviation / uncertainty.estimates[static_cast<std::size_t>(j)].standard_error ==
-        doctest::Approx(1).epsilon(0.35));  // 60 draws of blocks: 9 % by chance, and blocks are few
+    CHECK(deviation / uncertainty.estimates[static_cast<std::size_t>(j)].standard_error ==
+          catena::near(1, 0.35));  // 60 draws of blocks: 9 % by chance, and blocks are few
   }
   CHECK(rows == bootstrap(problem, result, uncertainty, fit_least_squares, 60, 7, 1));
 
