@@ -37,7 +37,8 @@ An effect's strength is what a refitted
 baseline leaves of it, in units of the noise (`docs/power/strengths.csv`). Rates are the observed ones
 with their 95 % intervals (Clopper and Pearson). The limits of the diagnosis were set while looking at other seeds of
 the same kinds of recordings. An effect whose other form is named (`form_of`) counts as named. The true share of an
-effect is that of the same film without noise: the effects found are fitted to it in all subsets. {program}
+effect is that of the same film without noise, with the same marks lost: the effects found are fitted to it in all subsets.
+{program}
 
 """
 KINDS = {
@@ -59,7 +60,7 @@ BOUNDS = """An asked bound is `met` where the whole interval lies within it, `mi
 and `not shown` where the trials are too few to tell.
 
 """
-KNOWN_PROGRAM = "All trials are of the sources with SHA-256 `{hash}` (`docs/power/program.txt`)."
+KNOWN_PROGRAM = "The sources of the trials have the SHA-256 `{hash}` (`docs/power/program.txt`). {others}"
 SINCE = """ The sources
 have changed since. These are the rates of the program of then, by its rules and by what counted as right then;
 [diagnosis.md](diagnosis.md#limits) says what is newer."""
@@ -83,15 +84,16 @@ def bounds(hits, count):
     return lower, where(lambda p: at_most(hits, p), 0.025) if hits < count else 1.0
 
 
-def interval(hits, count):
+def interval(hits, count, together=1):
+    """`together`: so many come as one, and say no more than one."""
     if count == 0:
         return "-"
-    lower, upper = bounds(hits, count)
+    lower, upper = bounds(round(hits / together), round(count / together))
     return f"{hits}/{count} = {100 * hits / count:.1f} % ({100 * lower:.1f} to {100 * upper:.1f})"
 
 
 def write(file, rows, seconds, program):
-    """`seconds`: CPU time of each diagnosis, by outcome.key(row); `program`: the sources' hash, None if not known."""
+    """`seconds`: CPU time of each diagnosis, by outcome.key(row); `program`: program.text_of() the trials."""
     ran = [r for r in rows if r["verdict"] not in ("not reached", "not filmed")]
     kinds = "".join(f"| `{kind}` | {len(of_kind(rows, kind))} of {design.COUNTS[kind]} | {what} |\n"
                     for kind, what in KINDS.items())
@@ -101,10 +103,11 @@ def write(file, rows, seconds, program):
     file.write_text(text)
 
 
-def said_of(hash_of_trials):
+def said_of(program):
+    hash_of_trials, _, others = program.partition("\n")
     if not hash_of_trials:
         return OLD_PROGRAM
-    return KNOWN_PROGRAM.format(hash=hash_of_trials) + (SINCE if hash_of_trials != hash_of_sources() else "")
+    return KNOWN_PROGRAM.format(hash=hash_of_trials, others=others) + (SINCE if hash_of_trials != hash_of_sources() else "")
 
 
 def of_kind(rows, kind):
@@ -168,7 +171,8 @@ def rates(rows, seconds):
         ["a part called certain in `partly` that is not there", "at most 5 %",
          count(certain, lambda r: r["right"] == "no")],
         ["intervals of shares that hold the true share", "90 to 97 %",
-         interval(sum(hits for hits, _ in shares), sum(of for _, of in shares))],
+         # Two shares of a part add up to almost one: their intervals hold or miss together.
+         interval(sum(hits for hits, _ in shares), sum(of for _, of in shares), together=2)],
         ["a wrong known or sensor, strength 3 and more: blamed rightly", "at least 90 %", count(of_known, right_name)],
         ["length, density, load or marks wrong, something named: blamed rightly", "at least 90 %",
          count([r for r in kinds["known"] if r.get("effects")], lambda r: r["right"] == "yes")],

@@ -20,10 +20,15 @@ def hash_of_sources():
     return total.hexdigest()
 
 
-def of(folder):
-    """What the trials in a folder were made by; None where the folder does not say."""
+def text_of(folder):
+    """The folder's program.txt: the hash, then what is to be said of trials of other sources. Empty if there is none."""
     file = folder / "program.txt"
-    return file.read_text().strip() if file.exists() else None
+    return file.read_text().strip() if file.exists() else ""
+
+
+def of(folder):
+    """The hash of what the trials in a folder were made by; empty where the folder does not say."""
+    return text_of(folder).partition("\n")[0]
 
 
 def claim(folder):
@@ -31,7 +36,7 @@ def claim(folder):
     now, before = hash_of_sources(), of(folder)
     if before == now:
         return ""
-    if before is None and not (folder / "trials.csv").exists():
+    if not before and not (folder / "trials.csv").exists():
         (folder / "program.txt").write_text(now + "\n")
         return ""
     return f"{folder}: its trials are of other sources; choose another --output, or delete the folder"

@@ -32,7 +32,7 @@ def held(trial, effects_of_film, found, folder, binaries):
     effects = [share["name"] for share in found.get("shares", []) if share["name"] != "left"]
     if not 0 < len(effects) <= MOST_EFFECTS or any(e not in design.EFFECTS or e == "axial_stretch" for e in effects):
         return ""
-    clean = dataclasses.replace(trial, noise=0.0, lost=0.0, pixel=0.0, dirt="")
+    clean = dataclasses.replace(trial, noise=0.0, pixel=0.0, dirt="")  # the same marks are lost: shares are of those seen
     if not film.make(clean, effects_of_film, f"{folder}/exact", binaries):
         return ""
     case = (folder / "found" / "diagnosed.toml").read_text()
@@ -60,13 +60,10 @@ def held(trial, effects_of_film, found, folder, binaries):
 
 
 def _gap(case, absent, folder, binaries):
-    """What the case leaves of the film with the absent effects at their neutral values, m; None if it
-    cannot be fitted."""
+    """What the case leaves of the film without the absent effects, which the model then has at their neutral
+    values, m; None if it cannot be fitted."""
     for effect in absent:
-        for parameter in design.EFFECTS[effect][0]:
-            neutral = "1.0" if effect == "scale" else "0.0"
-            case = re.sub(rf'(sets = "{effect}\.{parameter}"\n)value = .*\n((?:unit = .*\n)?)free = true\n',
-                          rf"\g<1>value = {neutral}\n\g<2>", case)
+        case = re.sub(rf'\[\[parameter\]\]\nname = .*\nsets = "{effect}\.\w+"\n(?:\w.*\n)*\n?', "", case)
     (folder / "subset.toml").write_text(case)
     fit = subprocess.run([binaries / "bin" / "catena", "identify", folder / "subset.toml", "--quiet", "--output",
                           folder / "subset"], capture_output=True, check=False)
