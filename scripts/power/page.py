@@ -114,6 +114,11 @@ def of_kind(rows, kind):
     return [r for r in rows if r["kind"] == kind]
 
 
+def right(row):
+    """Whether all that is hidden, and nothing else, is named. `partly` may leave some of it out."""
+    return row["right"] == "yes" and row["verdict"] != "partly"
+
+
 def met(asked, observed):
     """Whether the interval lies within what is asked, beyond it, or holds the bound."""
     wanted = [float(number) for number in re.findall(r"\d+", asked)]
@@ -139,7 +144,6 @@ def rates(rows, seconds):
     named = lambda r: r.get("effects") and r["right"] == "no"
     wrong = lambda r: r["verdict"] == "named" and r["right"] == "no"
     not_none = lambda r: r["verdict"] != "none"
-    right_name = lambda r: r["right"] == "yes" and r["verdict"] != "partly"
     nothing_missing = [r for kind in design.KINDS if kind.endswith("quiet") for r in kinds[kind]]
     other_truths = kinds["dirty_single"] + kinds["rod_single"] + kinds["setup_single"]
     of_known = [r for r in strong + kinds["dirty_single"] if r["hidden"] in design.KNOWNS_AND_SENSORS]
@@ -154,35 +158,35 @@ def rates(rows, seconds):
         ["nothing missing, white noise: not called `none`", "", count(kinds["quiet"], not_none)],
         ["nothing missing, noise of other kinds: not called `none`", "", count(kinds["dirty_quiet"], not_none)],
         ["strength 3 and more: right name, or among indistinguishable ones", "at least 95 %",
-         count(strong, right_name)],
+         count(strong, right)],
         ["other noise, rods and other set-ups: right name, or among indistinguishable ones", "at least 90 %",
-         count(other_truths, right_name)],
-        ["... noise of other kinds", "at least 90 %", count(kinds["dirty_single"], right_name)],
-        ["... rod", "at least 90 %", count(kinds["rod_single"], right_name)],
-        ["... other set-ups", "at least 90 %", count(kinds["setup_single"], right_name)],
+         count(other_truths, right)],
+        ["... noise of other kinds", "at least 90 %", count(kinds["dirty_single"], right)],
+        ["... rod", "at least 90 %", count(kinds["rod_single"], right)],
+        ["... other set-ups", "at least 90 %", count(kinds["setup_single"], right)],
         ["strength 3 and more: named wrongly", "at most 2 %", count(strong, wrong)],
         ["other noise, rods and other set-ups: named wrongly", "at most 2 %", count(other_truths, wrong)],
         ["... noise of other kinds", "at most 2 %", count(kinds["dirty_single"], wrong)],
         ["... rod", "at most 2 %", count(kinds["rod_single"], wrong)],
         ["... other set-ups", "at most 2 %", count(kinds["setup_single"], wrong)],
-        ["both of two effects", "at least 80 %", count(kinds["double"], lambda r: r["right"] == "yes")],
+        ["both of two effects", "at least 80 %", count(kinds["double"], right)],
         ["outside the library: called unexplained, or a law discovered alone", "at least 90 %",
-         count(kinds["outside"], right_name)],
+         count(kinds["outside"], right)],
         ["a part called certain in `partly` that is not there", "at most 5 %",
          count(certain, lambda r: r["right"] == "no")],
         ["intervals of shares that hold the true share", "90 to 97 %",
          # Two shares of a part add up to almost one: their intervals hold or miss together.
          interval(sum(hits for hits, _ in shares), sum(of for _, of in shares), together=2)],
-        ["a wrong known or sensor, strength 3 and more: blamed rightly", "at least 90 %", count(of_known, right_name)],
+        ["a wrong known or sensor, strength 3 and more: blamed rightly", "at least 90 %", count(of_known, right)],
         ["length, density, load or marks wrong, something named: blamed rightly", "at least 90 %",
-         count([r for r in kinds["known"] if r.get("effects")], lambda r: r["right"] == "yes")],
+         count([r for r in kinds["known"] if r.get("effects")], right)],
         ["length, density, load or marks wrong: nothing named", "",
          count(kinds["known"], lambda r: not r.get("effects"))],
     ]
     for s in design.STRENGTHS:
         some = [r for r in single if int(r["strength"]) == s]
         lines.append([f"strength {s}: something found", "", count(some, lambda r: r["verdict"] != "none")])
-        lines.append([f"strength {s}: right", "", count(some, right_name)])
+        lines.append([f"strength {s}: right", "", count(some, right)])
     lines = [line + [met(line[1], line[2])] for line in lines if line[2] != "-"]
     text = "## Rates\n\n" + BOUNDS + table(["what", "asked", "observed", "asked bound"], lines)
     return text + times(rows, seconds)
@@ -213,8 +217,7 @@ def by_effect(rows):
         for s in design.STRENGTHS:
             some = [r for r in of_kind(rows, "single")
                     if r["hidden"] == effect and int(r["strength"]) == s]
-            right = sum(r["right"] == "yes" for r in some)
-            line.append(f"{right}/{len(some)}" if some else "-")
+            line.append(f"{sum(map(right, some))}/{len(some)}" if some else "-")
         lines.append(line)
     return "## Right, by effect and strength\n\n" + table(
         ["hidden", *(f"strength {s}" for s in design.STRENGTHS)], lines)
@@ -227,7 +230,7 @@ def by_dirt(rows):
         some = [r for r in rows if r["dirt"] == dirt and not r["setup"]]
         quiet, single = [r for r in some if not r["hidden"]], [r for r in some if r["hidden"]]
         lines.append([dirt, hits(quiet, lambda r: r["right"] == "no" and r.get("effects")),
-                      hits(quiet, lambda r: r["verdict"] != "none"), hits(single, lambda r: r["right"] == "yes")])
+                      hits(quiet, lambda r: r["verdict"] != "none"), hits(single, right)])
     return "## By kind of noise\n\n" + table(
         ["noise", "something named, nothing hidden", "not called `none`", "right, strength 3 and 10"], lines)
 
