@@ -115,7 +115,7 @@ def of_kind(rows, kind):
 
 
 def right(row):
-    """Whether all that is hidden, and nothing else, is named. `partly` may leave some of it out."""
+    """As outcome.judged() says, but `partly` does not count: it may leave out some of what is hidden."""
     return row["right"] == "yes" and row["verdict"] != "partly"
 
 
