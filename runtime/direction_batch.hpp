@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/dynamics.hpp"
+#include "runtime/model.hpp"
 
 namespace catena {
 
@@ -20,8 +20,7 @@ inline double* numbers(std::vector<DirectionBatch>& batch) { return batch.data()
 /// for batches is called once for each direction.
 class BatchTangents {
  public:
-  /// `dynamics` must outlive it.
-  explicit BatchTangents(const Dynamics& dynamics);
+  explicit BatchTangents(const Model& model);
 
   /// Arrays of `along` and the results hold CATENA_DIRECTIONS numbers for each entry, with the
   /// alignment of DirectionBatch. along.t and along.u count as zero.
@@ -34,8 +33,8 @@ class BatchTangents {
   void one_at_a_time(Tangent tangent, const catena_point& at, const catena_point& along, int count,
                      double* changes);
 
-  const Dynamics& dynamics_;
-  std::vector<double> q_, v_, a_, z_, p_, change_;
+  Model model_;
+  std::vector<double> q_, v_, a_, z_, p_, u_, change_;
 };
 
 }  // namespace catena

@@ -103,49 +103,61 @@ void StructuredNewtonMatrix::solve_transposed(double* x) const {
   }
 }
 
-DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) : NewtonMatrix(model) {
+DenseNewtonMatrix::DenseNewtonMatrix(const Model& model) : NewtonMatrix(model), tangents_(model) {
   const int n = model.coordinates(), size = n + model.states();
   matrix_.resize(size, size);
   factors_ = Eigen::PartialPivLU<Eigen::MatrixXd>(size);
   permuted_.resize(size);
-  for (std::vector<double>* direction : {&dq_, &dv_, &da_})
-    direction->assign(static_cast<std::size_t>(n), 0.0);
-  dz_.assign(static_cast<std::size_t>(model.states()), 0.0);
+  for (std::vector<DirectionBatch>* values : {&dq_, &dv_, &da_, &dr_})
+    values->resize(static_cast<std::size_t>(n));
+  for (std::vector<DirectionBatch>* values : {&dz_, &rate_})
+    values->resize(static_cast<std::size_t>(model.states()));
+  none_.resize(
+      static_cast<std::size_t>(std::max(3 * model.table().signals, model.table().parameters)));
 }
 
-int DenseNewtonMatrix::factor(Dynamics& dynamics, const catena_point& at, double gamma) {
-  const Model& model = dynamics.model();
-  const int n = model.coordinates(), states = model.states();
-  const double* zero = dynamics.zero();
-  const catena_point along{0.0, dq_.data(), dv_.data(), da_.data(), dz_.data(), zero, zero};
-  for (int j = 0; j < n + states; ++j) {
-    const auto i = static_cast<std::size_t>(j < n ? j : j - n);
-    if (j < n) {
-      dq_[i] = gamma * gamma;
-      dv_[i] = gamma;
-      da_[i] = 1.0;
-    } else {
-      dz_[i] = gamma;
+int DenseNewtonMatrix::factor(Dynamics&, const catena_point& at, double gamma) {
+  const auto n = static_cast<int>(dq_.size()), states = static_cast<int>(dz_.size());
+  const int size = n + states;
+  const catena_point along{0.0,          numbers(dq_),   numbers(dv_),  numbers(da_),
+                           numbers(dz_), numbers(none_), numbers(none_)};
+  for (int first = 0; first < size; first += CATENA_DIRECTIONS) {
+    const int last = std::min(first + CATENA_DIRECTIONS, size);
+    point_along(first, last, gamma, gamma * gamma, 1.0);
+    tangents_.residual(at, along, numbers(dr_));
+    // dv and dz carry one factor gamma already
+    if (states > 0) tangents_.state_rate(at, along, numbers(rate_));
+    for (int j = first; j < last; ++j) {
+      const auto k = static_cast<std::size_t>(j - first);
+      for (int i = 0; i < n; ++i) matrix_(i, j) = dr_[static_cast<std::size_t>(i)].of[k];
+      for (int i = 0; i < states; ++i)
+        matrix_(n + i, j) = -rate_[static_cast<std::size_t>(i)].of[k];
+      if (j >= n) matrix_(j, j) += 1.0;
     }
-    double* column = matrix_.col(j).data();
-    model.residual_tangent(at, along, column);
-    if (states > 0) {
-      // dv and dz carry one factor gamma already
-      model.state_rate_tangent(at, along, column + n);
-      for (int k = 0; k < states; ++k) column[n + k] = -column[n + k];
-      if (j >= n) column[j] += 1.0;
-    }
-    if (j < n)
-      dq_[i] = dv_[i] = da_[i] = 0.0;
-    else
-      dz_[i] = 0.0;
+    point_along(first, last, 0.0, 0.0, 0.0);
   }
   factors_.compute(matrix_);
-  for (int j = 0; j < n + states; ++j) {
+  for (int j = 0; j < size; ++j) {
     const double pivot = factors_.matrixLU()(j, j);
     if (pivot == 0.0 || !std::isfinite(pivot)) return j + 1;
   }
   return 0;
+}
+
+/// The unknowns from `first` to before `last` as one direction each.
+void DenseNewtonMatrix::point_along(int first, int last, double dv, double dq, double da) {
+  const auto n = static_cast<int>(dq_.size());
+  for (int j = first; j < last; ++j) {
+    const auto i = static_cast<std::size_t>(j < n ? j : j - n);
+    const auto k = static_cast<std::size_t>(j - first);
+    if (j < n) {
+      dq_[i].of[k] = dq;
+      dv_[i].of[k] = dv;
+      da_[i].of[k] = da;
+    } else {
+      dz_[i].of[k] = dv;
+    }
+  }
 }
 
 void DenseNewtonMatrix::solve(double* x) const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/direction_batch.hpp"
 #include "runtime/dynamics.hpp"
 #include "runtime/simulation.hpp"
 
@@ -65,7 +66,7 @@ class StructuredNewtonMatrix : public NewtonMatrix {
   mutable std::vector<double> dq_, dv_, dz_, dp_, dr_, rate_;
 };
 
-/// By LU with row exchanges; columns from the model's tangents.
+/// By LU with row exchanges; columns from the model's tangents, CATENA_DIRECTIONS at once.
 class DenseNewtonMatrix : public NewtonMatrix {
  public:
   explicit DenseNewtonMatrix(const Model& model);
@@ -74,9 +75,12 @@ class DenseNewtonMatrix : public NewtonMatrix {
   void solve_transposed(double* x) const override;
 
  private:
+  void point_along(int first, int last, double dv, double dq, double da);
+
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-  std::vector<double> dq_, dv_, da_, dz_;
+  BatchTangents tangents_;
+  std::vector<DirectionBatch> dq_, dv_, da_, dz_, dr_, rate_, none_;  // none_: zeros
   mutable Eigen::VectorXd permuted_;
 };
 

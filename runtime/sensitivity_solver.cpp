@@ -34,7 +34,7 @@ SensitivitySolver::SensitivitySolver(Dynamics& dynamics, NewtonMatrix& matrix,
       matrix_(matrix),
       step_solver_(step_solver),
       directions_(directions),
-      tangents_(dynamics),
+      tangents_(dynamics.model()),
       batches_((static_cast<int>(directions.size()) + kWidth - 1) / kWidth),
       n_(kWidth * dynamics.coordinates()),
       states_(kWidth * dynamics.states()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identify/diagnosis/stacking.hpp"
+#include "identify/diagnosis/thresholds.hpp"
 #include "identify/fit/error.hpp"
 #include "identify/fit/estimated_noise.hpp"
 #include "identify/problem/evaluation.hpp"
@@ -113,6 +114,7 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
                       const std::atomic<bool>* stop) {
   FitOptions options;
   options.start = start;
+  options.step_growth = kThresholds.step_growth;
   options.stop = stop;
   const FitResult result = least_squares(to_fit(*problem, noise), options);
   if (result.status == FitStatus::kFailed || result.x.size() == 0) {

@@ -35,7 +35,8 @@ FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd
                    const LeastSquares& least_squares, const std::atomic<bool>* stop);
 
 /// Fits from `start` and assesses the result. `noise`: of every experiment; least squares make the
-/// residuals white with it. Empty: all values count alike.
+/// residuals white with it. Empty: all values count alike. A simulation with many times the steps of the first one
+/// fails (DiagnosisThresholds::step_growth).
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& start,
                       const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
                       const std::atomic<bool>* stop);

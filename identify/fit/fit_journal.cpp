@@ -84,13 +84,17 @@ double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient)
 Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
                              std::string& message) {
   long steps = 0;
-  const auto keep_going = [this, &steps] {
-    return (options_.most_steps == 0 || ++steps <= options_.most_steps) &&
+  const auto within = [](long steps, long most) { return most == 0 || steps <= most; };
+  const auto keep_going = [this, &steps, &within] {
+    ++steps;
+    return within(steps, options_.most_steps) &&
+           within(steps, options_.step_growth * first_steps_) &&
            !(options_.stop && options_.stop->load()) &&
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };
   const Evaluation evaluation = catena::evaluate(problem, x, false, jacobian, keep_going);
   Misfit misfit = misfit_of(problem, evaluation);
+  if (misfit.ok && first_steps_ == 0) first_steps_ = steps;
   message = evaluation.ok && !misfit.ok
                 ? "the squares of what is left are too great for numbers of a computer; look at "
                   "noise, and at measured and standard_deviation of parameters"

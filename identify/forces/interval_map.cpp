@@ -44,7 +44,7 @@ IntervalIntegrator::IntervalIntegrator(const Model& model, const VectorXd& param
       parameters_(static_cast<Index>(directions.size())),
       lengths_(link_lengths(model, parameters)),
       per_link_(model.in_space() ? 3 : 1),
-      tangents_(dynamics_),
+      tangents_(model),
       batches_((static_cast<std::size_t>(2 * n_ + states_ + forces_ + parameters_) + kWidth - 1) /
                kWidth) {
   LinearSolver used;

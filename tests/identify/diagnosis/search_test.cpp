@@ -93,12 +93,13 @@ TEST_CASE("a refit begins where the linearised fit has the base beside the effec
 }
 
 TEST_CASE(
-    "a refit ends where simulations take many times the steps of the base, whatever its model") {
+    "a refit ends where simulations take many times the steps of the base or of the first one") {
   WithHiddenDrag film(60);
   const testing::TemporaryFolder folder;
-  std::vector<long> most_steps;
+  std::vector<long> most_steps, step_growth;
   const LeastSquares watched = [&](const Problem& problem, const FitOptions& options) {
     most_steps.push_back(options.most_steps);
+    step_growth.push_back(options.step_growth);
     return fit_least_squares(problem, options);
   };
   DiagnosisContext context(testing::two_links_with({"axial_stretch"}), {}, folder.path(), watched,
@@ -112,6 +113,7 @@ TEST_CASE(
   refit_rest({context, film.base, {}, {{.level = kNoise}}}, explanations);
   REQUIRE(most_steps.size() == 1);
   CHECK(most_steps[0] > 0);
+  CHECK(step_growth[0] > 1);
 }
 
 TEST_CASE("the search simulates as closely as the noise needs, and no closer") {

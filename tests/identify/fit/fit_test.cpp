@@ -74,6 +74,21 @@ TEST_CASE("a simulation that takes more steps than it may has failed") {
   CHECK(less.evaluations == 1);
 }
 
+TEST_CASE("a simulation that takes many times the steps of the first one has failed") {
+  // The truth is stiffer than the start, and takes more steps.
+  const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.4, 0.002);
+  FitOptions options;
+  options.step_growth = 100;
+  const FitResult free = fit(problem, {}, fit_least_squares);
+  const FitResult enough = fit(problem, options, fit_least_squares);
+  CHECK(enough.x == free.x);
+  CHECK(enough.failures == 0);
+  options.step_growth = 1;
+  const FitResult less = fit(problem, options, fit_least_squares);
+  CHECK(less.failures > 0);
+  CHECK(less.x[0] < free.x[0]);
+}
+
 TEST_CASE("a fit ends where no step promises as much as was asked") {
   const Problem problem = twin(FitMethod::kLeastSquares, Measure::kLeastSquares, 0.1, 0.005, 2e-3);
   FitOptions options;
