@@ -89,7 +89,7 @@ struct LoadedCase {
     Prediction prediction;
     {
       py::gil_scoped_release unlock;
-      prediction = problem->predict(at, of, true, {}, [&check] { return check(); });
+      prediction = problem->predict(at, of, true, {}, [&check](double) { return check(); });
     }
     check.rethrow();
     if (!prediction.ok()) throw ComputationError(prediction.message);
@@ -103,7 +103,7 @@ struct LoadedCase {
     Evaluation evaluation;
     {
       py::gil_scoped_release unlock;
-      evaluation = evaluate(*problem, at, false, jacobian, [&check] { return check(); });
+      evaluation = evaluate(*problem, at, false, jacobian, [&check](double) { return check(); });
     }
     check.rethrow();
     if (!evaluation.ok) throw ComputationError(evaluation.message);
@@ -199,7 +199,8 @@ struct Identification {
     std::vector<Gap> found;
     {
       py::gil_scoped_release unlock;
-      found = gaps_of(problem(), evaluate(problem(), x, true, false, [&] { return check(); }));
+      found =
+          gaps_of(problem(), evaluate(problem(), x, true, false, [&](double) { return check(); }));
     }
     check.rethrow();
     return found;

@@ -104,7 +104,7 @@ Problem to_fit(const Problem& problem, const std::vector<NoiseModel>& noise) {
 }  // namespace
 
 double error_to_fit(const Problem& problem, const VectorXd& x, const std::vector<NoiseModel>& noise,
-                    const std::function<bool()>& keep_going) {
+                    const std::function<bool(double)>& keep_going) {
   const Problem fitted = to_fit(problem, noise);
   return error_of(fitted, evaluate(fitted, x, false, false, keep_going), Part::kFit);
 }
@@ -114,7 +114,7 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const VectorXd& st
                       const std::atomic<bool>* stop) {
   FitOptions options;
   options.start = start;
-  options.step_growth = kThresholds.step_growth;
+  options.stall = kThresholds.stall;
   options.stop = stop;
   const FitResult result = least_squares(to_fit(*problem, noise), options);
   if (result.status == FitStatus::kFailed || result.x.size() == 0) {

@@ -35,8 +35,8 @@ FittedModel assess(std::shared_ptr<const Problem> problem, const Eigen::VectorXd
                    const LeastSquares& least_squares, const std::atomic<bool>* stop);
 
 /// Fits from `start` and assesses the result. `noise`: of every experiment; least squares make the
-/// residuals white with it. Empty: all values count alike. A simulation with many times the steps of the first one
-/// fails (DiagnosisThresholds::step_growth).
+/// residuals white with it. Empty: all values count alike. A simulation that stalls fails
+/// (DiagnosisThresholds::stall).
 FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::VectorXd& start,
                       const std::vector<NoiseModel>& noise, const LeastSquares& least_squares,
                       const std::atomic<bool>* stop);
@@ -44,7 +44,8 @@ FittedModel fit_model(std::shared_ptr<const Problem> problem, const Eigen::Vecto
 /// What fit_model makes small, at these unknowns; infinite where the simulation fails. `keep_going`: false
 /// at a step of the integrator ends it.
 double error_to_fit(const Problem& problem, const Eigen::VectorXd& x,
-                    const std::vector<NoiseModel>& noise, const std::function<bool()>& keep_going);
+                    const std::vector<NoiseModel>& noise,
+                    const std::function<bool(double)>& keep_going);
 
 /// The noise of every experiment, as the model's residuals show it: estimated_noise().
 std::vector<NoiseModel> noise_of(const FittedModel& model);

@@ -132,7 +132,8 @@ class DrawnFits {
   }
 
   Evaluation evaluated(const VectorXd& x) const {
-    return evaluate(*model_.problem, x, true, false, [this] { return !context_.stopped(); });
+    return evaluate(*model_.problem, x, true, false,
+                    [this](double) { return !context_.stopped(); });
   }
 
   /// How far `moved` is from the model's prediction with this error.

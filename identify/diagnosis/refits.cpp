@@ -67,8 +67,8 @@ struct Refits {
     double least = kInfinite;
     for (const VectorXd& start : starts) {
       long steps = 0;
-      const double error =
-          error_to_fit(problem, start, search.noise, [&] { return ++steps <= limits.most_steps; });
+      const double error = error_to_fit(problem, start, search.noise,
+                                        [&](double) { return ++steps <= limits.most_steps; });
       if (error >= least) continue;
       least = error;
       best = &start;

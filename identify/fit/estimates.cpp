@@ -39,7 +39,7 @@ WorkEstimate estimate_of(const Problem& problem, const std::function<double(doub
   WorkEstimate estimate = {.bytes = memory_of_motions(problem)};
   const double begin = cpu_seconds();
   constexpr double kPatience = 1;  // s; a simulation that is shorter is measured whole
-  const auto keep_going = [&] {
+  const auto keep_going = [&](double) {
     const double simulation = cpu_seconds() - begin;
     estimate.seconds = seconds_of(simulation);
     estimate.or_more = simulation > kPatience && estimate.seconds > kMostUnasked.seconds;

@@ -73,8 +73,9 @@ struct FitOptions {
   double time_limit = 0;  ///< s; 0: none
   /// Of the integrator, in one evaluation: one that takes more has failed. 0: as the case says.
   long most_steps = 0;
-  /// The same, as times the steps of the fit's first simulation that succeeded. 0: no such limit.
-  long step_growth = 0;
+  /// The same, of an evaluation that takes so many times the steps of the fit's first one that succeeded from one frame
+  /// to the next: it stalls. 0: no such limit.
+  double stall = 0;
   /// By least squares: a step that promises to lower the cost by no more than this share of it ends the fit, where the
   /// case's tolerance does not end it before.
   double enough = 0;

@@ -11,10 +11,25 @@ namespace {
 
 constexpr std::size_t kFailuresKept = 100;
 
+/// Of all that is fitted, s.
+double mean_frame_interval(const Problem& problem) {
+  double duration = 0, intervals = 0;
+  for (const Experiment& experiment : problem.experiments()) {
+    if (!experiment.fitted()) continue;
+    const auto last = static_cast<std::size_t>(experiment.recording.fit_frames - 1);
+    duration += experiment.recording.time[last] - experiment.recording.time[0];
+    intervals += static_cast<double>(last);
+  }
+  return intervals > 0 ? duration / intervals : kInfinite;
+}
+
 }  // namespace
 
 FitJournal::FitJournal(const Problem& problem, const FitOptions& options, int max_evaluations)
-    : problem_(problem), options_(options), limit_(max_evaluations) {
+    : problem_(problem),
+      options_(options),
+      limit_(max_evaluations),
+      frame_interval_(mean_frame_interval(problem)) {
   result_.x = options.start.size() ? options.start : problem.start();
   result_.error = kInfinite;
   result_.start_error = kInfinite;
@@ -83,12 +98,17 @@ double FitJournal::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient)
 
 Misfit FitJournal::misfit_at(const Problem& problem, const Eigen::VectorXd& x, bool jacobian,
                              std::string& message) {
-  long steps = 0;
-  const auto within = [](long steps, long most) { return most == 0 || steps <= most; };
-  const auto keep_going = [this, &steps, &within] {
+  const double stalled = options_.stall * static_cast<double>(first_steps_);
+  long steps = 0, since_frame = 0;
+  double frame = -kInfinite;
+  const auto keep_going = [&](double time) {
+    if (!(std::abs(time - frame) < frame_interval_)) {
+      frame = time;
+      since_frame = steps;
+    }
     ++steps;
-    return within(steps, options_.most_steps) &&
-           within(steps, options_.step_growth * first_steps_) &&
+    return (options_.most_steps == 0 || steps <= options_.most_steps) &&
+           (stalled == 0 || static_cast<double>(steps - since_frame) <= stalled) &&
            !(options_.stop && options_.stop->load()) &&
            !(options_.time_limit > 0 && seconds() > options_.time_limit);
   };

@@ -53,7 +53,8 @@ class FitJournal {
   int limit_;
   FitResult result_;
   HistoryEntry roughly_best_;
-  long first_steps_ = 0;  ///< of the integrator, by the first simulation that succeeded
+  double frame_interval_;  ///< s, mean
+  long first_steps_ = 0;   ///< of the integrator, by the first simulation that succeeded
   FitStatus why_ = FitStatus::kConverged;
   double cpu_begin_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

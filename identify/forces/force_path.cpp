@@ -116,10 +116,11 @@ ForcePaths::ForcePaths(const Problem& problem, const LatentUnknowns& unknowns,
                        const std::function<bool()>& keep_going)
     : problem_(problem), unknowns_(unknowns), sigmas_(sigmas), keep_going_(keep_going), x_(x) {
   const auto& experiments = problem.experiments();
+  const auto goes_on = [&](double) { return !keep_going || keep_going(); };
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     if (!experiments[e].fitted()) continue;
     const auto number = static_cast<int>(e);
-    const Prediction prediction = problem.predict(x, number, false, {}, keep_going);
+    const Prediction prediction = problem.predict(x, number, false, {}, goes_on);
     if (!prediction.ok()) {
       paths_.clear();
       return;

@@ -6,7 +6,7 @@
 namespace catena {
 
 Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, bool jacobian,
-                    const std::function<bool()>& keep_going) {
+                    const std::function<bool(double)>& keep_going) {
   Evaluation evaluation;
   evaluation.x = x;
   evaluation.with_jacobian = jacobian;

@@ -25,8 +25,8 @@ enum class Part { kFit, kValidation };
 
 /// Simulates a problem at x. `all`: validation too (longer simulations), else only what is fitted;
 /// then the first failure ends it. `jacobian`: with derivatives by every unknown. `keep_going`:
-/// asked at every step; false ends the simulation. Simulations that fail say so in the result.
+/// asked at every step with its time (s); false ends the simulation. Simulations that fail say so in the result.
 Evaluation evaluate(const Problem& problem, const Eigen::VectorXd& x, bool all, bool jacobian,
-                    const std::function<bool()>& keep_going = {});
+                    const std::function<bool(double)>& keep_going = {});
 
 }  // namespace catena

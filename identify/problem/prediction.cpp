@@ -97,7 +97,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
                               const Experiment& experiment, const VectorXd& parameters,
                               const State& initial, bool all_frames,
                               const std::vector<SensitivityDirection>& along,
-                              const std::function<bool()>& keep_going) {
+                              const std::function<bool(double)>& keep_going) {
   const Recording& recording = experiment.recording;
   const auto channels = static_cast<Index>(recording.channels.size());
   const Index frames =
@@ -107,7 +107,7 @@ Prediction predict_experiment(const Model& model, const SimulationSpec& settings
 
   SimulationOptions options = simulation_options(settings);
   options.energy = false;
-  if (keep_going) options.keep_going = [&](double) { return keep_going(); };
+  if (keep_going) options.keep_going = keep_going;
   std::vector<SensitivityDirection> directions;
   std::vector<std::size_t> index_of;  // into `along`, of each that is not zero
   for (std::size_t j = 0; j < along.size(); ++j) {

@@ -35,15 +35,15 @@ struct Prediction {
 ///
 /// `parameters`: the model's array. `initial`: the state at experiment.spec.start. `all_frames`: else only
 /// those to be fitted. `along`: directions in which derivatives of all that are wanted; a vector of a
-/// direction that is empty is zero. `keep_going`: asked at every step; false ends the simulation. A
-/// simulation that fails says so in the status. Throws ImpossibleValue for parameters outside the model's
+/// direction that is empty is zero. `keep_going`: asked at every step with its time (s); false ends the
+/// simulation. A simulation that fails says so in the status. Throws ImpossibleValue for parameters outside the model's
 /// bounds, markers beyond the end of the cable and a clock beyond the signals, std::invalid_argument for
 /// sizes that do not fit the model.
 Prediction predict_experiment(const Model& model, const SimulationSpec& settings,
                               const Experiment& experiment, const Eigen::VectorXd& parameters,
                               const State& initial, bool all_frames,
                               const std::vector<SensitivityDirection>& along,
-                              const std::function<bool()>& keep_going);
+                              const std::function<bool(double)>& keep_going);
 
 /// The prediction of an experiment that cannot begin.
 Prediction failed_prediction(const Experiment& experiment, const std::string& message);

@@ -169,7 +169,7 @@ std::vector<SensitivityDirection> Problem::directions(const Eigen::VectorXd& x,
 
 Prediction Problem::predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
                             const std::vector<SensitivityDirection>& along,
-                            const std::function<bool()>& keep_going) const {
+                            const std::function<bool(double)>& keep_going) const {
   try {
     const Eigen::VectorXd parameters = model_parameters(x, experiment);
     return predict_experiment(model_, case_.simulation, at(experiment), parameters,

@@ -68,12 +68,12 @@ class Problem {
   std::vector<SensitivityDirection> directions(const Eigen::VectorXd& x, int experiment) const;
 
   /// Simulates one experiment at its frames (all, or those to be fitted), with the sensitivities
-  /// along `along` (e.g. directions(), or any other). `keep_going`: asked at every step; false ends
-  /// the simulation. What fails, and values that are impossible, say so in the status; nothing is
+  /// along `along` (e.g. directions(), or any other). `keep_going`: asked at every step with its time
+  /// (s); false ends the simulation. What fails, and values that are impossible, say so in the status; nothing is
   /// thrown for them.
   Prediction predict(const Eigen::VectorXd& x, int experiment, bool all_frames,
                      const std::vector<SensitivityDirection>& along = {},
-                     const std::function<bool()>& keep_going = {}) const;
+                     const std::function<bool(double)>& keep_going = {}) const;
 
   /// The case with the values of x where it gave its own: reading it again gives a problem that
   /// starts at x. The starts of windows have no place in a case; they are found again.

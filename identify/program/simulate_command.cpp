@@ -119,7 +119,7 @@ int simulate_experiments(const Problem& problem, const CommonOptions& options) {
   }
   const Evaluation evaluation = [&] {
     const Waiting waiting(!options.quiet, [] { return std::string("comparing with the data"); });
-    return evaluate(problem, x, true, false, [] { return !interrupted(); });
+    return evaluate(problem, x, true, false, [](double) { return !interrupted(); });
   }();
   if (interrupted()) return report_interruption("nothing was written");
   if (!evaluation.ok) throw std::runtime_error(evaluation.message);
