@@ -11,8 +11,7 @@ from power.program import hash_of_sources
 
 HEAD = """# How often a diagnosis is right
 
-Made by `scripts/power_study`, which also goes on with it: {done} of {all} trials so far. They stand in a
-fixed order; of each kind a beginning was run (`--kind`). Every line of
+Made by `scripts/power_study`, which goes on where it was stopped: {done} of {all} trials. Every line of
 `docs/power/trials.csv` is one: a cable of 1.2 m with EI 0.1 N m², 24 to 60 links (the case has 12),
 filmed for 4 s at 30, 60 or 120 Hz with 12 markers and 0.5, 1 or 3 mm of noise, now and then with lost
 markers or whole pixels; the last 30 % held out. What is hidden is coded apart
