@@ -12,7 +12,7 @@ BatchTangents::BatchTangents(const Model& model) : model_(model) {
   for (std::vector<double>* values : {&q_, &v_, &a_}) values->resize(n);
   z_.resize(states);
   p_.resize(static_cast<std::size_t>(model.parameters()));
-  u_.resize(static_cast<std::size_t>(3 * model.signals()));
+  u_.resize(3 * static_cast<std::size_t>(model.signals()));
   change_.resize(std::max(n, states));
 }
 

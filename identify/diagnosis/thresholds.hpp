@@ -141,7 +141,7 @@ struct DiagnosisThresholds {
   long steps_of_refits = 20;
   /// FitOptions::stall, for all fits: joints that soften without end fold and whirl ever faster. Chosen; it saves time only. Of 3100
   /// simulations of 3 films that succeeded none took more than 0.85 times the first one's steps from one frame to the next. Of 634 of a magnet that failed
-  /// 264 took more than 17 times, and with others like them 200 of 434 s.
+  /// 263 took more than 17 times, and with others like them 200 of 434 s.
   double stall = 2;
   /// Sum of squares over the mean square that a step of a refit must promise: a tenth of what the cheapest decision
   /// needs, the logarithm of some hundred residuals for one unknown (Bayesian information criterion). What is
